@@ -1,0 +1,89 @@
+# rockref: what you can type. Needs Python 3.11 or newer, gcc, git and make; everything else is installed into .venv.
+.DEFAULT_GOAL := help
+SHELL := /bin/sh
+VENV := .venv
+PY := $(VENV)/bin/python
+# Twice quiet: errors are shown, remarks about mirrors are not.
+PIP := $(PY) -m pip install -qq --disable-pip-version-check
+# The first of these that runs and is new enough; `make env PYTHON=/path/to/python` chooses another.
+PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do \
+	  if $$p -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1; \
+	  then echo $$p; break; fi; done)
+# Two workers; the tests of one file stay together, so that what a file computes once is computed once.
+WORKERS ?= 2
+PYTEST := $(PY) -m pytest -n $(WORKERS) --dist loadfile
+# numba, BLAS and OpenMP keep to one thread each, or two workers would fight over two cores.
+export OMP_NUM_THREADS := 1
+export OPENBLAS_NUM_THREADS := 1
+export MKL_NUM_THREADS := 1
+
+.PHONY: help env demo test test-all golden bench docs peers mutate dist lint format clean
+
+help:  ## list the targets
+	@echo 'make <target>, where <target> is one of'
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):[^#]*## (.*)/\1|\2/' \
+	  | while IFS='|' read -r name text; do printf '  %-10s %s\n' "$$name" "$$text"; done
+
+env: $(VENV)/.stamp  ## make .venv with the project in it (again only when pyproject.toml changes)
+
+$(VENV)/.stamp: pyproject.toml
+	@if [ -z "$(PYTHON)" ]; then \
+	  echo 'rockref needs Python 3.11 or newer with the venv module (Debian, Ubuntu: apt install python3-venv).'; \
+	  echo "Found: $$(python3 --version 2>&1). Name one by hand with: make env PYTHON=/path/to/python3.11"; exit 2; fi
+	@echo "making $(VENV) with $$($(PYTHON) --version); a minute or two"
+	@$(PYTHON) -m venv $(VENV)
+	@$(PIP) --editable '.[fast,test]'
+	@touch $@
+
+demo: env  ## simulate the block, compare it with measured runs, write the page
+	@$(VENV)/bin/rockref demo
+
+lint: env  ## format, lint, types, and the one-way rule of the folders
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/mypy
+	$(VENV)/bin/lint-imports --no-cache
+
+format: env  ## let ruff format and sort what it can
+	$(VENV)/bin/ruff check --fix .
+	$(VENV)/bin/ruff format .
+
+test: lint  ## lint, then every test that is not slow (below 15 minutes on two cores)
+	HYPOTHESIS_PROFILE=ci $(PYTEST) -m 'not slow' $(ARGS)
+
+test-all: lint  ## lint, then every test
+	HYPOTHESIS_PROFILE=ci $(PYTEST) $(ARGS)
+
+golden: env  ## compute the golden files anew and say what differs
+	$(PY) -m tests.golden.make
+
+bench: env  ## measure the speeds that the README states
+	$(PY) benchmarks/run.py
+
+docs: $(VENV)/.stamp-docs  ## build the documentation into docs/_build/html
+	$(PY) -m sphinx -W --keep-going -q -b html docs docs/_build/html
+	@echo 'docs/_build/html/index.html'
+
+$(VENV)/.stamp-docs: $(VENV)/.stamp
+	@$(PIP) --editable '.[docs]'
+	@touch $@
+
+peers: $(VENV)/.stamp-peers  ## the same block in other people's simulators, side by side
+	$(PY) benchmarks/peers.py
+
+$(VENV)/.stamp-peers: $(VENV)/.stamp
+	@$(PIP) --editable '.[peers]'
+	@touch $@
+
+mutate: env  ## plant small faults in the law and count those that the tests notice
+	$(VENV)/bin/mutmut run
+	$(VENV)/bin/mutmut results
+
+dist: env  ## build wheel and source archive into dist/
+	@$(PIP) build
+	$(PY) -m build --outdir dist .
+
+clean:  ## remove what the other targets made
+	rm -rf $(VENV) build dist docs/_build mutants demo_out .pytest_cache .mypy_cache .ruff_cache .import_linter_cache \
+	  .hypothesis .coverage htmlcov
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

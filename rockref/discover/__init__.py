@@ -1,0 +1,1 @@
+"""From a measured run to a named missing effect: compare, screen, confirm, verdict."""

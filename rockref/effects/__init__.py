@@ -1,0 +1,1 @@
+"""What may be added to the law: a folder per physical question, a file per answer, none always among them."""

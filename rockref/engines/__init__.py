@@ -1,0 +1,1 @@
+"""The same problem, solved faster: the law itself in NumPy, and compiled."""

@@ -1,0 +1,1 @@
+"""Experiment folders and runs: reading, checks, main impacts, envelopes, spectra, energy ledger, the gyroscope."""
