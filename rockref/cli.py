@@ -1,0 +1,68 @@
+"""The command line: ``rockref COMMAND ...``.
+
+Exit codes: 0 fine, 1 falls short of what was asked, 2 unusable input, 130 interrupted.
+"""
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.metadata import version
+from typing import Annotated
+
+import typer
+
+from rockref import commands
+from rockref.model.errors import RockrefError
+
+
+def application() -> typer.Typer:
+    """Return the Typer application with every command of :data:`rockref.commands.MODULES`."""
+    # Plain help (no rich markup): half the start-up time, and examples keep their line breaks.
+    app = typer.Typer(
+        name="rockref",
+        no_args_is_help=True,
+        add_completion=False,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+    )
+    app.callback()(_top)
+    for name in commands.MODULES:
+        import_module(f"rockref.commands.{name}").register(app)
+    return app
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line (`arguments`, or those of the process) and end with :class:`SystemExit`."""
+    try:
+        application()(args=None if arguments is None else list(arguments))
+    except RockrefError as error:
+        _stop(str(error), 2)
+    except KeyboardInterrupt:
+        _stop("interrupted", 130)
+    except OSError as error:
+        where = os.fsdecode(error.filename) if error.filename is not None else "input or output"
+        _stop(f"{where}: {error.strerror or error}. Nothing was left half-written. [E-OS]", 2)
+
+
+def _stop(message: str, code: int) -> None:
+    print(f"rockref: {message}", file=sys.stderr)
+    raise SystemExit(code)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"rockref {version('rockref')}")
+        raise typer.Exit()
+
+
+def _top(
+    show_version: Annotated[
+        bool, typer.Option("--version", help="Print the version and stop.", callback=_print_version, is_eager=True)
+    ] = False,
+) -> None:
+    """The eight-point rocking block: simulate it, judge a backend by it, find the effect that it misses.
+
+    `rockref COMMAND --help` shows what a command does, with an example.
+    """

@@ -1,0 +1,44 @@
+"""`rockref doctor`: what this machine is, and whether its arithmetic is the one that the bits are promised for."""
+
+import json
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``doctor`` to `app`."""
+    app.command("doctor")(doctor)
+
+
+def doctor(
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of lines.")] = False,
+) -> None:
+    """Print versions and machine, and test the arithmetic (about a second).
+
+    Exit code 1 if the arithmetic is not plain IEEE 754: then trajectories differ in bits from the shipped vectors.
+
+    \b
+    Example:
+      rockref doctor
+      rockref doctor --json > machine.json
+    """
+    from rockref.engines import machine
+
+    facts = machine.describe()
+    findings = machine.check_arithmetic()
+    if as_json:
+        typer.echo(json.dumps({"machine": facts, "arithmetic": findings}, indent=2))
+    else:
+        for name, value in {**facts, **findings}.items():
+            typer.echo(f"{name:24} {_text(value)}")
+    if not machine.is_sound(findings):
+        raise typer.Exit(1)
+
+
+def _text(value: object) -> str:
+    if value is None:
+        return "not installed"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return " ".join(map(str, value)) if isinstance(value, list) else str(value)
