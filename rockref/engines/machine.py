@@ -1,4 +1,4 @@
-"""What this machine is, and whether its arithmetic is the one that the bits of the shipped trajectories are promised for."""
+"""What this machine is, and whether its arithmetic is the one for which trajectories are promised by bits."""
 
 import importlib.metadata
 import importlib.util
@@ -9,16 +9,16 @@ from typing import Any
 
 import numpy as np
 
-# (1 + 2^-27)(1 - 2^-27) = 1 - 2^-54 lies halfway between two doubles and rounds to 1: product and sum rounded one after the
-# other give 0, a fused multiply-add gives -2^-54.
+# (1 + 2^-27)(1 - 2^-27) = 1 - 2^-54 lies halfway between two doubles and rounds to 1: product and sum rounded
+# one after the other give 0, a fused multiply-add gives -2^-54.
 _A, _B, _C = 1.0 + 2.0**-27, 1.0 - 2.0**-27, -1.0
 
 _PACKAGES = ("numpy", "numba", "scipy", "pandas", "matplotlib")
 
 
 def describe() -> dict[str, Any]:
-    """Return versions, platform, SIMD features and the width of longdouble, ready for JSON; None for what is not installed."""
-    simd = np.show_config(mode="dicts").get("SIMD Extensions", {})  # type: ignore[union-attr]
+    """Return versions (None for what is not installed), platform, SIMD features and width of longdouble, for JSON."""
+    simd = np.show_config(mode="dicts").get("SIMD Extensions", {})
     return {
         "rockref": _installed("rockref"),
         "python": f"{platform.python_implementation()} {platform.python_version()}",
@@ -36,9 +36,9 @@ def describe() -> dict[str, Any]:
 def check_arithmetic() -> dict[str, bool | None]:
     """Return what the arithmetic of NumPy, and of numba where it is installed (else None), does.
 
-    ``numpy_fuses``: an elementwise ``a * b + c`` is contracted; ``numpy_dot_fuses``: ``np.dot`` is (the law does not use it);
-    ``numba_fuses``; ``*_flushes_subnormals``: results or operands below the smallest normal number become zero;
-    ``rounds_half_to_even``. Source: IEEE 754-2008, sections 4.3.1 and 5.4.1.
+    ``numpy_fuses``: an elementwise ``a * b + c`` is contracted; ``numpy_dot_fuses``: ``np.dot`` is (the law does not
+    use it); ``numba_fuses``: compiled code is; ``*_flushes_subnormals``: results or operands below the smallest normal number
+    become zero; ``rounds_half_to_even``. Source: IEEE 754-2008, sections 4.3.1 and 5.4.1.
     """
     findings: dict[str, bool | None] = {
         "rounds_half_to_even": _rounds_half_to_even(),

@@ -1,12 +1,14 @@
 """The house: what may import what, how long a file may be, what never stands in one."""
 
 import ast
+import inspect
 import json
 import re
 import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from types import FunctionType
 
 import pytest
 
@@ -100,13 +102,43 @@ def test_command_line_is_light():
     assert not loaded & {"scipy", "pandas", "matplotlib", "numba", "dask", "jinja2"}
 
 
+def test_public_interface_is_annotated():
+    import rockref
+
+    missing = []
+    for name in getattr(rockref, "__all__", ()):
+        thing = getattr(rockref, name)
+        functions = vars(thing).items() if inspect.isclass(thing) else [(name, thing)]
+        for label, function in functions:
+            function = inspect.unwrap(getattr(function, "__func__", function))
+            if inspect.isfunction(function) and not label.startswith("_"):
+                missing += [f"{name}.{label}: {gap}" for gap in unannotated(function)]
+    assert not missing, "\n".join(missing)
+
+
+def unannotated(function: FunctionType) -> list[str]:
+    signature = inspect.signature(function)
+    gaps = [p.name for p in signature.parameters.values() if p.annotation is p.empty and p.name not in ("self", "cls")]
+    return gaps + (["return"] if signature.return_annotation is signature.empty else [])
+
+
+def test_unannotated_parameters_are_seen():
+    def half(x, y: int):
+        return x
+
+    assert unannotated(half) == ["x", "return"]
+
+
 def test_one_way_order_of_folders():
     command = Path(sys.executable).with_name("lint-imports")
     done = subprocess.run([command, "--no-cache"], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
 
 
-@pytest.mark.parametrize("folder", ["model", "effects", "engines", "conformance", "measure", "identify", "discover"])
+FOLDERS = ["model", "effects", "engines", "conformance", "measure", "identify", "discover", "report", "commands"]
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
 def test_every_folder_is_in_the_contract(folder):
     contract = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"][
         "contracts"
