@@ -37,8 +37,8 @@ def check_arithmetic() -> dict[str, bool | None]:
     """Return what the arithmetic of NumPy, and of numba where it is installed (else None), does.
 
     ``numpy_fuses``: an elementwise ``a * b + c`` is contracted; ``numpy_dot_fuses``: ``np.dot`` is (the law does not
-    use it); ``numba_fuses``: compiled code is; ``*_flushes_subnormals``: results or operands below the smallest normal number
-    become zero; ``rounds_half_to_even``. Source: IEEE 754-2008, sections 4.3.1 and 5.4.1.
+    use it); ``numba_fuses``: compiled code is; ``*_flushes_subnormals``: results or operands below the smallest
+    normal number become zero; ``rounds_half_to_even``. Source: IEEE 754-2008, sections 4.3.1 and 5.4.1.
     """
     findings: dict[str, bool | None] = {
         "rounds_half_to_even": _rounds_half_to_even(),

@@ -140,10 +140,9 @@ FOLDERS = ["model", "effects", "engines", "conformance", "measure", "identify", 
 
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_every_folder_is_in_the_contract(folder):
-    contract = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"][
-        "contracts"
-    ][0]
-    assert folder in contract["layers"]
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    contract = settings["tool"]["importlinter"]["contracts"][0]
+    assert folder in " ".join(contract["layers"]).split()
     assert (ROOT / "rockref" / folder / "__init__.py").is_file()
 
 
