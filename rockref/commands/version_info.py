@@ -14,7 +14,7 @@ def register(app: typer.Typer) -> None:
 def doctor(
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of lines.")] = False,
 ) -> None:
-    """Print versions and machine, and test the arithmetic (about a second).
+    """Print versions and machine, and test the arithmetic (a few seconds).
 
     Exit code 1 if the arithmetic is not plain IEEE 754: then trajectories differ in bits from the shipped vectors.
 

@@ -1,0 +1,44 @@
+"""`rockref doctor` prints what the machine module found, and its exit code follows the finding."""
+
+import json
+
+import pytest
+
+from rockref import cli
+from rockref.engines import machine
+
+
+def run(capsys, *arguments):
+    with pytest.raises(SystemExit) as end:
+        cli.main(["doctor", *arguments])
+    return end.value.code, capsys.readouterr().out
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Findings of a sound machine without numba, so that nothing is compiled."""
+    findings = {"rounds_half_to_even": True, "numpy_fuses": False, "numpy_flushes_subnormals": False}
+    findings |= {"numba_fuses": None, "numba_flushes_subnormals": None, "numpy_dot_fuses": True}
+    monkeypatch.setattr(machine, "check_arithmetic", lambda: findings)
+    return findings
+
+
+def test_lines(capsys, quick):
+    code, out = run(capsys)
+    values = dict(line.split(None, 1) for line in out.splitlines())
+    assert code == 0
+    assert values["numpy_fuses"] == "no" and values["numba_fuses"] == "not installed"
+    assert values["numpy"][0].isdigit()
+
+
+def test_json(capsys, quick):
+    code, out = run(capsys, "--json")
+    printed = json.loads(out)
+    assert code == 0
+    assert printed["arithmetic"] == quick
+    assert printed["machine"]["longdouble_mantissa_bits"] >= 53
+
+
+def test_unsound_arithmetic_ends_with_1(capsys, quick):
+    quick["numba_fuses"] = True
+    assert run(capsys)[0] == 1

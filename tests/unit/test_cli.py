@@ -1,0 +1,108 @@
+"""The command line: exit codes, errors on one line, help with an example, quick to start."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import typer
+
+from rockref import cli, commands
+from rockref.model.errors import InputError, NumericalError
+
+
+def run(capsys, *arguments):
+    """Exit code, standard output and standard error of `rockref ARGUMENTS`."""
+    with pytest.raises(SystemExit) as end:
+        cli.main(arguments)
+    out, err = capsys.readouterr()
+    return end.value.code, out, err
+
+
+@pytest.fixture
+def command_that(monkeypatch):
+    """Make `rockref act` the only command; it raises what the test hands over."""
+
+    def install(error):
+        def act() -> None:
+            raise error
+
+        module = ModuleType("rockref.commands.act")
+        module.register = lambda app: app.command("act")(act)
+        monkeypatch.setitem(sys.modules, "rockref.commands.act", module)
+        monkeypatch.setattr(commands, "MODULES", ("act",))
+
+    return install
+
+
+def all_commands():
+    return sorted(typer.main.get_command(cli.application()).commands.items())
+
+
+def test_version(capsys):
+    code, out, _ = run(capsys, "--version")
+    assert code == 0
+    assert out.split()[0] == "rockref" and out.split()[1][0].isdigit()
+
+
+@pytest.mark.parametrize("kind", [InputError, NumericalError])
+def test_our_errors_end_with_2_and_one_line(capsys, command_that, kind):
+    command_that(kind("E-UNIT", "run01.csv, column wx", "unknown unit 'grad'", "Use deg_s or rad_s."))
+    code, out, err = run(capsys, "act")
+    assert (code, out) == (2, "")
+    assert err == "rockref: run01.csv, column wx: unknown unit 'grad'. Use deg_s or rad_s. [E-UNIT]\n"
+
+
+def test_interrupt_ends_with_130(capsys, command_that):
+    command_that(KeyboardInterrupt())
+    assert run(capsys, "act")[0] == 130
+
+
+def test_errors_of_the_system_name_the_file(capsys, command_that):
+    command_that(PermissionError(13, "Permission denied", "out.csv"))
+    code, _, err = run(capsys, "act")
+    assert code == 2
+    assert err.startswith("rockref: out.csv: Permission denied") and "Traceback" not in err
+
+
+def test_faults_of_ours_keep_their_traceback(command_that):
+    command_that(ZeroDivisionError())
+    with pytest.raises(ZeroDivisionError):
+        cli.main(["act"])
+
+
+def test_unknown_command_ends_with_2_and_suggests(capsys):
+    code, _, err = run(capsys, "docto")
+    assert code == 2
+    assert "doctor" in err
+
+
+def test_listed_module_that_is_missing_is_an_error(monkeypatch):
+    monkeypatch.setattr(commands, "MODULES", ("no_such_command",))
+    with pytest.raises(ModuleNotFoundError):
+        cli.application()
+
+
+def test_every_module_of_the_folder_is_listed():
+    folder = Path(commands.__file__).parent
+    assert {path.stem for path in folder.glob("[!_]*.py")} == set(commands.MODULES)
+
+
+@pytest.mark.parametrize("name, command", all_commands())
+def test_help_shows_an_example(name, command):
+    text = command.get_help(command.make_context(name, [], resilient_parsing=True))
+    assert "Example" in text
+    assert f"rockref {name}" in text.partition("Example")[2]
+
+
+def test_help_is_quick():
+    # Half a second of processor time: what a person still takes for at once (decided); measured, 0.3 s.
+    def seconds():
+        before = os.times()
+        subprocess.run([sys.executable, "-c", "from rockref.cli import main; main(['--help'])"], capture_output=True)
+        after = os.times()
+        return after.children_user + after.children_system - before.children_user - before.children_system
+
+    assert min(seconds() for _ in range(3)) < 0.5
