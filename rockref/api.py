@@ -1,0 +1,178 @@
+"""The public face: `Model`, what a user describes, and `simulate`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+import numpy as np
+
+from rockref import model_file
+from rockref.effects.base import Effect
+from rockref.engines import run
+from rockref.model.errors import InputError
+from rockref.model.geometry import EXTERNAL, INTERNAL, check_cuboid, cuboid_inertia, eight_points, four_points
+from rockref.model.parameters import BLOCK, PROPERTIES, Parameters, point_properties, split_54
+from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, State
+from rockref.model.release import release_posture
+from rockref.model.response import Response
+
+POINT_SETS = ("eight_points", "four_points", "custom")
+
+
+@dataclass(frozen=True)
+class Model:
+    """A block, its contact points, their parameters and the effects added to the law.
+
+    mass [kg]; width, depth, height along X, Y, Z [m]; g [m/s2]; parameters: the twelve of Table 3.1
+    points : "eight_points", "four_points", or "custom" (then `custom_points` gives everything)
+    properties : optional, the six properties of every point (n each), for the 54-parameter model
+    inertia : optional (3, 3) [kg m2], in place of the uniform cuboid's
+    foot_radius : [m], zero in the source
+    effects : in the order in which they act
+    uncertainty, origin : notes kept with the model (per parameter; where it came from)
+    """
+
+    mass: float = BLOCK["mass"].value
+    width: float = BLOCK["width"].value
+    depth: float = BLOCK["depth"].value
+    height: float = BLOCK["height"].value
+    g: float = GRAVITY
+    parameters: Parameters = field(default_factory=Parameters)
+    points: str = "eight_points"
+    properties: dict[str, np.ndarray] | None = None
+    custom_points: ContactPoints | None = None
+    inertia: np.ndarray | None = None
+    foot_radius: float = 0.0
+    effects: tuple[Effect, ...] = ()
+    uncertainty: dict[str, Any] = field(default_factory=dict)
+    origin: dict[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def table_3_1(cls) -> Model:
+        """The model of the source: eight points, Table 3.1."""
+        return cls(origin={"source": "Table 3.1"})
+
+    @classmethod
+    def four_points(cls) -> Model:
+        """The model that the source's authors tried first: four corners, Table 3.1's external properties."""
+        return cls(points="four_points", origin={"source": "Table 3.1, four points"})
+
+    @classmethod
+    def from_chromosome_54(cls, genes: np.ndarray, **changes) -> Model:
+        """A model from 54 genes (see `rockref.model.parameters.chromosome_54`)."""
+        properties, delta_long, delta_diag, theta_0 = split_54(genes)
+        parameters = Parameters(delta_long=tuple(map(float, delta_long)), delta_diag=delta_diag, theta_0=theta_0)
+        return cls(parameters=parameters, properties=properties, **changes)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike) -> Model:
+        """Read a model from a TOML file. Raises InputError that names the file and the key."""
+        return model_file.load(cls, path)
+
+    def save(self, path: str | os.PathLike) -> None:
+        """Write the model to a TOML file, whole or not at all."""
+        model_file.save(self, path)
+
+    def replace(self, **changes) -> Model:
+        """A copy with some values changed: fields of the model, or parameters by name (K_N=..., theta_0=...)."""
+        own = {f.name for f in fields(self)}
+        of_parameters = {k: changes.pop(k) for k in list(changes) if k in Parameters.__dataclass_fields__ and k not in own}
+        unknown = [k for k in changes if k not in own]
+        if unknown:
+            raise model_file.unknown_key("Model.replace", unknown[0], own | set(Parameters.__dataclass_fields__))
+        if of_parameters:
+            changes["parameters"] = changes.get("parameters", self.parameters).replace(**of_parameters)
+        return replace(self, **changes)
+
+    def check(self) -> None:
+        """Refuse values that make no block. Raises InputError (E-RANGE, E-KEY)."""
+        p = self.parameters
+        check_cuboid(self.mass, self.width, self.depth, self.height, p.delta_long, p.delta_diag)
+        if self.points not in POINT_SETS:
+            raise InputError("E-KEY", "points", f"is {self.points!r}", f"Use one of {', '.join(POINT_SETS)}.")
+        for key in ("K_N", "K_T"):
+            if not (np.isfinite(getattr(p, key)) and getattr(p, key) > 0):
+                raise InputError("E-RANGE", key, f"is {getattr(p, key)!r} N/m", "Give a positive stiffness.")
+        for key in ("beta_int", "beta_ext", "mu_int", "mu_ext"):
+            if not (np.isfinite(getattr(p, key)) and getattr(p, key) >= 0):
+                raise InputError("E-RANGE", key, f"is {getattr(p, key)!r}", "Give a number that is not negative.")
+        if not (np.isfinite(self.g) and self.g > 0):
+            raise InputError("E-RANGE", "g", f"is {self.g!r} m/s2", "Give a positive gravity.")
+
+    def body(self) -> tuple[Block, ContactPoints]:
+        """Block and contact points as arrays, with the effects on geometry and mass applied."""
+        self.check()
+        p = self.parameters
+        inertia = cuboid_inertia(self.mass, self.width, self.depth, self.height) if self.inertia is None else self.inertia
+        block = Block(np.array(float(self.mass)), np.array(inertia, float), np.array(float(self.g)))
+        if self.points == "custom":
+            if self.custom_points is None:
+                raise InputError("E-KEY", "custom_points", "is missing", 'Give the points, or points = "eight_points".')
+            points = self.custom_points
+        else:
+            if self.points == "eight_points":
+                P, names = eight_points(self.width, self.depth, self.height, p.delta_long, p.delta_diag), EXTERNAL + INTERNAL
+            else:
+                P, names = four_points(self.width, self.depth, self.height), EXTERNAL
+            q = self.properties or point_properties(p, self.mass, np.array([n.endswith("ext") for n in names]))
+            radius = np.full(len(names), float(self.foot_radius)) if self.foot_radius else None
+            points = ContactPoints(P, *(np.array(q[k], float)[: len(names)] for k in PROPERTIES), radius, names)
+        for effect in self.active_effects():
+            block, points = effect.points(block, points)
+        return block, points
+
+    def active_effects(self) -> tuple[Effect, ...]:
+        """The effects that are not at the value at which they are absent."""
+        return tuple(e for e in self.effects if not e.is_absent())
+
+    def problem(
+        self,
+        duration: float = 1.5,
+        step: float = 1e-5,
+        output_rate: float = 2000.0,
+        start: State | None = None,
+        turned: bool = False,
+        out_of_plane: float = 0.0,
+        theta_0: float | None = None,
+    ) -> Problem:
+        """What the engines take. Without `start`, the release posture at theta_0 (by default the model's) [rad]."""
+        block, points = self.body()
+        effects = self.active_effects()
+        if start is None:
+            tilt = self.parameters.theta_0 if theta_0 is None else theta_0
+            start = release_posture(block, points, tilt, turned, out_of_plane)
+            for effect in effects:
+                start = effect.release(block, points, start)
+        return Problem(block, points, start, step, duration, output_rate, effects)
+
+
+def simulate(
+    model: Model | Problem,
+    duration: float = 1.5,
+    step: float = 1e-5,
+    output_rate: float = 2000.0,
+    engine: str = "numpy",
+    progress: Callable[[float], None] | None = None,
+    dtype=None,
+    **start,
+) -> Response:
+    """Simulate a model from release, or a problem as it is.
+
+    Parameters
+    ----------
+    model : Model or Problem; a Problem brings its own duration, step and output rate.
+    duration, step : [s];  output_rate : rows a second [Hz].
+    engine : "numpy" (the law), "numba" (compiled, extra `fast`), "auto" (the fastest that is there).
+    progress : called with the fraction done.
+    dtype : float32, float64, longdouble (numpy engine).
+    start : `start=` a State, or `turned=`, `out_of_plane=`, `theta_0=` of the release.
+
+    Raises
+    ------
+    InputError, NumericalError
+    """
+    problem = model if isinstance(model, Problem) else model.problem(duration, step, output_rate, **start)
+    return run(problem, engine=engine, progress=progress, dtype=dtype)

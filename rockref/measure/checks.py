@@ -1,0 +1,210 @@
+"""Whether a record can be that of the release it is said to be: units, axes, signs, length, flat tops."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rockref.measure.columns import DEGREE, RATES
+from rockref.measure.noise import noise_floor
+from rockref.measure.notice import Notice
+from rockref.measure.running import half_width, running_mean, sample_step
+from rockref.measure.table import Table
+from rockref.model.errors import InputError
+
+if TYPE_CHECKING:
+    from rockref.measure.experiment import Experiment, Run
+
+GRAVITY = 9.81
+# decided: no effect of the catalogue changes the rate at the first impact by half, and a unit is off by 57.
+RATE_MARGIN = (0.4, 2.0)
+# decided: a loose mass or a slow wire delays the first impact by a fifth; more is another release.
+TIME_MARGIN = 0.3
+# decided: the first swing is looked at for a little longer than the block needs.
+FIRST_SWING = 1.3
+# decided: a cusp stays within four noise widths of its top for about 4 ms; a flat top of 10 ms is no cusp.
+FLAT_TOP = 0.010
+# decided: noise of three times the data sheet is a disturbance, or another data sheet.
+NOISE_MARGIN = 3.0
+
+
+def rocking_rate(tilt: float, width: float, height: float) -> float:
+    """Return the rate, rad/s, at which a block let go at `tilt` rad reaches upright without loss (Housner 1963).
+
+    width and height in m. The block turns about its edge: w^2 = 3g/(2R) (cos(alpha - tilt) - cos(alpha)).
+    """
+    radius, alpha = 0.5 * math.hypot(width, height), math.atan2(width, height)
+    return math.sqrt(1.5 * GRAVITY / radius * (math.cos(alpha - tilt) - math.cos(alpha)))
+
+
+def rocking_time(tilt: float, width: float, height: float) -> float:
+    """Return the time, s, from the release at `tilt` rad to upright: cosh(p T) = alpha/(alpha - tilt), p^2 = 3g/(4R).
+
+    width and height in m; linear in the angle (Housner 1963), which is enough for a slender block.
+    """
+    radius, alpha = 0.5 * math.hypot(width, height), math.atan2(width, height)
+    return math.acosh(alpha / (alpha - tilt)) / math.sqrt(0.75 * GRAVITY / radius)
+
+
+def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, experiment: Experiment) -> list[Notice]:
+    """Check times t (N,) s and body rates crv (N, 3) rad/s of a release against what the block must do.
+
+    Returns notices (W-CONSTANT, W-FIRST-IMPACT, W-FLAT-TOP, W-SATURATED, W-NOISE). Raises InputError: E-SHORT,
+    E-STILL, E-RELEASE, E-AXES, E-SIGN, E-DEGREES, E-RADIANS, E-RATE-SIZE.
+    """
+    assert run.release_tilt is not None and experiment.gyro is not None
+    where = str(table.path)
+    expected = rocking_rate(run.release_tilt, experiment.width, experiment.height)
+    duration = rocking_time(run.release_tilt, experiment.width, experiment.height)
+    _check_length(t, duration, where)
+    _check_alive(crv, table, where)
+    names = [table.names[quantity] for quantity in RATES]
+    _check_first_swing(t, crv, names, expected, duration, where, sign=_sign(run))
+    _check_release(t, crv, duration, where)
+    notices = [
+        *_constant(crv, names, where),
+        *_first_impact(t, crv, duration, where),
+        *_flat_tops(t, crv, names, experiment.gyro.noise + experiment.gyro.resolution, where),
+        *_at_range(crv, names, experiment.gyro.range, where),
+        *_noisy(t, crv, names, math.hypot(experiment.gyro.noise, experiment.gyro.resolution), where),
+    ]
+    return notices
+
+
+def _sign(run: Run) -> int:
+    return -1 if abs(run.block_turned) > 0.5 * math.pi else 1
+
+
+def _check_length(t: np.ndarray, duration: float, where: str) -> None:
+    # decided: a twentieth of a second after the impact its drop can be seen.
+    needed = duration * (1.0 + TIME_MARGIN) + 0.05
+    if t[-1] < needed:
+        what = f"the record ends at {t[-1]:.3g} s; the first impact is expected at {duration:.3g} s"
+        raise InputError("E-SHORT", where, what, f"Record for at least {needed:.2g} s, or check width and height.")
+
+
+def _check_alive(crv: np.ndarray, table: Table, where: str) -> None:
+    if not np.ptp(crv[:, 0]) > 0.0:
+        what = f"all values are {crv[0, 0] / DEGREE:g} deg/s"
+        raise InputError("E-STILL", f"{where}, column {table.names['wx']}", what, "Check the channel of the logger.")
+
+
+def _check_first_swing(
+    t: np.ndarray, crv: np.ndarray, names: list[str], expected: float, duration: float, where: str, *, sign: int
+) -> None:
+    """Refuse a first swing on another axis, of another sign, or of a size that only another unit explains."""
+    swing = t <= FIRST_SWING * duration
+    smooth = running_mean(crv, half_width(t, 0.009))[swing]
+    peaks = np.abs(smooth).max(axis=0)
+    before = t <= 0.9 * duration
+    turned = crv[before].sum(axis=0) * sample_step(t)
+    main = int(np.argmax(np.abs(turned)))
+    ratio = float(peaks[main]) / expected
+    column = f"{where}, column {names[main]}"
+    _check_unit(ratio, float(peaks[main]), expected, column, names[main])
+    if main != 0:
+        cure = f"Name that column {names[0]}: X is the rocking axis, Y the other horizontal one, Z the long one."
+        what = f"the block rocks about this axis (it turns by {turned[main]:.3g} rad), not about X"
+        raise InputError("E-AXES", column, what, cure)
+    if turned[0] * sign < 0.0:
+        way = "positive" if sign > 0 else "negative"
+        what = f"the first swing is {'negative' if sign > 0 else 'positive'}, and must be {way} in this posture"
+        raise InputError("E-SIGN", column, what, "Turn the sign of X (and of Y), or correct block_turned_deg.")
+
+
+def _check_unit(ratio: float, peak: float, expected: float, where: str, name: str) -> None:
+    if RATE_MARGIN[0] < ratio < RATE_MARGIN[1]:
+        return
+    what = f"the first swing reaches {peak / DEGREE:.3g} deg/s, where {expected / DEGREE:.3g} deg/s are expected"
+    low, high = RATE_MARGIN
+    # A name that says deg_s over values in rad/s makes the rates 57 times too small, and the other way round.
+    if low < ratio / DEGREE < high and name.endswith("_deg_s"):
+        raise InputError("E-RADIANS", where, what, f"The values are in rad/s: name the column {name[:2]}_rad_s.")
+    if low < ratio * DEGREE < high and name.endswith("_rad_s"):
+        raise InputError("E-DEGREES", where, what, f"The values are in deg/s: name the column {name[:2]}_deg_s.")
+    cure = "Check the unit of the column, the release tilt, width and height, and that time starts at the release."
+    raise InputError("E-RATE-SIZE", where, what, cure)
+
+
+def _check_release(t: np.ndarray, crv: np.ndarray, duration: float, where: str) -> None:
+    """Refuse a block that is still at rest when its first swing should be half over."""
+    early = (t > 0.3 * duration) & (t <= 0.5 * duration)
+    peak = np.abs(crv[t <= FIRST_SWING * duration, 0]).max()
+    # A linear arc has sinh(0.4 x)/sinh(x), about a quarter at x = 2.3, of its final rate there; a tenth is rest.
+    if early.any() and abs(float(crv[early, 0].mean())) < 0.05 * peak:
+        what = f"the block hardly moves until {0.5 * duration:.2g} s"
+        raise InputError("E-RELEASE", where, what, "Time is counted from the release: shift the column.")
+
+
+def _constant(crv: np.ndarray, names: list[str], where: str) -> list[Notice]:
+    cure = "Check the channel of the logger."
+    return [
+        Notice("W-CONSTANT", f"{where}, column {names[axis]}", "all values are the same", cure)
+        for axis in (1, 2)
+        if not np.ptp(crv[:, axis]) > 0.0
+    ]
+
+
+def _first_impact(t: np.ndarray, crv: np.ndarray, duration: float, where: str) -> list[Notice]:
+    from rockref.measure.impacts import main_impacts
+
+    impacts = main_impacts(t, crv)
+    if len(impacts) and abs(impacts.times[0] / duration - 1.0) <= TIME_MARGIN:
+        return []
+    found = f"the first main impact is at {impacts.times[0]:.3f} s" if len(impacts) else "there is no main impact"
+    what = f"{found}; {duration:.3f} s is expected of a block of this size from this tilt"
+    return [Notice("W-FIRST-IMPACT", where, what, "Check release tilt, width and height, and the start of time.")]
+
+
+def _flat_tops(t: np.ndarray, crv: np.ndarray, names: list[str], width: float, where: str) -> list[Notice]:
+    """Look for stretches at the largest or smallest value that are longer than a cusp can be."""
+    notices = []
+    for axis, name in enumerate(names):
+        for side, word in ((1.0, "top"), (-1.0, "bottom")):
+            x = side * crv[:, axis]
+            limit = float(x.max())
+            # Near the noise everything is flat.
+            if limit < 20.0 * width:
+                continue
+            longest = _longest(x >= limit - 4.0 * width) * sample_step(t)
+            if longest > FLAT_TOP:
+                what = f"a flat {word} of {1e3 * longest:.0f} ms at {side * limit / DEGREE:.4g} deg/s"
+                cure = "The gyroscope seems to saturate there: give range_deg_s, or use a larger range."
+                notices.append(Notice("W-FLAT-TOP", f"{where}, column {name}", what, cure))
+    return notices
+
+
+def _longest(mask: np.ndarray) -> int:
+    """Return the length of the longest stretch of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], mask.astype(np.int8), [0]))))
+    return int((edges[1::2] - edges[::2]).max(initial=0))
+
+
+def _at_range(crv: np.ndarray, names: list[str], limit: float | None, where: str) -> list[Notice]:
+    if limit is None:
+        return []
+    cure = "Use a gyroscope of a larger range, or keep the stretches out of the fit."
+    notices = []
+    for axis, name in enumerate(names):
+        count = int((np.abs(crv[:, axis]) >= limit * (1.0 - 1e-9)).sum())
+        if count:
+            what = f"{count} samples are at the stated range of {limit / DEGREE:g} deg/s"
+            notices.append(Notice("W-SATURATED", f"{where}, column {name}", what, cure))
+    return notices
+
+
+def _noisy(t: np.ndarray, crv: np.ndarray, names: list[str], stated: float, where: str) -> list[Notice]:
+    sigma = noise_floor(t, crv).sigma
+    cure = "The stated noise weighs the comparison: correct the data sheet, or look for a disturbance."
+    return [
+        Notice(
+            "W-NOISE",
+            f"{where}, column {name}",
+            f"the noise is {sigma[axis] / DEGREE:.3g} deg/s, and {stated / DEGREE:.3g} deg/s is stated",
+            cure,
+        )
+        for axis, name in enumerate(names)
+        if sigma[axis] > NOISE_MARGIN * stated > 0.0
+    ]

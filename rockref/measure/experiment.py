@@ -1,0 +1,348 @@
+"""Experiment folders: ``experiment.toml`` and one table a run."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rockref.measure.checks import check_release_run
+from rockref.measure.columns import DEGREE, POSE, RATES
+from rockref.measure.notice import Notice
+from rockref.measure.rawfile import shown
+from rockref.measure.schema import Number, Section, Text, read_fields, read_toml
+from rockref.measure.table import read_table
+from rockref.measure.timebase import regular_samples
+from rockref.model.errors import InputError
+
+FIT, HOLDOUT = "fit", "holdout"
+USES = (FIT, HOLDOUT)
+KINDS = ("release", "toss")
+BASELINES = ("eight_points", "four_points")
+# decided: a campaign of more runs than this is several experiments.
+MAX_RUNS = 1000
+# decided: ids and names become parts of file names in reports.
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}", re.ASCII)
+
+_LENGTH = {"m": 1.0, "mm": 1e-3}
+_RATE = {"deg_s": DEGREE, "rad_s": 1.0}
+_ANGLE = {"rad": 1.0, "deg": DEGREE}
+_TURN = {"deg": DEGREE, "rad": 1.0}
+_HZ = {"hz": 1.0}
+
+# decided ranges: a block that two hands or a crane can move, an instrument that can be bought.
+_BLOCK = (
+    Number("mass", {"kg": 1.0}, 1e-3, 1e6),
+    Number("width", _LENGTH, 1e-3, 100.0),
+    Number("height", _LENGTH, 1e-3, 100.0),
+)
+_RELEASE = (Number("tilt_uncertainty", _ANGLE, 0.0, 0.5),)
+_GYRO = (
+    Number("sample_rate", _HZ, 10.0, 1e6),
+    Number("noise", _RATE, 0.0, 2.0),
+    Number("bandwidth", _HZ, 0.1, 1e6),
+    Number("resolution", _RATE, 0.0, 2.0),
+    Number("range", _RATE, 1e-3, 1e3, required=False),
+)
+
+
+@dataclass(frozen=True)
+class Gyro:
+    """The data sheet of the gyroscope.
+
+    Attributes: ``sample_rate`` Hz; ``noise`` rad/s, standard deviation of a sample; ``bandwidth`` Hz, -3 dB of the
+    second-order low-pass; ``resolution`` rad/s; ``range`` rad/s, the largest rate it can show, or None.
+    """
+
+    sample_rate: float
+    noise: float
+    bandwidth: float
+    resolution: float
+    range: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One measured run.
+
+    Attributes
+    ----------
+    id, file : str
+        Name of the run, and of its file inside the folder.
+    use : str
+        ``fit`` or ``holdout``.
+    release_tilt : float or None
+        Stated tilt at the release, rad (None for a toss).
+    block_turned : float
+        Turn of the block about the vertical, rad: 0 or pi.
+    t : (N,) float64 or None
+        Time from the release, s. None if the file was not opened.
+    crv : (N, 3) float64 or None
+        Body rates about X (main), Y (transverse), Z (longitudinal), rad/s. None if unopened or not measured.
+    pose : (N, 7) float64 or None
+        x, y, z in m and qw, qx, qy, qz (body to plate), where the file has them.
+    filled : tuple of int
+        Rows that were missing and have been filled in by interpolation.
+    sha256 : str or None
+        Digest of the file on disk; None if it was not opened.
+    """
+
+    id: str
+    file: str
+    use: str
+    release_tilt: float | None
+    block_turned: float
+    t: np.ndarray | None = field(default=None, repr=False)
+    crv: np.ndarray | None = field(default=None, repr=False)
+    pose: np.ndarray | None = field(default=None, repr=False)
+    filled: tuple[int, ...] = field(default=(), repr=False)
+    sha256: str | None = field(default=None, repr=False)
+
+    @property
+    def loaded(self) -> bool:
+        """Whether the file of the run was opened."""
+        return self.t is not None
+
+
+@dataclass(frozen=True, eq=False)
+class Experiment:
+    """An experiment folder.
+
+    Attributes: ``path``; ``name``; ``kind`` (``release`` or ``toss``); ``baseline`` (``eight_points`` or
+    ``four_points``); ``mass`` kg; ``width``, ``height`` m; ``tilt_uncertainty`` rad or None; ``gyro`` or None;
+    ``runs`` in the order of the file; ``notices``; ``toml_sha256``.
+    """
+
+    path: Path
+    name: str
+    kind: str
+    baseline: str
+    mass: float
+    width: float
+    height: float
+    tilt_uncertainty: float | None
+    gyro: Gyro | None
+    runs: tuple[Run, ...]
+    notices: tuple[Notice, ...] = field(default=(), repr=False)
+    toml_sha256: str = field(default="", repr=False)
+
+    def fit_runs(self) -> tuple[Run, ...]:
+        """Return the runs that may be fitted."""
+        return tuple(run for run in self.runs if run.use == FIT)
+
+    def holdout_runs(self) -> tuple[Run, ...]:
+        """Return the runs that are kept for the verdict."""
+        return tuple(run for run in self.runs if run.use == HOLDOUT)
+
+    def run(self, id: str) -> Run:
+        """Return the run with this id. Raises InputError E-RUN if there is none."""
+        for run in self.runs:
+            if run.id == id:
+                return run
+        known = ", ".join(run.id for run in self.runs)
+        raise InputError("E-RUN", f"{self.path}", f"there is no run {shown(id)}", f"There are {known}.")
+
+    @property
+    def digests(self) -> dict[str, str]:
+        """SHA-256 of every file that was opened, by name."""
+        return {"experiment.toml": self.toml_sha256} | {r.file: r.sha256 for r in self.runs if r.sha256 is not None}
+
+    @property
+    def digest(self) -> str:
+        """One SHA-256 over the names and digests of the files that were opened."""
+        lines = "".join(f"{name} {digest}\n" for name, digest in sorted(self.digests.items()))
+        return hashlib.sha256(lines.encode()).hexdigest()
+
+
+def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Experiment:
+    """Load an experiment folder; runs whose use is not in `uses` are listed, but their file is not opened.
+
+    Raises InputError: those of the reader (see :func:`read_table`), of the keys (:func:`read_fields`), of the time
+    column (:func:`regular_samples`), of the signal (:func:`check_release_run`), and E-FOLDER, E-RUN-TWICE, E-PATH,
+    E-NO-FIT, E-TURNED, E-TILT, E-NAME.
+    """
+    wrong = sorted(set(uses) - set(USES))
+    if wrong:
+        raise InputError("E-CHOICE", "argument uses", f"{shown(str(wrong[0]))} is not known", "Known are fit, holdout.")
+    folder = Path(folder)
+    if not folder.is_dir():
+        cure = "Name a folder that holds experiment.toml and the tables of the runs."
+        raise InputError("E-FOLDER", shown(str(folder), 200), "is not a folder", cure)
+    source = folder / "experiment.toml"
+    document, sha256 = read_toml(source)
+    experiment = replace(_head(document, folder, str(source)), toml_sha256=sha256)
+    runs = _listed_runs(document["run"], experiment, str(source))
+    notices: list[Notice] = []
+    if not any(run.use == HOLDOUT for run in runs):
+        cure = "Keep one run in four back, with another tilt or side."
+        notices.append(Notice("W-NO-HOLDOUT", str(source), "no run is marked holdout", cure))
+    loaded = tuple(_load_run(run, experiment, notices) if run.use in uses else run for run in runs)
+    _note_copies(loaded, str(source), notices)
+    return replace(experiment, runs=loaded, notices=tuple(notices))
+
+
+def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:
+    release = document.get("kind") != "toss"
+    top = read_fields(
+        document,
+        (
+            Text("name"),
+            Text("kind", KINDS),
+            Text("baseline", BASELINES),
+            Section("block"),
+            Section("release", required=release),
+            Section("gyro", required=release),
+            Section("run", many=True),
+        ),
+        source,
+    )
+    if not _NAME.fullmatch(top["name"]):
+        raise _bad_name(f"{source}, key name", top["name"])
+    block = read_fields(top["block"], _BLOCK, f"{source}, [block]")
+    tilt = read_fields(top["release"], _RELEASE, f"{source}, [release]") if top["release"] is not None else {}
+    gyro = None
+    if top["gyro"] is not None:
+        gyro = Gyro(**read_fields(top["gyro"], _GYRO, f"{source}, [gyro]"))
+    return Experiment(
+        path=folder,
+        name=top["name"],
+        kind=top["kind"],
+        baseline=top["baseline"],
+        mass=block["mass"],
+        width=block["width"],
+        height=block["height"],
+        tilt_uncertainty=tilt.get("tilt_uncertainty"),
+        gyro=gyro,
+        runs=(),
+    )
+
+
+def _bad_name(where: str, name: str) -> InputError:
+    cure = "Use up to 64 letters, digits, points, dashes and underscores."
+    return InputError("E-NAME", where, f"{shown(name)} cannot be part of a file name", cure)
+
+
+def _listed_runs(tables: list[Any], experiment: Experiment, source: str) -> tuple[Run, ...]:
+    if len(tables) > MAX_RUNS:
+        raise InputError("E-RANGE", f"{source}, [[run]]", f"{len(tables)} runs", f"List at most {MAX_RUNS}.")
+    runs: list[Run] = []
+    ids: dict[str, int] = {}
+    files: dict[Path, int] = {}
+    for number, table in enumerate(tables, start=1):
+        where = f"{source}, run[{number}]"
+        run = _listed_run(table, experiment, where)
+        path = _inside(experiment.path, run.file, f"{where}, key file")
+        _check_first(ids.setdefault(run.id, number), number, f"{where}, key id", f"id {shown(run.id)}")
+        _check_first(files.setdefault(path, number), number, f"{where}, key file", f"file {shown(run.file)}")
+        runs.append(run)
+    if not any(run.use == FIT for run in runs):
+        raise InputError("E-NO-FIT", f"{source}, [[run]]", "no run is marked fit", 'Mark at least one use = "fit".')
+    return tuple(runs)
+
+
+def _check_first(first: int, number: int, where: str, what: str) -> None:
+    if first != number:
+        cure = "Give every run an id and a file of its own."
+        raise InputError("E-RUN-TWICE", where, f"the {what} is also that of run[{first}]", cure)
+
+
+def _listed_run(table: Any, experiment: Experiment, where: str) -> Run:
+    release = experiment.kind == "release"
+    fields = (
+        Text("id"),
+        Text("file"),
+        Text("use", USES),
+        Number("release_tilt", _ANGLE, -1e6, 1e6, required=release),
+        Number("block_turned", _TURN, -1e6, 1e6, required=release),
+    )
+    values = read_fields(table, fields, where)
+    if not _NAME.fullmatch(values["id"]):
+        raise _bad_name(f"{where}, key id", values["id"])
+    if release:
+        _check_tilt(values["release_tilt"], experiment, f"{where}, key release_tilt")
+        _check_turn(values["block_turned"], f"{where}, key block_turned")
+    return Run(
+        id=values["id"],
+        file=values["file"],
+        use=values["use"],
+        release_tilt=values["release_tilt"],
+        block_turned=values["block_turned"] or 0.0,
+    )
+
+
+def _check_tilt(tilt: float, experiment: Experiment, where: str) -> None:
+    tipping = math.atan2(experiment.width, experiment.height)
+    if tilt <= 0.0:
+        what = f"a tilt of {tilt:g} rad"
+        raise InputError("E-TILT", where, what, "Write it positive; block_turned_deg = 180 says the other side.")
+    if tilt >= tipping:
+        unit = " Are these degrees?" if tilt < 90 and tilt * DEGREE < tipping else ""
+        what = f"a tilt of {tilt:.6g} rad, where this block falls over at {tipping:.6g} rad"
+        raise InputError("E-TILT", where, what, f"Check the tilt, its unit, and width and height.{unit}")
+
+
+def _check_turn(turn: float, where: str) -> None:
+    # decided: a degree is more than a person's placing of the block is off.
+    if min(abs(turn), abs(turn - math.pi)) > DEGREE:
+        what = f"the block is turned by {turn / DEGREE:.6g} degrees"
+        raise InputError("E-TURNED", where, what, "Only 0 and 180 are known: then the block rocks about its X axis.")
+
+
+def _inside(folder: Path, name: str, where: str) -> Path:
+    """Return the real path of a file of the experiment. Raises InputError: E-PATH, E-FILE."""
+    cure = "Put the table into the experiment's folder and write its name only."
+    if "\0" in name or "\\" in name or len(name) > 255 or not name.endswith((".csv", ".csv.gz")):
+        raise InputError("E-PATH", where, f"{shown(name)} is not the name of a .csv or .csv.gz file", cure)
+    inner = Path(name)
+    if inner.is_absolute() or ".." in inner.parts or ":" in name:
+        raise InputError("E-PATH", where, f"{shown(name)} leads out of the folder", cure)
+    try:
+        real = (folder / inner).resolve(strict=True)
+    except (OSError, RuntimeError):
+        raise InputError("E-FILE", where, f"there is no file {shown(name)} in {folder}", cure) from None
+    if not real.is_relative_to(folder.resolve()):
+        raise InputError("E-PATH", where, f"{shown(name)} is a link out of the folder", cure)
+    return real
+
+
+def _load_run(run: Run, experiment: Experiment, notices: list[Notice]) -> Run:
+    release = experiment.kind == "release"
+    table = read_table(experiment.path / run.file, ("t", *(RATES if release else POSE)))
+    notices.extend(table.notices)
+    t, columns, filled = table.columns["t"], dict(table.columns), tuple[int, ...]()
+    if experiment.gyro is not None:
+        t, others, filled, found = regular_samples(table, experiment.gyro.sample_rate)
+        columns = dict(others)
+        notices.extend(found)
+    crv = _stack(columns, RATES)
+    if release and crv is not None:
+        notices.extend(check_release_run(t, crv, table, run, experiment))
+    return replace(run, t=_frozen(t), crv=crv, pose=_stack(columns, POSE), filled=filled, sha256=table.sha256)
+
+
+def _stack(columns: Mapping[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray | None:
+    if any(name not in columns for name in names):
+        return None
+    return _frozen(np.stack([columns[name] for name in names], axis=-1))
+
+
+def _frozen(array: np.ndarray) -> np.ndarray:
+    array.flags.writeable = False
+    return array
+
+
+def _note_copies(runs: tuple[Run, ...], source: str, notices: list[Notice]) -> None:
+    seen: dict[str, str] = {}
+    for run in runs:
+        if run.sha256 is None:
+            continue
+        if run.sha256 in seen:
+            what = f"runs {seen[run.sha256]} and {run.id} hold the same bytes"
+            notices.append(Notice("W-SAME-DATA", source, what, "A copy is no second measurement: remove one."))
+        seen.setdefault(run.sha256, run.id)

@@ -1,0 +1,30 @@
+"""What is odd in the input, but can be worked with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Notice:
+    """A warning about the input: nothing is refused, but a person should know.
+
+    Parameters
+    ----------
+    code : str
+        Stable identifier, for example ``"W-GAP-FILLED"``.
+    where : str
+        The file, and the line, column or key in it.
+    what : str
+        What was found.
+    cure : str
+        What to do about it, or what was done.
+    """
+
+    code: str
+    where: str
+    what: str
+    cure: str
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.what}. {self.cure} [{self.code}]"

@@ -1,0 +1,162 @@
+"""One contact point: where it is, how hard the plate pushes back, and friction with radial return.
+
+Every array has the contact points in its second-last axis (vectors) or last axis (scalars): u (..., n, 3), xi (..., n).
+Tangential vectors have two components, x and y of the plate. Source: "Contact non-linearities", (3.5) and (3.6).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from rockref.model.rotation import apply, apply_to_points, cross
+
+
+class Kinematics(NamedTuple):
+    """Where the n points are and how they move, relative to the plate: r, u, u_rate (..., n, 3); xi, xi_rate (..., n);
+    v_slide (..., n, 2)."""
+
+    r: np.ndarray
+    u: np.ndarray
+    u_rate: np.ndarray
+    xi: np.ndarray
+    xi_rate: np.ndarray
+    v_slide: np.ndarray
+
+
+def point_kinematics(x, Lambda, v, W, P, radius=None, plate=None) -> Kinematics:
+    """Rule K1: position u, penetration xi = -z, its rate -v_z and sliding velocity (x, y) of every contact point.
+
+    Parameters
+    ----------
+    x, v : (..., 3) position [m] and velocity [m/s] of the centre of mass, plate axes.
+    Lambda : (..., 3, 3) rotation, body to plate.  W : (..., 3) angular velocity in body axes [rad/s].
+    P : (..., n, 3) contact points in body axes [m].
+    radius : (..., n) foot radius [m], or None for the point feet of the source. A round foot is a sphere centred
+        `radius` above its point on the body axis; the contact point is the lowest point of the sphere.
+    plate : None for the fixed plate of the source, or its displacement and velocity, two (..., 3) [m, m/s].
+
+    Returns
+    -------
+    Kinematics
+        with the lever arm r from the centre of mass, in plate axes.
+
+    Source: "Contact non-linearities" (penetration, its rate, sliding velocity of each node).
+    """
+    if radius is None:
+        r = apply_to_points(Lambda, P)
+    else:
+        centre = P.copy(order="K")
+        centre[..., 2] += radius
+        r = apply_to_points(Lambda, centre)
+        r[..., 2] -= radius
+    omega = apply(Lambda, W)
+    u = x[..., None, :] + r
+    u_rate = v[..., None, :] + cross(omega[..., None, :], r)
+    if plate is not None:
+        u = u - plate[0][..., None, :]
+        u_rate = u_rate - plate[1][..., None, :]
+    return Kinematics(r, u, u_rate, -u[..., 2], -u_rate[..., 2], u_rate[..., :2])
+
+
+def kelvin_voigt(xi: np.ndarray, xi_rate: np.ndarray, K_N: np.ndarray, C_N: np.ndarray) -> np.ndarray:
+    """Rule N1: Kelvin-Voigt normal force without tension [N], for xi >= 0. All (..., n). Source: (3.5a)."""
+    return np.maximum(K_N * xi + C_N * xi_rate, 0)  # (3.5a)
+
+
+def open_gap(xi: np.ndarray, F_N: np.ndarray) -> np.ndarray:
+    """Rule N2: no normal force where the point is above the plate, xi < 0. All (..., n). Source: (3.5b)."""
+    return np.where(xi < 0, 0, F_N)  # (3.5b)
+
+
+def touch(xi: np.ndarray, u_t: np.ndarray, s: np.ndarray, had_anchor: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rule T5: a point above the plate has no anchor; one that touches gets its anchor where it is.
+
+    Parameters
+    ----------
+    xi : (..., n) penetration [m].  u_t : (..., n, 2) position in the plate [m].
+    s : (..., n, 2) anchor of the last step [m].  had_anchor : (..., n) bool, whether it is valid.
+
+    Returns
+    -------
+    s : (..., n, 2) anchor for the trial.  touching : (..., n) bool.
+
+    Decided (the source is silent): the anchor dies with the contact and is born at the next touching point.
+    """
+    touching = xi >= 0
+    keep = touching & had_anchor
+    return np.where(keep[..., None], s, u_t), touching
+
+
+def trial_force(u_t: np.ndarray, s: np.ndarray, v_slide: np.ndarray, K_T: np.ndarray, C_T: np.ndarray) -> np.ndarray:
+    """Rule T1: trial friction force of sticking [N], (..., n, 2): spring to the anchor s, and damper."""
+    return K_T[..., None] * (s - u_t) - C_T[..., None] * v_slide  # "a trial friction force", before (3.6)
+
+
+def threshold(F_N: np.ndarray, was_sliding: np.ndarray, mu_0: np.ndarray, mu: np.ndarray) -> np.ndarray:
+    """Rule T6: the Coulomb threshold [N]: mu_0 F_N for a point that was sticking, mu F_N for one that was sliding.
+
+    All (..., n). Decided: the source has mu_0 = mu in Table 3.1 and does not say which one ends a slide.
+    """
+    return np.where(was_sliding, mu, mu_0) * F_N  # (3.6)
+
+
+def norm(F: np.ndarray) -> np.ndarray:
+    """Length of plane vectors, (..., n, 2) -> (..., n).
+
+    Where the sum of squares leaves the normal numbers the larger component is taken out first: otherwise a force of
+    1e-170 N has length zero and passes the test of the cone although it is outside.
+    """
+    x, y = F[..., 0], F[..., 1]
+    squares = x * x + y * y
+    small = squares < np.finfo(F.dtype).tiny / np.finfo(F.dtype).eps
+    size = np.sqrt(squares)
+    if small.any():
+        largest = np.maximum(np.abs(x), np.abs(y))
+        unit = np.where(largest > 0, largest, 1)
+        size = np.where(small, largest * np.sqrt((x / unit) * (x / unit) + (y / unit) * (y / unit)), size)
+    return size
+
+
+def sticks(size: np.ndarray, limit: np.ndarray) -> np.ndarray:
+    """Rule T2: sticking holds while the trial force, of this size, is inside the cone. All (..., n). Source: (3.6a)."""
+    return size <= limit  # (3.6a)
+
+
+def radial_return(F_trial: np.ndarray, size: np.ndarray, stick: np.ndarray, mu_F_N: np.ndarray) -> np.ndarray:
+    """Rule T3: friction force [N], (..., n, 2): the trial force where it sticks, else mu F_N along the trial force.
+
+    `size` is the length of the trial force and `mu_F_N` the sliding force, both (..., n). A point above the plate has
+    F_N = 0 and so no friction. Source: (3.6b).
+    """
+    scale = np.where(stick, 1, mu_F_N / np.where(stick, 1, size))
+    return scale[..., None] * F_trial  # (3.6b)
+
+
+def move_anchor(
+    F_T: np.ndarray,
+    u_t: np.ndarray,
+    s: np.ndarray,
+    v_slide: np.ndarray,
+    stick: np.ndarray,
+    K_T: np.ndarray,
+    C_T: np.ndarray,
+) -> np.ndarray:
+    """Rule T4: after sliding the anchor moves so that -K_T (u - s) - C_T v_slide = F_T; sticking leaves it alone.
+
+    F_T, u_t, s, v_slide : (..., n, 2); stick, K_T, C_T : (..., n)  ->  s (..., n, 2) [m].
+    Source: "both the friction force amplitude and the contact point position are updated".
+    """
+    slid = u_t + (F_T + C_T[..., None] * v_slide) / K_T[..., None]
+    return np.where(stick[..., None], s, slid)
+
+
+def roll_anchor(s: np.ndarray, radius: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    """Round feet only: the anchor rolls along, so that u - s follows the material velocity at the contact.
+
+    The lowest point of a sphere that turns by `turn` (..., 3) [rad, plate axes] moves by radius * turn x e_z more
+    than the material there. s : (..., n, 2) [m]; radius : (..., n) [m]. Zero radius leaves s as it is.
+    """
+    rolled = s.copy(order="K")
+    rolled[..., 0] += radius * turn[..., None, 1]
+    rolled[..., 1] -= radius * turn[..., None, 0]
+    return rolled

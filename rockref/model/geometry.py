@@ -1,0 +1,73 @@
+"""The block's inertia and its contact points: eight, four, or any set."""
+
+import numpy as np
+
+from rockref.model.errors import InputError
+
+#: Signs of x and y at corners 1..4. Decided: the excerpt's Fig. 3.2b is not in the text; the block is released leaning
+#: on corners 1 and 2, so both lie on the +y side.
+CORNER_SIGNS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
+EXTERNAL = ("1ext", "2ext", "3ext", "4ext")
+INTERNAL = ("1int", "2int", "3int", "4int")
+
+
+def cuboid_inertia(mass: float, width: float, depth: float, height: float) -> np.ndarray:
+    """Rule G1: inertia of the uniform cuboid about its centre of mass, body axes, (3, 3) [kg m2].
+
+    mass [kg]; width along X, depth along Y, height along Z [m].
+    """
+    J = np.zeros((3, 3))
+    J[0, 0] = mass / 12 * (depth * depth + height * height)
+    J[1, 1] = mass / 12 * (width * width + height * height)
+    J[2, 2] = mass / 12 * (width * width + depth * depth)
+    return J
+
+
+def eight_points(width: float, depth: float, height: float, delta_long, delta_diag: float) -> np.ndarray:
+    """Rule G2: the eight contact points in body axes, (8, 3) [m]: 1ext..4ext, then 1int..4int.
+
+    The internal points lie in the plane z = -h/2, on the diagonals of the base, at delta_diag from the corner
+    measured along the diagonal (decided; the excerpt says "the horizontal position of these points along the two
+    bisectors is defined by a single parameter"). The external points are the corners, raised by delta_long[i].
+
+    Parameters
+    ----------
+    width, depth, height : sides along X, Y, Z [m].
+    delta_long : 4 heights of the external points above the internal plane [m].
+    delta_diag : distance of the internal points from the corners [m].
+
+    Source: "Defects", Fig. 3.2b.
+    """
+    diagonal = np.sqrt(width * width + depth * depth)
+    inward = 1 - delta_diag / (diagonal / 2)
+    P = np.empty((8, 3))
+    for i, (sign_x, sign_y) in enumerate(CORNER_SIGNS):
+        x, y = sign_x * width / 2, sign_y * depth / 2
+        P[i] = x, y, -height / 2 + delta_long[i]
+        P[4 + i] = x * inward, y * inward, -height / 2
+    return P
+
+
+def four_points(width: float, depth: float, height: float) -> np.ndarray:
+    """The four corners of the base in body axes, (4, 3) [m]: the model that the authors tried first ("Defects")."""
+    return np.array([(sx * width / 2, sy * depth / 2, -height / 2) for sx, sy in CORNER_SIGNS])
+
+
+def check_cuboid(mass: float, width: float, depth: float, height: float, delta_long, delta_diag: float) -> None:
+    """Refuse sizes that are no block (E-RANGE): zero or negative sides, defects larger than the block."""
+    for key, value in (("mass", mass), ("width", width), ("depth", depth), ("height", height)):
+        if not (np.isfinite(value) and value > 0):
+            raise InputError("E-RANGE", key, f"is {value!r}", "Give a positive, finite number.")
+    for i, value in enumerate(delta_long):
+        if not (np.isfinite(value) and abs(value) < height):
+            raise InputError(
+                "E-RANGE", f"delta_long[{i}]", f"is {value!r} m, larger than the block", "Give heights in metres."
+            )
+    half = np.sqrt(width * width + depth * depth) / 2
+    if not (np.isfinite(delta_diag) and 0 <= delta_diag < half):
+        raise InputError(
+            "E-RANGE",
+            "delta_diag",
+            f"is {delta_diag!r} m; half the diagonal of the base is {half:.4g} m",
+            "Give a distance from the corner in metres, between 0 and half the diagonal.",
+        )

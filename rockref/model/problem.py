@@ -1,0 +1,184 @@
+"""What is simulated: the block, its contact points, the state from which it starts. Frozen, arrays only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from rockref.model.errors import InputError
+from rockref.model.rotation import empty
+
+#: Standard value of the source's model; the excerpt states none. Decided: 9.81 m/s2.
+GRAVITY = 9.81
+
+
+@dataclass(frozen=True)
+class Block:
+    """The rigid body: mass (...) [kg], inertia about the centre of mass in body axes (..., 3, 3) [kg m2], gravity g (...)."""
+
+    mass: np.ndarray
+    inertia: np.ndarray
+    g: np.ndarray
+
+
+@dataclass(frozen=True)
+class ContactPoints:
+    """The n contact points and what each is made of.
+
+    P : (..., n, 3) position from the centre of mass, body axes [m]
+    K_N, K_T : (..., n) normal and tangential stiffness [N/m];  C_N, C_T : damping [N s/m]
+    mu_0, mu : (..., n) static and dynamic friction coefficient
+    radius : (..., n) foot radius [m], or None for the point feet of the source
+    names : n labels, for example "1ext"
+    """
+
+    P: np.ndarray
+    K_N: np.ndarray
+    K_T: np.ndarray
+    C_N: np.ndarray
+    C_T: np.ndarray
+    mu_0: np.ndarray
+    mu: np.ndarray
+    radius: np.ndarray | None
+    names: tuple[str, ...]
+
+    @property
+    def n(self) -> int:
+        return self.P.shape[-2]
+
+
+@dataclass(frozen=True)
+class State:
+    """Everything that the next step needs: restarting from it continues the run bit for bit.
+
+    x, v : (..., 3) position [m] and velocity [m/s] of the centre of mass, plate axes
+    Lambda : (..., 3, 3) rotation, body to plate;  W : (..., 3) convected rotational velocity (crv), body axes [rad/s]
+    s : (..., n, 2) anchors on the plate [m];  anchored : (..., n) bool, whether they are valid
+    sliding : (..., n) bool, whether the point was sliding
+    a : (..., 3) acceleration [m/s2];  T : (..., 3) moment in body axes [N m];  F : (..., n, 3) point forces [N], all
+        of the last force evaluation; None where it has not been made yet (the run then makes it first)
+    t : time [s], counted as origin + count * h, so that a restart counts on without rounding anew
+    memory : one mapping of arrays per effect, its own state
+    """
+
+    x: np.ndarray
+    v: np.ndarray
+    Lambda: np.ndarray
+    W: np.ndarray
+    s: np.ndarray
+    anchored: np.ndarray
+    sliding: np.ndarray
+    a: np.ndarray | None = None
+    T: np.ndarray | None = None
+    F: np.ndarray | None = None
+    t: float = 0.0
+    origin: float = 0.0
+    count: int = 0
+    h: float = 0.0
+    memory: tuple[dict[str, np.ndarray], ...] = ()
+
+    @classmethod
+    def at_rest(cls, x, Lambda, n: int, v=None, W=None) -> State:
+        """A state without contact history: x (..., 3), Lambda (..., 3, 3), n points, rates zero where not given."""
+        x = np.asarray(x)
+        batch = x.shape[:-1]
+        return cls(
+            x=x,
+            v=np.zeros_like(x) if v is None else np.asarray(v),
+            Lambda=np.asarray(Lambda),
+            W=np.zeros_like(x) if W is None else np.asarray(W),
+            s=np.zeros(batch + (n, 2), x.dtype),
+            anchored=np.zeros(batch + (n,), bool),
+            sliding=np.zeros(batch + (n,), bool),
+        )
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One run, or a batch of runs side by side (leading axes): what `simulate` of every engine takes.
+
+    step, duration [s]; output_rate [Hz]; effects in the order in which they act (empty: the law alone).
+    """
+
+    block: Block
+    points: ContactPoints
+    start: State
+    step: float
+    duration: float
+    output_rate: float
+    effects: tuple[Any, ...] = ()
+    labels: dict[str, Any] = field(default_factory=dict)
+
+    def replace(self, **changes) -> Problem:
+        """A copy with some fields changed."""
+        return replace(self, **changes)
+
+    @property
+    def batch(self) -> tuple[int, ...]:
+        """Shape of the leading axes; () for one block."""
+        return self.start.x.shape[:-1]
+
+
+ARRAYS_OF_BLOCK = {"mass": 0, "inertia": 2, "g": 0}
+ARRAYS_OF_POINTS = {"P": 2, "K_N": 1, "K_T": 1, "C_N": 1, "C_T": 1, "mu_0": 1, "mu": 1, "radius": 1}
+ARRAYS_OF_STATE = {"x": 1, "v": 1, "Lambda": 2, "W": 1, "s": 2, "anchored": 1, "sliding": 1, "a": 1, "T": 1, "F": 2}
+
+
+def batch_fastest(a: np.ndarray, core_axes: int, batch: tuple[int, ...], dtype) -> np.ndarray:
+    """A copy of `a`, broadcast to the batch, in the memory order of `rotation.empty`."""
+    a = np.asarray(a)
+    core = a.shape[a.ndim - core_axes :]
+    b = empty(batch, core, bool if a.dtype == bool else dtype)
+    b[...] = a
+    return b
+
+
+def _convert(thing, axes: dict[str, int], batch, dtype):
+    values = {k: getattr(thing, k) for k in axes}
+    return replace(thing, **{k: None if a is None else batch_fastest(a, axes[k], batch, dtype) for k, a in values.items()})
+
+
+def as_arrays(problem: Problem, dtype=None) -> Problem:
+    """The same problem with every array of one dtype (float32, float64 or longdouble) and of the batch's shape.
+
+    Without `dtype` the positions of the start decide.
+    """
+    dtype = np.dtype(dtype or problem.start.x.dtype)
+    batch = problem.batch
+    return replace(
+        problem,
+        block=_convert(problem.block, ARRAYS_OF_BLOCK, batch, dtype),
+        points=_convert(problem.points, ARRAYS_OF_POINTS, batch, dtype),
+        start=_convert(problem.start, ARRAYS_OF_STATE, batch, dtype),
+    )
+
+
+def _stack(things, axes: dict[str, int]):
+    columns = {k: [getattr(thing, k) for thing in things] for k in axes}
+    missing = [k for k, c in columns.items() if any(a is None for a in c) and not all(a is None for a in c)]
+    if missing:
+        raise InputError("E-STACK", missing[0], "is given for some of the problems only", "Give it for all of them.")
+    return replace(things[0], **{k: None if c[0] is None else np.stack(c) for k, c in columns.items()})
+
+
+def stack(problems: list[Problem]) -> Problem:
+    """Many single problems side by side as one batch; step, duration, rate and effects must be the same.
+
+    Raises
+    ------
+    InputError
+        E-STACK, where two problems differ in what a batch shares.
+    """
+    first = problems[0]
+    for p in problems[1:]:
+        for key in ("step", "duration", "output_rate", "effects"):
+            if getattr(p, key) != getattr(first, key):
+                raise InputError("E-STACK", key, "differs between the problems of a batch", "Run them one by one.")
+    return replace(
+        first,
+        block=_stack([p.block for p in problems], ARRAYS_OF_BLOCK),
+        points=_stack([p.points for p in problems], ARRAYS_OF_POINTS),
+        start=_stack([p.start for p in problems], ARRAYS_OF_STATE),
+    )

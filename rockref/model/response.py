@@ -1,0 +1,156 @@
+"""What a run gives back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from rockref.model import energy as energies
+from rockref.model.channel import crv_deg_s
+from rockref.model.contact import point_kinematics
+from rockref.model.errors import InputError
+from rockref.model.problem import Problem, State
+from rockref.model.rotation import quaternion
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Tilt of the body's height from the vertical at which a block counts as overturned [rad]; decided: 45 degrees, where
+#: no block slender enough to rock comes back.
+OVERTURNED = np.pi / 4
+
+
+@dataclass(frozen=True)
+class Response:
+    """Recorded rows of a run; T rows, leading batch axes first.
+
+    t : (T,) [s];  x, v : (..., T, 3) centre of mass [m, m/s];  Lambda : (..., T, 3, 3);  W : (..., T, 3) crv [rad/s]
+    F : (..., T, n, 3) force of the plate on each point [N];  s : (..., T, n, 2) anchors [m]
+    anchored, sliding : (..., T, n) bool;  final_state : restarts the run bit for bit
+    """
+
+    problem: Problem
+    t: np.ndarray
+    x: np.ndarray
+    v: np.ndarray
+    Lambda: np.ndarray
+    W: np.ndarray
+    F: np.ndarray
+    s: np.ndarray
+    anchored: np.ndarray
+    sliding: np.ndarray
+    final_state: State
+
+    def __getitem__(self, index) -> Response:
+        """One response of a batch."""
+        if not self.problem.batch:
+            raise InputError("E-BATCH", "response", "is of one block", "Only a batch can be indexed.")
+        rows = {k: getattr(self, k)[index] for k in ("x", "v", "Lambda", "W", "F", "s", "anchored", "sliding")}
+        return replace(self, problem=pick(self.problem, index), final_state=pick_state(self.final_state, index), **rows)
+
+    @property
+    def crv(self) -> np.ndarray:
+        """The measured channel (M1): crv about X, Y, Z in deg/s, (..., T, 3)."""
+        return crv_deg_s(self.W)
+
+    @property
+    def tilt(self) -> np.ndarray:
+        """Signed tilt about the main axis [rad], (..., T): negative at release (the block leans to +y), zero when it
+        passes upright."""
+        return np.arctan2(self.Lambda[..., 2, 1], self.Lambda[..., 2, 2])
+
+    @property
+    def overturned(self) -> bool:
+        """Whether the block fell over (a result, not an error)."""
+        return bool(np.any(self.Lambda[..., 2, 2] < np.cos(OVERTURNED)))
+
+    def state(self, row: int) -> State:
+        """The state at a recorded row, without the accelerations: a start for another run (not bit for bit; the
+        `final_state` is)."""
+        c = len(self.problem.batch)
+        at = {k: np.take(getattr(self, k), row, axis=c) for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding")}
+        return State(t=float(self.t[row]), **at)
+
+    def main_impacts(self) -> np.ndarray:
+        """Instants of the main impacts [s]: where the block passes upright, between two rows by linear interpolation.
+
+        Only crossings with a swing count: between two of them the tilt must exceed a thousandth of the largest
+        (decided), so that the rest at the end gives none. One block only.
+        """
+        tilt = self.tilt
+        if tilt.ndim != 1:
+            raise InputError("E-BATCH", "main_impacts", "was asked of a batch", "Index the response first: response[i].")
+        threshold = 1e-3 * np.max(np.abs(tilt))
+        crossings = np.flatnonzero(np.signbit(tilt[1:]) != np.signbit(tilt[:-1]))
+        instants, last = [], 0
+        for i in crossings:
+            if np.max(np.abs(tilt[last : i + 1])) > threshold:
+                fraction = tilt[i] / (tilt[i] - tilt[i + 1])
+                instants.append(self.t[i] + fraction * (self.t[i + 1] - self.t[i]))
+                last = i + 1
+        return np.array(instants)
+
+    def contacts(self) -> list[tuple[str, np.ndarray]]:
+        """Name of each point and its intervals of contact, (k, 2) [s], by the recorded rows. One block only."""
+        if self.anchored.ndim != 2:
+            raise InputError("E-BATCH", "contacts", "was asked of a batch", "Index the response first: response[i].")
+        found = []
+        for i, name in enumerate(self.problem.points.names):
+            on = np.concatenate([[False], self.anchored[:, i], [False]]).astype(np.int8)
+            begin, end = np.flatnonzero(np.diff(on) == 1), np.flatnonzero(np.diff(on) == -1) - 1
+            found.append((name, np.stack([self.t[begin], self.t[end]], axis=-1)))
+        return found
+
+    def energy(self) -> dict[str, np.ndarray]:
+        """Energies at every row [J], each (..., T): kinetic, potential, stored_normal, stored_tangential, total, and
+        dissipated, which is what is missing of the total at the first row."""
+        block, points = self.problem.block, self.problem.points
+        if self.problem.batch:
+            block = replace(block, **{k: np.expand_dims(getattr(block, k), len(self.problem.batch)) for k in ("mass", "inertia", "g")})
+            axes = {k: np.expand_dims(getattr(points, k), len(self.problem.batch)) for k in ("P", "K_N", "K_T")}
+            radius = None if points.radius is None else np.expand_dims(points.radius, len(self.problem.batch))
+        else:
+            axes, radius = {k: getattr(points, k) for k in ("P", "K_N", "K_T")}, points.radius
+        k = point_kinematics(self.x, self.Lambda, self.v, self.W, np.broadcast_to(axes["P"], self.F.shape), radius)
+        stored = energies.spring_energy(k.xi, self.anchored, k.u[..., :2], self.s, axes["K_N"], axes["K_T"])
+        kinetic = energies.kinetic_energy(self.v, self.W, block.mass, block.inertia)
+        e = energies.Energy(kinetic, energies.potential_energy(self.x, block.mass, block.g), *stored)
+        return {**e._asdict(), "total": e.total, "dissipated": e.total[..., :1] - e.total}
+
+    def to_frame(self) -> pandas.DataFrame:
+        """The response of one block as a table; the column names carry the units.
+
+        t_s, wx_deg_s .. wz_deg_s, x_m .. z_m, qw .. qz (body to plate), and for every point fx_1ext_N .. fz, contact_1ext,
+        slip_1ext.
+        """
+        import pandas
+
+        if self.problem.batch:
+            raise InputError("E-BATCH", "to_frame", "was asked of a batch", "Index the response first: response[i].")
+        columns = {"t_s": self.t}
+        columns |= {f"w{a}_deg_s": self.crv[:, i] for i, a in enumerate("xyz")}
+        columns |= {f"{a}_m": self.x[:, i] for i, a in enumerate("xyz")}
+        columns |= {f"q{a}": c for a, c in zip("wxyz", quaternion(self.Lambda).T, strict=True)}
+        for i, name in enumerate(self.problem.points.names):
+            columns |= {f"f{a}_{name}_N": self.F[:, i, j] for j, a in enumerate("xyz")}
+            columns |= {f"contact_{name}": self.anchored[:, i], f"slip_{name}": self.sliding[:, i]}
+        return pandas.DataFrame(columns)
+
+
+def pick_state(state: State, index) -> State:
+    """One state of a batch."""
+    arrays = {k: getattr(state, k) for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "a", "T", "F")}
+    memory = tuple({k: a[index] for k, a in m.items()} for m in state.memory)
+    return replace(state, memory=memory, **{k: None if a is None else a[index] for k, a in arrays.items()})
+
+
+def pick(problem: Problem, index) -> Problem:
+    """One problem of a batch."""
+    block = replace(problem.block, **{k: getattr(problem.block, k)[index] for k in ("mass", "inertia", "g")})
+    names = ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu", "radius")
+    points = replace(
+        problem.points, **{k: None if getattr(problem.points, k) is None else getattr(problem.points, k)[index] for k in names}
+    )
+    return replace(problem, block=block, points=points, start=pick_state(problem.start, index))

@@ -1,0 +1,191 @@
+"""model.toml: the block, its parameters with their uncertainty, its effects, and where each came from."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import tomllib
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rockref.effects import catalogue
+from rockref.model.errors import InputError
+from rockref.model.parameters import PROPERTIES, Parameters
+from rockref.model.problem import ContactPoints
+from rockref.model.storage import write_text
+
+FORMAT = 1
+#: A model file is a page of text; decided: refuse more than a megabyte unread.
+LARGEST_FILE = 1_000_000
+
+BLOCK_KEYS = {"mass_kg": "mass", "width_m": "width", "depth_m": "depth", "height_m": "height", "g_m_s2": "g"}
+PARAMETER_KEYS = {
+    "K_N_N_m": "K_N",
+    "K_T_N_m": "K_T",
+    "beta_int": "beta_int",
+    "beta_ext": "beta_ext",
+    "mu_int": "mu_int",
+    "mu_ext": "mu_ext",
+    "delta_long_m": "delta_long",
+    "delta_diag_m": "delta_diag",
+    "theta_0_rad": "theta_0",
+}
+POINT_KEYS = {"set": "points", "foot_radius_m": "foot_radius"}
+PROPERTY_KEYS = {"K_N_N_m": "K_N", "K_T_N_m": "K_T", "C_N_N_s_m": "C_N", "C_T_N_s_m": "C_T", "mu_0": "mu_0", "mu": "mu"}
+SECTIONS = ("format", "block", "points", "parameters", "properties", "custom_points", "effects", "uncertainty", "origin")
+
+
+def unknown_key(where: str, key: str, known) -> InputError:
+    """The error for a key that nobody knows, with the nearest one that is known (E-KEY)."""
+    near = difflib.get_close_matches(key, sorted(known), 1)
+    cure = f"Did you mean {near[0]!r}?" if near else f"Known: {', '.join(sorted(known))}."
+    return InputError("E-KEY", where, f"unknown key {key!r}", cure)
+
+
+def read_toml(path: str | os.PathLike) -> dict[str, Any]:
+    """The tables of a TOML file. Raises InputError (E-FILE, E-TOML, E-ENCODING)."""
+    path = Path(path)
+    try:
+        with open(path, "rb") as f:
+            raw = f.read(LARGEST_FILE + 1)
+    except OSError as e:
+        raise InputError("E-FILE", str(path), f"cannot be read ({e.strerror})", "Check the path.") from e
+    if len(raw) > LARGEST_FILE:
+        raise InputError("E-SIZE", str(path), "is larger than a megabyte", "A model file is a page of text.")
+    try:
+        return tomllib.loads(raw.decode("utf-8-sig"))
+    except UnicodeDecodeError as e:
+        raise InputError("E-ENCODING", str(path), f"is not UTF-8 (byte {e.start})", "Save it as UTF-8.") from e
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as e:
+        raise InputError("E-TOML", str(path), f"is not valid TOML: {e}", "Mend the line that is named.") from e
+
+
+def number(where: str, value: Any, size: int | None = None) -> Any:
+    """A finite float, or a tuple of `size` of them; else InputError (E-TYPE)."""
+    items = value if size is not None else [value]
+    good = isinstance(items, list) and (size is None or size < 0 or len(items) == size)
+    if not good or any(isinstance(a, bool) or not isinstance(a, (int, float)) for a in items):
+        wanted = "a number" if size is None else f"a list of {size if size > 0 else ''} numbers"
+        raise InputError("E-TYPE", where, f"is {value!r}"[:120], f"Give {wanted}.")
+    try:
+        numbers = tuple(float(a) for a in items)
+    except OverflowError as e:
+        raise InputError("E-TYPE", where, "is too large for a number", "Give a finite number.") from e
+    if not np.all(np.isfinite(numbers)):
+        raise InputError("E-TYPE", where, f"is {value!r}", "Give a finite number.")
+    return numbers if size is not None else numbers[0]
+
+
+def table(where: str, tables: dict, name: str, known) -> dict:
+    """A sub-table whose keys are all known; empty where it is missing."""
+    found = tables.get(name, {})
+    if not isinstance(found, dict):
+        raise InputError("E-TYPE", f"{where}: {name}", "is not a table", f"Write [{name}].")
+    for key in found:
+        if known is not None and key not in known:
+            raise unknown_key(f"{where}: [{name}]", key, known)
+    return found
+
+
+def load(cls, path: str | os.PathLike):
+    """A model of class `cls` from a TOML file."""
+    tables, where = read_toml(path), str(path)
+    for key in tables:
+        if key not in SECTIONS:
+            raise unknown_key(where, key, SECTIONS)
+    if tables.get("format", FORMAT) != FORMAT:
+        raise InputError("E-FORMAT", f"{where}: format", f"is {tables['format']!r}", f"This version reads {FORMAT}.")
+    values: dict[str, Any] = {}
+    block = table(where, tables, "block", set(BLOCK_KEYS) | {"inertia_kg_m2"})
+    for key, name in BLOCK_KEYS.items():
+        if key in block:
+            values[name] = number(f"{where}: [block] {key}", block[key])
+    if "inertia_kg_m2" in block:
+        values["inertia"] = np.array(number(f"{where}: [block] inertia_kg_m2", block["inertia_kg_m2"], 9)).reshape(3, 3)
+    points = table(where, tables, "points", POINT_KEYS)
+    if "set" in points:
+        values["points"] = points["set"]
+    if "foot_radius_m" in points:
+        values["foot_radius"] = number(f"{where}: [points] foot_radius_m", points["foot_radius_m"])
+    values["parameters"] = Parameters().replace(
+        **{
+            name: number(f"{where}: [parameters] {key}", value, 4 if name == "delta_long" else None)
+            for key, value in table(where, tables, "parameters", PARAMETER_KEYS).items()
+            for name in [PARAMETER_KEYS[key]]
+        }
+    )
+    if "properties" in tables:
+        given = table(where, tables, "properties", PROPERTY_KEYS)
+        values["properties"] = _properties(f"{where}: [properties]", given, 8)
+    if "custom_points" in tables:
+        values["custom_points"] = _custom_points(where, tables)
+    values["effects"] = catalogue.from_table(where, tables.get("effects", {}))
+    values["uncertainty"], values["origin"] = table(where, tables, "uncertainty", None), table(where, tables, "origin", None)
+    model = cls(**values)
+    try:
+        model.check()
+    except InputError as e:
+        raise InputError(e.code, f"{where}: {e.where}", e.what, e.cure) from e
+    return model
+
+
+def _properties(where: str, given: dict, n: int) -> dict[str, np.ndarray]:
+    missing = [k for k in PROPERTY_KEYS if k not in given]
+    if missing:
+        raise InputError("E-KEY", where, f"{missing[0]} is missing", f"Give {n} numbers.")
+    return {PROPERTY_KEYS[k]: np.array(number(f"{where} {k}", given[k], n)) for k in PROPERTY_KEYS}
+
+
+def _custom_points(where: str, tables: dict) -> ContactPoints:
+    given = table(where, tables, "custom_points", {*PROPERTY_KEYS, "names", "P_m", "radius_m"})
+    names = given.get("names")
+    if not isinstance(names, list) or not names or not all(isinstance(n, str) for n in names):
+        raise InputError("E-TYPE", f"{where}: [custom_points] names", f"is {names!r}"[:80], "Give a list of labels.")
+    n = len(names)
+    P = np.array(number(f"{where}: [custom_points] P_m", given.get("P_m"), 3 * n)).reshape(n, 3)
+    q = _properties(f"{where}: [custom_points]", given, n)
+    radius = np.array(number(f"{where}: [custom_points] radius_m", given["radius_m"], n)) if "radius_m" in given else None
+    return ContactPoints(P, *(q[k] for k in PROPERTIES), radius, tuple(names))
+
+
+def plain(value: Any) -> Any:
+    """NumPy scalars and arrays as plain numbers and lists."""
+    if isinstance(value, np.ndarray):
+        return value.ravel().tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, (tuple, list)):
+        return [plain(v) for v in value]
+    return value
+
+
+def save(model, path: str | os.PathLike) -> None:
+    """Write `model` as TOML; every number is written so that it reads back to the same bits."""
+    import tomlkit
+
+    document = tomlkit.document()
+    document.add(tomlkit.comment("A rockref model. SI units; the unit is in the key."))
+    tables: dict[str, Any] = {"format": FORMAT, "block": {k: getattr(model, n) for k, n in BLOCK_KEYS.items()}}
+    if model.inertia is not None:
+        tables["block"]["inertia_kg_m2"] = model.inertia
+    tables["points"] = {k: getattr(model, n) for k, n in POINT_KEYS.items()}
+    tables["parameters"] = {k: getattr(model.parameters, n) for k, n in PARAMETER_KEYS.items()}
+    if model.properties is not None:
+        tables["properties"] = {k: model.properties[n] for k, n in PROPERTY_KEYS.items()}
+    if model.custom_points is not None:
+        c = model.custom_points
+        tables["custom_points"] = {"names": c.names, "P_m": c.P, **{k: getattr(c, n) for k, n in PROPERTY_KEYS.items()}}
+        if c.radius is not None:
+            tables["custom_points"]["radius_m"] = c.radius
+    tables["effects"] = {e.id: {f.name: getattr(e, f.name) for f in fields(e)} for e in model.effects}
+    tables |= {"uncertainty": model.uncertainty, "origin": model.origin}
+    for key, value in tables.items():
+        if isinstance(value, dict):
+            if value:
+                document[key] = {k: ({i: plain(j) for i, j in v.items()} if isinstance(v, dict) else plain(v)) for k, v in value.items()}
+        else:
+            document[key] = value
+    write_text(path, tomlkit.dumps(document))
