@@ -27,9 +27,10 @@ help:  ## list the targets
 env: $(VENV)/.stamp  ## make .venv with the project in it (again only when pyproject.toml changes)
 
 $(VENV)/.stamp: pyproject.toml
-	@if [ -z "$(PYTHON)" ]; then \
+	@"$(PYTHON)" -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 || { \
 	  echo 'rockref needs Python 3.11 or newer with the venv module (Debian, Ubuntu: apt install python3-venv).'; \
-	  echo "Found: $$(python3 --version 2>&1). Name one by hand with: make env PYTHON=/path/to/python3.11"; exit 2; fi
+	  echo "Found: $$("$(or $(PYTHON),python3)" --version 2>&1). Name one with: make env PYTHON=/path/to/python3.11"; \
+	  exit 2; }
 	@echo "making $(VENV) with $$($(PYTHON) --version); a minute or two"
 	@$(PYTHON) -m venv $(VENV)
 	@$(PIP) --editable '.[fast,test]'
