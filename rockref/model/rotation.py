@@ -98,8 +98,8 @@ def series_coefficients(t: np.ndarray, terms: int) -> tuple[np.ndarray, np.ndarr
     one = t.dtype.type(1)
     s = c = one
     for k in range(terms - 1, 0, -1):
-        s = one - t * s / (2 * k * (2 * k + 1))
-        c = one - t * c / ((2 * k + 1) * (2 * k + 2))
+        s = one - t * s * (one / (2 * k * (2 * k + 1)))
+        c = one - t * c * (one / ((2 * k + 1) * (2 * k + 2)))
     return s, c / 2
 
 
