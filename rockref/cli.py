@@ -7,12 +7,11 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from importlib.metadata import version
 from typing import Annotated
 
 import typer
 
-from rockref import commands
+from rockref import __version__, commands
 from rockref.model.errors import RockrefError
 
 
@@ -53,7 +52,7 @@ def _stop(message: str, code: int) -> None:
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"rockref {version('rockref')}")
+        typer.echo(f"rockref {__version__}")
         raise typer.Exit()
 
 

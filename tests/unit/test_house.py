@@ -104,11 +104,19 @@ def test_command_line_is_light():
     assert not loaded & {"scipy", "pandas", "matplotlib", "numba", "dask", "jinja2"}
 
 
+def test_one_version_everywhere():
+    import rockref
+
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert rockref.__version__ == project["version"]
+    assert f"\nversion: {project['version']}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+
+
 def test_public_interface_is_annotated():
     import rockref
 
     missing = []
-    for name in getattr(rockref, "__all__", ()):
+    for name in rockref.__all__:
         thing = getattr(rockref, name)
         functions = vars(thing).items() if inspect.isclass(thing) else [(name, thing)]
         for label, function in functions:
