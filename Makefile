@@ -77,7 +77,7 @@ $(VENV)/.stamp-peers: $(VENV)/.stamp
 	@touch $@
 
 mutate: env  ## plant small faults in the law and count those that the tests notice
-	$(VENV)/bin/mutmut run
+	HYPOTHESIS_PROFILE=mutation $(VENV)/bin/mutmut run
 	$(VENV)/bin/mutmut results
 
 dist: env  ## build wheel and source archive into dist/
