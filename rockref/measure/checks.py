@@ -26,6 +26,8 @@ TIME_MARGIN = 0.3
 FIRST_SWING = 1.3
 # decided: a cusp stays within four noise widths of its top for about 4 ms; a flat top of 10 ms is no cusp.
 FLAT_TOP = 0.010
+# decided: clatter jumps by 6 deg/s in two samples and back in tens; a quarter of the first swing's rate is 9 deg/s.
+SPIKE = 0.25
 # decided: noise of three times the data sheet is a disturbance, or another data sheet.
 NOISE_MARGIN = 3.0
 
@@ -51,7 +53,8 @@ def rocking_time(tilt: float, width: float, height: float) -> float:
 def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, experiment: Experiment) -> list[Notice]:
     """Check times t (N,) s and body rates crv (N, 3) rad/s of a release against what the block must do.
 
-    Returns notices (W-CONSTANT, W-FIRST-IMPACT, W-FLAT-TOP, W-SATURATED, W-NOISE). Raises InputError: E-SHORT,
+    Returns notices (W-CONSTANT, W-FIRST-IMPACT, W-FLAT-TOP, W-SATURATED,
+    W-SPIKE, W-NOISE). Raises InputError: E-SHORT,
     E-STILL, E-RELEASE, E-AXES, E-SIGN, E-DEGREES, E-RADIANS, E-RATE-SIZE.
     """
     assert run.release_tilt is not None and experiment.gyro is not None
@@ -61,13 +64,14 @@ def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, ex
     _check_length(t, duration, where)
     _check_alive(crv, table, where)
     names = [table.names[quantity] for quantity in RATES]
-    _check_first_swing(t, crv, names, expected, duration, where, sign=_sign(run))
     _check_release(t, crv, duration, where)
+    _check_first_swing(t, crv, names, expected, duration, where, sign=_sign(run))
     notices = [
         *_constant(crv, names, where),
         *_first_impact(t, crv, duration, where),
         *_flat_tops(t, crv, names, experiment.gyro.noise + experiment.gyro.resolution, where),
         *_at_range(crv, names, experiment.gyro.range, where),
+        *_spikes(crv, names, expected, where),
         *_noisy(t, crv, names, math.hypot(experiment.gyro.noise, experiment.gyro.resolution), where),
     ]
     return notices
@@ -129,11 +133,12 @@ def _check_unit(ratio: float, peak: float, expected: float, where: str, name: st
 
 
 def _check_release(t: np.ndarray, crv: np.ndarray, duration: float, where: str) -> None:
-    """Refuse a block that is still at rest when its first swing should be half over."""
+    """Refuse a block that is still at rest when its first swing should be half over, whatever the axis or unit."""
     early = (t > 0.3 * duration) & (t <= 0.5 * duration)
-    peak = np.abs(crv[t <= FIRST_SWING * duration, 0]).max()
-    # A linear arc has sinh(0.4 x)/sinh(x), about a quarter at x = 2.3, of its final rate there; a tenth is rest.
-    if early.any() and abs(float(crv[early, 0].mean())) < 0.05 * peak:
+    # A single wild sample must not pass for the size of the motion.
+    size = float(np.percentile(np.abs(crv), 99.0, axis=0).max())
+    # A linear arc has sinh(0.4 x)/sinh(x), about a fifth at x = 2.3, of its final rate there.
+    if early.any() and float(np.abs(crv[early].mean(axis=0)).max()) < 0.05 * size:
         what = f"the block hardly moves until {0.5 * duration:.2g} s"
         raise InputError("E-RELEASE", where, what, "Time is counted from the release: shift the column.")
 
@@ -192,6 +197,20 @@ def _at_range(crv: np.ndarray, names: list[str], limit: float | None, where: str
         if count:
             what = f"{count} samples are at the stated range of {limit / DEGREE:g} deg/s"
             notices.append(Notice("W-SATURATED", f"{where}, column {name}", what, cure))
+    return notices
+
+
+def _spikes(crv: np.ndarray, names: list[str], expected: float, where: str) -> list[Notice]:
+    """Look for single samples that stand out from both neighbours by more than any impact can make them."""
+    notices = []
+    for axis, name in enumerate(names):
+        left, right = crv[1:-1, axis] - crv[:-2, axis], crv[1:-1, axis] - crv[2:, axis]
+        rows = np.flatnonzero((left * right > 0.0) & (np.minimum(np.abs(left), np.abs(right)) > SPIKE * expected))
+        if len(rows):
+            value = crv[rows[0] + 1, axis] / DEGREE
+            what = f"{len(rows)} single samples stand out, the first with {value:.4g} deg/s in row {rows[0] + 2}"
+            cure = "No impact does that: look for a fault of the logger."
+            notices.append(Notice("W-SPIKE", f"{where}, column {name}", what, cure))
     return notices
 
 

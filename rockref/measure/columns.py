@@ -109,7 +109,9 @@ def _check_once(columns: list[Column], where: str) -> None:
     for column in columns:
         if column.quantity in seen:
             first = seen[column.quantity]
-            what = f"columns {first.place + 1} ({first.name}) and {column.place + 1} ({column.name}) are the same quantity"
+            what = (
+                f"columns {first.place + 1} ({first.name}) and {column.place + 1} ({column.name}) are the same quantity"
+            )
             raise InputError("E-COLUMN-TWICE", where, what, "Keep one of the two.")
         seen[column.quantity] = column
 
