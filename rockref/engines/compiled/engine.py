@@ -1,0 +1,75 @@
+"""Runs of the compiled step: one problem, or many side by side on all cores."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+
+from rockref.engines.compiled import kernel, pack
+from rockref.model.problem import Problem, as_arrays, stack
+from rockref.model.response import Response, pick
+from rockref.model.simulate import check, not_finite, output_steps
+from rockref.model.integrator import first_evaluation, prepared_inertia
+
+
+def simulate(problem: Problem, progress=None, keep_going: bool = False) -> Response:
+    """Solve one problem, or a batch row by row, with the compiled step. Errors as in `rockref.model.simulate`."""
+    check(problem)
+    problem = as_arrays(problem, np.float64)
+    if problem.batch:
+        flat = [pick(problem, i) for i in np.ndindex(problem.batch)]
+        return joined(problem, simulate_many(flat, keep_going=keep_going))
+    return _one(problem, keep_going)
+
+
+def simulate_many(problems: Sequence[Problem], workers: int | None = None, keep_going: bool = False) -> list[Response]:
+    """Solve many problems on `workers` threads (default: all cores). Each run is by itself, so the results do not
+    depend on the number of workers, bit for bit."""
+    ready = [as_arrays(p, np.float64) for p in problems]
+    for p in ready:
+        check(p)
+    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+        return list(pool.map(lambda p: _one(p, keep_going), ready))
+
+
+def _one(problem: Problem, keep_going: bool) -> Response:
+    wanted = output_steps(problem)
+    n, rows = problem.points.n, len(wanted)
+    if problem.effects and len(problem.start.memory) != len(problem.effects):
+        start = replace(problem.start, memory=tuple(e.start(problem) for e in problem.effects))
+        problem = replace(problem, start=start)
+    effects = pack.effects_row(problem)
+    states, forces = np.empty((rows, kernel.STATE)), np.zeros((rows, n, 3))
+    memories = np.empty((rows, n, kernel.MEMORY))
+    if problem.start.F is not None:
+        forces[0] = problem.start.F
+    run = kernel.with_effects if effects.any() else kernel.law
+    P = np.ascontiguousarray(problem.points.P)
+    written = run(
+        pack.body_row(problem), P, pack.props_rows(problem), pack.memory_rows(problem.start), effects,
+        pack.state_row(problem), float(problem.step), wanted, True, states, forces, memories,
+    )  # fmt: skip
+    if not np.isfinite(states[written - 1, 15:18]).all() and not keep_going:
+        good = pack.final_state(problem, states[written - 2], memories[written - 2], forces[written - 2])
+        raise not_finite(problem, good, prepared_inertia(problem.block))
+    states[written:], forces[written:] = np.nan, np.nan
+    return Response(
+        problem=problem,
+        t=states[:, kernel.TIME],
+        x=states[:, 0:3], v=states[:, 3:6], Lambda=states[:, 6:15].reshape(rows, 3, 3), W=states[:, 15:18],
+        F=forces, s=memories[:, :, 0:2], anchored=memories[:, :, 2] != 0, sliding=memories[:, :, 3] != 0,
+        final_state=pack.final_state(problem, states[-1], memories[-1], forces[-1]),
+    )  # fmt: skip
+
+
+def joined(problem: Problem, responses: list[Response]) -> Response:
+    """The responses of a batch's problems as one, leading axes as in the batch."""
+    fields = ("x", "v", "Lambda", "W", "F", "s", "anchored", "sliding")
+    rows = {k: np.stack([getattr(r, k) for r in responses]) for k in fields}
+    rows = {k: a.reshape(problem.batch + a.shape[1:]) for k, a in rows.items()}
+    finals = stack([replace(r.problem, start=r.final_state, effects=()) for r in responses]).start
+    return Response(problem=problem, t=responses[0].t, final_state=finals, **rows)
