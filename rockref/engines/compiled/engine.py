@@ -43,14 +43,13 @@ def _one(problem: Problem, keep_going: bool) -> Response:
         start = replace(problem.start, memory=tuple(e.start(problem) for e in problem.effects))
         problem = replace(problem, start=start)
     effects = pack.effects_row(problem)
-    states, forces = np.empty((rows, kernel.STATE)), np.zeros((rows, n, 3))
+    states, forces = np.empty((rows, kernel.STATE)), np.empty((rows, n, 3))
     memories = np.empty((rows, n, kernel.MEMORY))
-    if problem.start.F is not None:
-        forces[0] = problem.start.F
+    first = np.zeros((n, 3)) if problem.start.F is None else problem.start.F.copy()
     run = kernel.with_effects if effects.any() else kernel.law
     P = np.ascontiguousarray(problem.points.P)
     written = run(
-        pack.body_row(problem), P, pack.props_rows(problem), pack.memory_rows(problem.start), effects,
+        pack.body_row(problem), P, pack.props_rows(problem), pack.memory_rows(problem.start), first, effects,
         pack.state_row(problem), float(problem.step), wanted, True, states, forces, memories,
     )  # fmt: skip
     if not np.isfinite(states[written - 1, 15:18]).all() and not keep_going:

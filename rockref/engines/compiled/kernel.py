@@ -73,7 +73,7 @@ def make_kernel(with_effects: bool):
     """The compiled run: for the law alone, or with the effects that `effects` switches on."""
     normal_force = make_normal_force(with_effects)
 
-    @numba.njit(nogil=True, cache=True, error_model="numpy")
+    @numba.njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
     def evaluate(
         body, P, props, memory, forces, effects, h, t, q, q_rate,
         x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn0, turn1, turn2,
@@ -149,8 +149,8 @@ def make_kernel(with_effects: bool):
         Tz = L2 * Mx + L5 * My + L8 * Mz
         return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz, on_plate
 
-    @numba.njit(nogil=True, cache=True, error_model="numpy")
-    def run(body, P, props, memory, effects, state, h, wanted, full, rows_state, rows_F, rows_memory):
+    @numba.njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
+    def run(body, P, props, memory, forces, effects, state, h, wanted, full, rows_state, rows_F, rows_memory):
         """All steps of one run; rows are written at the step numbers `wanted`. Returns the number of rows written."""
         x0, x1, x2, v0, v1, v2 = state[0], state[1], state[2], state[3], state[4], state[5]
         L0, L1, L2, L3, L4, L5, L6, L7, L8 = (
@@ -159,7 +159,6 @@ def make_kernel(with_effects: bool):
         W0, W1, W2, a0, a1, a2, T0, T1, T2 = (
             state[15], state[16], state[17], state[18], state[19], state[20], state[21], state[22], state[23],
         )  # fmt: skip
-        forces = np.zeros((P.shape[0], 3))
         principal = body[20] != 0.0
         origin, count, t = state[ORIGIN], state[COUNT], state[TIME]
         q, q_rate = state[Q], state[Q_RATE]
@@ -168,8 +167,6 @@ def make_kernel(with_effects: bool):
                 body, P, props, memory, forces, effects, h, t, q, q_rate, x0, x1, x2, v0, v1, v2,
                 L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, 0.0, 0.0, 0.0,
             )  # fmt: skip
-        else:
-            forces[:, :] = rows_F[0]
         done = 0
         half, half_square = h / 2, h * h / 2
         for row in range(wanted.shape[0]):
@@ -218,14 +215,17 @@ def make_kernel(with_effects: bool):
                     q_rate += h * (pressed - effects[k + 2] * q - effects[k + 3] * q_rate) / effects[k + 1]
                     q += h * q_rate
             done = wanted[row]
-            out = rows_state[row]
-            out[0], out[1], out[2], out[3], out[4], out[5] = x0, x1, x2, v0, v1, v2
-            out[6], out[7], out[8], out[9], out[10], out[11], out[12], out[13], out[14] = L0, L1, L2, L3, L4, L5, L6, L7, L8
-            out[15], out[16], out[17], out[18], out[19], out[20], out[21], out[22], out[23] = W0, W1, W2, a0, a1, a2, T0, T1, T2
-            out[GIVEN], out[TIME], out[ORIGIN], out[COUNT], out[Q], out[Q_RATE] = 1.0, t, origin, count, q, q_rate
+            pose = (x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, a0, a1, a2, T0, T1, T2)
+            for j in range(24):
+                rows_state[row, j] = pose[j]
+            rows_state[row, GIVEN], rows_state[row, TIME], rows_state[row, ORIGIN] = 1.0, t, origin
+            rows_state[row, COUNT], rows_state[row, Q], rows_state[row, Q_RATE] = count, q, q_rate
             if full:
-                rows_F[row] = forces
-                rows_memory[row] = memory
+                for i in range(P.shape[0]):
+                    for j in range(3):
+                        rows_F[row, i, j] = forces[i, j]
+                    for j in range(MEMORY):
+                        rows_memory[row, i, j] = memory[i, j]
             if not math.isfinite(W0 + W1 + W2):
                 return row + 1
         return wanted.shape[0]
