@@ -39,9 +39,7 @@ def simulate_many(problems: Sequence[Problem], workers: int | None = None, keep_
 def _one(problem: Problem, keep_going: bool) -> Response:
     wanted = output_steps(problem)
     n, rows = problem.points.n, len(wanted)
-    if problem.effects and len(problem.start.memory) != len(problem.effects):
-        start = replace(problem.start, memory=tuple(e.start(problem) for e in problem.effects))
-        problem = replace(problem, start=start)
+    problem = pack.with_memory(problem)
     effects = pack.effects_row(problem)
     states, forces = np.empty((rows, kernel.STATE)), np.empty((rows, n, 3))
     memories = np.empty((rows, n, kernel.MEMORY))

@@ -18,7 +18,7 @@ from rockref.engines.compiled.loads import body_loads
 #: Columns of `body`: mass, g, J (9), J^-1 (9), whether the axes are principal.
 BODY = 21
 #: Columns of `state`: x, v, Lambda (9), W, a, T, whether a and T are given, t, origin, count, plate q and q_rate.
-STATE = 31
+STATE = 30
 X, V, L, W_, A_, T_, GIVEN, TIME, ORIGIN, COUNT, Q, Q_RATE = 0, 3, 6, 15, 18, 21, 24, 25, 26, 27, 28, 29
 #: Columns of `props` per point: K_N, K_T, C_N, C_T, mu_0, mu, radius, foot (1 to 4, for effects by foot).
 PROPS = 8

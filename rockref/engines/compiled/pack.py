@@ -70,6 +70,14 @@ def state_row(problem: Problem) -> np.ndarray:
     return row
 
 
+def with_memory(problem: Problem) -> Problem:
+    """The problem with the memories of its effects begun, where they are not yet."""
+    if len(problem.start.memory) == len(problem.effects):
+        return problem
+    start = replace(problem.start, memory=tuple(e.start(problem) for e in problem.effects))
+    return replace(problem, start=start)
+
+
 def effects_row(problem: Problem) -> np.ndarray:
     """(SLOTS,) the numbers of the effects. Raises InputError (E-TWIN) for an effect that has no compiled twin."""
     row = np.zeros(slots.SLOTS)
