@@ -126,6 +126,8 @@ def _impact(
     bottom = peak + int(np.argmin(fine[peak:stop]))
     if fine[peak] - fine[bottom] < FLAT * fine[peak]:
         flat = first + np.flatnonzero(fine[first:last] >= (1.0 - FLAT) * fine[peak])
+        if flat[-1] + reach >= len(t):
+            return None
         return 0.5 * float(t[flat[0]] + t[flat[-1]]), sign, float(fine[peak]), 0.0, int((flat[0] + flat[-1]) // 2)
     middle = 0.5 * (fine[peak] + fine[bottom])
     after = peak + int(np.argmax(fine[peak : bottom + 1] <= middle))

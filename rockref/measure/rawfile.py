@@ -62,9 +62,10 @@ def read_bytes(path: Path, limit: int) -> bytes:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError("E-FILE", str(path), f"cannot be opened ({reason})", cure) from None
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise InputError("E-FILE", str(path), "is not a regular file", "Name a file that holds the data.")
     with os.fdopen(descriptor, "rb") as stream:
-        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-            raise InputError("E-FILE", str(path), "is not a regular file", "Name a file that holds the data.")
         try:
             data = stream.read(limit + 1)
         except OSError as error:

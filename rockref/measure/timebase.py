@@ -35,20 +35,31 @@ def regular_samples(
         raise InputError("E-SHORT", str(table.path), "one row holds no motion", "Export the run again.")
     step = 1.0 / sample_rate
     jumps = np.diff(t)
-    missing = np.rint(jumps / step).astype(np.int64) - 1
-    missing[missing < 0] = 0
+    missing = _missing(jumps / step)
     _check_rate(t, jumps, sample_rate, where, notices)
     _check_gaps(t, missing, table, name, step)
     _check_start(t, step, where, notices)
     jitter = float(np.abs(jumps - step * (missing + 1)).max()) / step
-    # decided: time stamps rounded to half a sample are still told apart; beyond, the order of samples is in doubt.
-    if jitter > 0.5:
+    # decided: stamps rounded to half a sample are off by as much; beyond, it is the clock that wanders.
+    if jitter > 0.6:
         what = f"intervals between samples differ from 1/{sample_rate:g} s by up to {100 * jitter:.0f} %"
         notices.append(Notice("W-JITTER", where, what, "The time stamps were kept as they are."))
     others = {quantity: values for quantity, values in table.columns.items() if quantity != "t"}
     if not missing.any():
         return t, others, (), notices
     return *_fill(t, others, missing, where, notices), notices
+
+
+def _missing(jumps: np.ndarray) -> np.ndarray:
+    """Return how many samples are missing in each interval (N,), given in samples.
+
+    An early or late stamp makes one interval long and its neighbour short: only what both together lack is missing.
+    """
+    missing = np.rint(jumps) - 1.0
+    pairs = np.rint(jumps[1:] + jumps[:-1]) - 2.0
+    missing[1:] = np.minimum(missing[1:], pairs)
+    missing[:-1] = np.minimum(missing[:-1], pairs)
+    return np.maximum(missing, 0.0).astype(np.int64)
 
 
 def _check_forward(t: np.ndarray, table: Table, name: str) -> None:

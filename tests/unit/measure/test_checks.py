@@ -1,0 +1,124 @@
+"""Signals that cannot be those of the release are refused; odd ones are said."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rockref.measure.checks import rocking_rate, rocking_time
+from rockref.measure.experiment import load_experiment
+from rockref.model.errors import InputError
+
+HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"
+
+
+def edited(folder, as_table, good_signal, change, header=HEADER):
+    t, crv = good_signal()
+    t, crv = change(t, crv)
+    (folder / "run01.csv").write_text(as_table(t, crv, header))
+    return folder
+
+
+def late(t, crv):
+    """The same motion, half a second later."""
+    rest = np.zeros((250, 3))
+    return np.arange(len(t) + 250) * 0.002, np.concatenate((rest, crv))
+
+
+BAD = {
+    "X and Y swapped": (lambda t, w: (t, w[:, [1, 0, 2]]), HEADER, "E-AXES", "column wy_deg_s", "not about X"),
+    "X and Z swapped": (lambda t, w: (t, w[:, [2, 1, 0]]), HEADER, "E-AXES", "column wz_deg_s", "not about X"),
+    "X of wrong sign": (lambda t, w: (t, -w), HEADER, "E-SIGN", "column wx_deg_s", "must be positive"),
+    "radians called degrees": (lambda t, w: (t, np.radians(w)), HEADER, "E-RADIANS", "column wx_deg_s", "wx_rad_s"),
+    "degrees called radians": (
+        lambda t, w: (t, w),
+        HEADER.replace("deg", "rad"),
+        "E-DEGREES",
+        "column wx_rad_s",
+        "wx_deg_s",
+    ),
+    "swapped and in radians": (
+        lambda t, w: (t, w[:, [1, 0, 2]]),
+        HEADER.replace("deg", "rad"),
+        "E-DEGREES",
+        "column wy_rad_s",
+        "wy_deg_s",
+    ),
+    "millirad called degrees": (lambda t, w: (t, 17.45 * w), HEADER, "E-RATE-SIZE", "column wx_deg_s", "37.3 deg/s"),
+    "too short": (lambda t, w: (t[:300], w[:300]), HEADER, "E-SHORT", "run01.csv", "ends at 0.598"),
+    "channel dead": (lambda t, w: (t, w * [0.0, 1.0, 1.0]), HEADER, "E-STILL", "column wx_deg_s", "all values are 0"),
+    "released late": (late, HEADER, "E-RELEASE", "run01.csv", "hardly moves"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_signal_that_cannot_be(folder, as_table, good_signal, case):
+    change, header, code, where, words = BAD[case]
+    with pytest.raises(InputError) as caught:
+        load_experiment(edited(folder, as_table, good_signal, change, header))
+    assert caught.value.code == code
+    assert str(folder / "run01.csv") in caught.value.where and where in caught.value.where
+    assert words in str(caught.value)
+
+
+def test_turned_block_swings_the_other_way(folder):
+    path = folder / "experiment.toml"
+    path.write_text(path.read_text().replace("block_turned_deg = 180", "block_turned_deg = 0"))
+    with pytest.raises(InputError) as caught:
+        load_experiment(folder)
+    assert caught.value.code == "E-SIGN"
+    assert "run02.csv" in caught.value.where
+
+
+def noisy(t, w):
+    return t, w + 0.4 * np.random.default_rng(5).standard_normal(w.shape) * [0.0, 1.0, 0.0]
+
+
+def spiked(t, w):
+    w = w.copy()
+    w[600, 2] = 80.0
+    return t, w
+
+
+ODD = {
+    "clipped": (lambda t, w: (t, np.clip(w, -30.0, 30.0)), {"W-FLAT-TOP"}, "column wx_deg_s", "at 30 deg/s"),
+    "clipped below": (lambda t, w: (t, np.maximum(w, -28.0)), {"W-FLAT-TOP"}, "column wx_deg_s", "flat bottom"),
+    "axis dead": (lambda t, w: (t, w * [1.0, 1.0, 0.0]), {"W-CONSTANT"}, "column wz_deg_s", "same"),
+    "noisy": (noisy, {"W-NOISE"}, "column wy_deg_s", "0.05"),
+    "spike": (spiked, {"W-SPIKE"}, "column wz_deg_s", "80 deg/s in row 601"),
+    "sampled at 510": (lambda t, w: (t / 1.005, w), {"W-RATE"}, "column t_s", "502.5"),
+}
+
+
+@pytest.mark.parametrize("case", ODD)
+def test_odd_signal_is_said_and_used(folder, as_table, good_signal, case):
+    change, codes, where, words = ODD[case]
+    experiment = load_experiment(edited(folder, as_table, good_signal, change), uses=("fit",))
+    assert {n.code for n in experiment.notices} == codes
+    assert where in experiment.notices[0].where
+    assert words in str(experiment.notices[0])
+    assert experiment.runs[0].loaded
+
+
+def test_first_impact_at_another_time_is_said(folder):
+    path = folder / "experiment.toml"
+    # From 0.06 rad this block comes upright after 0.25 s, at nearly two thirds of the rate.
+    path.write_text(path.read_text().replace("release_tilt_rad = 0.117", "release_tilt_rad = 0.07"))
+    codes = [n.code for n in load_experiment(folder, uses=("fit",)).notices]
+    assert codes == ["W-FIRST-IMPACT"]
+
+
+def test_stated_range_is_watched(folder, as_table, good_signal):
+    path = folder / "experiment.toml"
+    path.write_text(path.read_text().replace("bandwidth_hz", "range_deg_s = 35\nbandwidth_hz"))
+    edited(folder, as_table, good_signal, lambda t, w: (t, np.clip(w, -35.0, 35.0)))
+    experiment = load_experiment(folder, uses=("fit",))
+    assert "W-SATURATED" in {n.code for n in experiment.notices}
+    assert experiment.gyro.range == pytest.approx(math.radians(35.0))
+
+
+def test_closed_forms_of_the_first_swing(rocking):
+    motion = rocking()
+    assert rocking_time(0.117, 0.1, 0.688) == pytest.approx(motion.times[0], rel=1e-12)
+    # Linear in the angle against the full energy: sin and its argument differ by alpha^2/6, 0.35 %.
+    assert rocking_rate(0.117, 0.1, 0.688) == pytest.approx(motion.before[0], rel=4e-3)
