@@ -11,6 +11,7 @@ import numpy as np
 
 from rockref import model_file
 from rockref.effects.base import Effect
+from rockref.effects.catalogue import in_step_order
 from rockref.engines import run
 from rockref.model.errors import InputError
 from rockref.model.geometry import EXTERNAL, INTERNAL, check_cuboid, cuboid_inertia, eight_points, four_points
@@ -125,8 +126,8 @@ class Model:
         return block, points
 
     def active_effects(self) -> tuple[Effect, ...]:
-        """The effects that are not at the value at which they are absent."""
-        return tuple(e for e in self.effects if not e.is_absent())
+        """The effects that are not at the value at which they are absent, in the order of the step."""
+        return in_step_order(e for e in self.effects if not e.is_absent())
 
     def problem(
         self,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import difflib
 import os
 import tomllib
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -180,7 +179,7 @@ def save(model, path: str | os.PathLike) -> None:
         tables["custom_points"] = {"names": c.names, "P_m": c.P, **{k: getattr(c, n) for k, n in PROPERTY_KEYS.items()}}
         if c.radius is not None:
             tables["custom_points"]["radius_m"] = c.radius
-    tables["effects"] = {e.id: {f.name: getattr(e, f.name) for f in fields(e)} for e in model.effects}
+    tables["effects"] = catalogue.to_table(model.effects)
     tables |= {"uncertainty": model.uncertainty, "origin": model.origin}
     for key, value in tables.items():
         if isinstance(value, dict):

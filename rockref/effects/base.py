@@ -2,45 +2,76 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar, NamedTuple
+
+from rockref.model.errors import InputError
+
+#: Least value of a quantity that must be above zero: the smallest normal float64.
+POSITIVE = 2.2250738585072014e-308
+
+#: The methods by which an effect acts, in the order of the step, with the names of their arguments.
+HOOKS = {
+    "points": ("block", "points"),
+    "release": ("block", "points", "state"),
+    "start": ("problem",),
+    "plate_motion": ("t", "m"),
+    "normal_force": ("F", "k", "points", "m"),
+    "friction_coefficient": ("mu_0", "mu", "F_N", "k", "points", "m"),
+    "point_wrench": ("problem", "c", "m"),
+    "body_wrench": ("problem", "c", "x", "Lambda", "v", "W", "m"),
+    "advance": ("problem", "c", "h", "m"),
+    "sensor": ("t", "crv"),
+}
 
 
 class Quantity(NamedTuple):
     """What is known of one parameter of an effect.
 
-    unit; absent: the value at which the effect is not there; low, high: plausible range; typical: typical size;
-    sign: "+" where only one sign is physical, else "any"; meaning: a few words.
+    unit ("1" for a plain number); absent: the value at which the effect is not there; low, high: plausible range;
+    typical: typical size; sign: "+" where only values above the absent one are physical, else "any"; meaning: a few
+    words; least, most: hard limits, beyond which the value is unphysical and refused.
     """
 
     unit: str
-    absent: float
+    absent: float | None
     low: float
     high: float
-    typical: float
+    typical: float | None
     sign: str = "any"
     meaning: str = ""
+    least: float = -math.inf
+    most: float = math.inf
 
 
 @dataclass(frozen=True)
 class Effect:
     """Base of all effects: every hook leaves the law alone. A subclass overrides the one that it changes.
 
-    Class attributes: `id` (appears in files and verdicts), `question` (the folder), `quantities` (one Quantity per
-    parameter), `sentence` (the physics), `equation`, `reference` (with DOI), `confounder` (id), `experiment` (what
-    would tell them apart).
+    Class attributes: `id` (appears in files and verdicts), `file` (of a user's own), `question` (the folder), `quantities` (one Quantity per
+    parameter), `switches` (the parameters that bring the effect in; None: all of them), `sentence` (the physics),
+    `equation` (LaTeX), `reference` (with DOI where there is one), `confounder` (id), `experiment` (what would tell
+    them apart).
     The hooks in the order of the step. Arrays as in the model; `m` is the effect's own memory, whose entries may be
     replaced (never changed in place).
     """
 
     id: ClassVar[str] = "none"
+    file: ClassVar[str | None] = None
     question: ClassVar[str] = ""
     quantities: ClassVar[dict[str, Quantity]] = {}
+    switches: ClassVar[tuple[str, ...] | None] = None
     sentence: ClassVar[str] = ""
     equation: ClassVar[str] = ""
     reference: ClassVar[str] = ""
     confounder: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
+
+    @classmethod
+    def typical(cls) -> Effect:
+        """The effect at its typical size."""
+        return cls(**{name: q.typical for name, q in cls.quantities.items()})
 
     def values(self) -> dict[str, Any]:
         """The parameters by name."""
@@ -48,7 +79,21 @@ class Effect:
 
     def is_absent(self) -> bool:
         """Whether every parameter that can switch the effect off is at the value at which it is absent."""
-        return all(value == self.quantities[name].absent for name, value in self.values().items())
+        names = self.quantities if self.switches is None else self.switches
+        return all(getattr(self, name) == self.quantities[name].absent for name in names)
+
+    def check(self, where: str) -> None:
+        """Refuse values that are no numbers or are unphysical. Raises InputError (E-TYPE, E-RANGE)."""
+        for name, value in self.values().items():
+            q, place = self.quantities[name], f"{where}: {self.id} {name}"
+            if value is None and q.absent is None:
+                continue
+            if isinstance(value, bool) or not isinstance(value, (int, float)) or math.isnan(value):
+                raise InputError("E-TYPE", place, f"is {value!r}", f"Give a number, in {q.unit}.")
+            if value == q.absent:
+                continue
+            if not (math.isfinite(value) and q.least <= value <= q.most):
+                raise InputError("E-RANGE", place, f"is {value!r} {q.unit}", f"Give {limits(q)}.")
 
     def points(self, block, points):
         """Geometry, mass, properties of the points: returns (Block, ContactPoints). Once, before the run."""
@@ -66,9 +111,12 @@ class Effect:
         """None, or displacement and velocity of the plate, two (..., 3) [m, m/s]."""
         return None
 
-    def normal_force(self, F_N, k, points, m):
-        """The normal force (..., n) [N]; k: Kinematics."""
-        return F_N
+    def normal_force(self, F, k, points, m):
+        """Spring and damper of every point, (..., n) [N], K_N xi + C_N xi_rate in the law; k: Kinematics.
+
+        What comes out negative, or belongs to a point above the plate, is cut to zero afterwards.
+        """
+        return F
 
     def friction_coefficient(self, mu_0, mu, F_N, k, points, m):
         """Static and dynamic friction coefficient, two (..., n)."""
@@ -86,5 +134,14 @@ class Effect:
         """Own degrees of freedom, one step h further: replaces entries of m."""
 
     def sensor(self, t, crv):
-        """What the gyroscope makes of the crv, (N, 3) [rad/s] at t (N,) [s]."""
+        """What the gyroscope makes of the crv, (..., N, 3) [rad/s] at the instants t (N,) [s]."""
         return crv
+
+
+def limits(q: Quantity) -> str:
+    """What a quantity may be, in words: the hard limits, then the plausible range."""
+    unit = "" if q.unit == "1" else f" {q.unit}"
+    low = "above 0" if q.least == POSITIVE else f"of at least {q.least:g}{unit}" if math.isfinite(q.least) else ""
+    high = f"of at most {q.most:g}{unit}" if math.isfinite(q.most) else ""
+    hard = " and ".join(a for a in (low, high) if a) or "that is finite"
+    return f"a number {hard}; plausible is {q.low:g} to {q.high:g}{unit}"

@@ -1,12 +1,199 @@
-"""All effects by id."""
+"""All effects by id and by question; effects from words, from tables, and from a user's file."""
 
 from __future__ import annotations
 
+import difflib
+from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
+
 from rockref.effects.base import Effect
+from rockref.effects.contact.adhesion import Adhesion
+from rockref.effects.contact.hertzian_contact import HertzianContact
+from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
+from rockref.effects.contact.hysteretic_contact import HystereticContact
+from rockref.effects.contact.none import NoContactEffect
+from rockref.effects.contact.uneven_foot_damping import UnevenFootDamping
+from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
+from rockref.effects.friction.load_dependent_friction import LoadDependentFriction
+from rockref.effects.friction.none import NoFrictionEffect
+from rockref.effects.friction.rolling_resistance import RollingResistance
+from rockref.effects.friction.spin_friction import SpinFriction
+from rockref.effects.friction.stribeck_friction import StribeckFriction
+from rockref.effects.friction.uneven_foot_friction import UnevenFootFriction
+from rockref.effects.friction.viscous_friction import ViscousFriction
+from rockref.effects.loads.base_vibration import BaseVibration
+from rockref.effects.loads.cable_restraint import CableRestraint
+from rockref.effects.loads.lingering_wire_pull import LingeringWirePull
+from rockref.effects.loads.none import NoLoad
+from rockref.effects.loads.plate_tilt import PlateTilt
+from rockref.effects.loads.quadratic_drag import QuadraticDrag
+from rockref.effects.release.none import ReleaseAtRest
+from rockref.effects.release.release_velocity import ReleaseVelocity
+from rockref.effects.sensor.clock_error import ClockError
+from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth
+from rockref.effects.sensor.gyro_drift import GyroDrift
+from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from rockref.effects.sensor.gyro_scale import GyroScale
+from rockref.effects.sensor.none import IdealGyroscope
+from rockref.effects.shape.dimension_deviation import DimensionDeviation
+from rockref.effects.shape.foot_defects import FootDefects
+from rockref.effects.shape.inertia_deviation import InertiaDeviation
+from rockref.effects.shape.mass_eccentricity import MassEccentricity
+from rockref.effects.shape.none import NoShapeEffect
+from rockref.effects.shape.rounded_feet import RoundedFeet
+from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
+from rockref.effects.support.compliant_support import CompliantSupport
+from rockref.effects.support.none import RigidSupport
+from rockref.effects.user import load_user
+from rockref.model.errors import InputError
+
+#: All effects in the order of the step: what makes the body, how it starts, what the plate does, normal force and
+#: friction, loads, and the gyroscope from the sensor to the recorder. Effects act in this order, however they are given.
+IN_STEP_ORDER: tuple[type[Effect], ...] = (
+    FootDefects, DimensionDeviation, RoundedFeet, MassEccentricity, InertiaDeviation,
+    UnevenFootStiffness, UnevenFootDamping, UnevenFootFriction,
+    HertzianContact, HystereticContact, HuntCrossleyContact,
+    StribeckFriction, LoadDependentFriction,
+    Adhesion, ViscousFriction, UnevenContactNormals, SpinFriction, RollingResistance,
+    QuadraticDrag, CableRestraint, LingeringWirePull, BaseVibration, PlateTilt,
+    CompliantSupport, ReleaseVelocity,
+    GyroMisalignment, GyroScale, GyroBandwidth, GyroDrift, GyroSaturation, ClockError,
+)  # fmt: skip
+
+#: Every effect by its id.
+EFFECTS: dict[str, type[Effect]] = {effect.id: effect for effect in IN_STEP_ORDER}
+
+#: The answer "none" to each question, in the order of the questions.
+NONE: dict[str, type[Effect]] = {
+    effect.question: effect
+    for effect in (
+        NoContactEffect, NoFrictionEffect, NoShapeEffect, NoLoad, RigidSupport, ReleaseAtRest, IdealGyroscope,
+    )
+}  # fmt: skip
+
+#: Every question, with its answers; "none" first.
+QUESTIONS: dict[str, tuple[type[Effect], ...]] = {
+    question: (none, *(effect for effect in IN_STEP_ORDER if effect.question == question))
+    for question, none in NONE.items()
+}
+
+__all__ = [
+    "EFFECTS", "IN_STEP_ORDER", "NONE", "QUESTIONS", "find", "from_table", "in_step_order", "load_user", "measured",
+    "parse", "to_table",
+]  # fmt: skip
 
 
-def from_table(where: str, table: dict[str, Any]) -> tuple[Effect, ...]:
-    """Effects from the [effects] table of a model file."""
-    return ()
+def find(id: str, where: str = "effect") -> type[Effect]:
+    """The effect of this id. Raises InputError (E-EFFECT) that suggests the nearest name."""
+    if id in EFFECTS:
+        return EFFECTS[id]
+    near = difflib.get_close_matches(id, EFFECTS, 1)
+    cure = f"Did you mean {near[0]!r}?" if near else "`rockref effects` lists them."
+    raise InputError("E-EFFECT", where, f"there is no effect {id!r}", cure)
+
+
+def make(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
+    """An effect with some parameters given by name. Raises InputError (E-KEY, E-TYPE, E-RANGE)."""
+    for name in given:
+        if name not in kind.quantities:
+            near = difflib.get_close_matches(name, kind.quantities, 1)
+            cure = f"Did you mean {near[0]!r}?" if near else f"It has {', '.join(kind.quantities) or 'none'}."
+            raise InputError("E-KEY", where, f"{kind.id} has no parameter {name!r}", cure)
+    plain = {k: float(v) if isinstance(v, int) and not isinstance(v, bool) else v for k, v in given.items()}
+    effect = kind(**plain)
+    effect.check(where)
+    return effect
+
+
+def parse(text: str, where: str = "--effect") -> Effect:
+    """An effect from words: "quadratic_drag:c=0.4", "gyro_scale:x=1.02,y=0.98", "my_effect.py:Class:a=1".
+
+    Without parameters it has its typical size.
+
+    Raises
+    ------
+    InputError
+        E-EFFECT, E-KEY, E-TYPE, E-RANGE: what cannot be read, with the nearest name or the range.
+    """
+    head, marker, rest = text.partition(".py:")
+    if marker:
+        name, _, words = rest.partition(":")
+        kind = load_user(f"{head}.py:{name}", taken=EFFECTS)
+    else:
+        name, _, words = text.partition(":")
+        kind = find(name.strip(), where)
+    given = {}
+    for word in filter(None, (w.strip() for w in words.split(","))):
+        key, equals, value = word.partition("=")
+        try:
+            given[key.strip()] = float(value)
+        except ValueError as e:
+            what = f"{word!r} is no parameter" if not equals else f"{value.strip()!r} is no number"
+            raise InputError(
+                "E-TYPE", f"{where} {text}", what, f"Write {name}:{'name'}=number, with commas between."
+            ) from e
+    return make(kind, given, f"{where} {text}") if given else kind.typical()
+
+
+def from_table(where: str, table: Any) -> tuple[Effect, ...]:
+    """Effects from the [effects] table of a model file: a sub-table of parameters for each id.
+
+    A user's own effect has `file = "my_effect.py:Class"` in its sub-table, relative to the current folder.
+
+    Raises
+    ------
+    InputError
+        E-EFFECT, E-KEY, E-TYPE, E-RANGE: which entry, what is wrong, the nearest name or the range.
+    """
+    if not isinstance(table, dict):
+        raise InputError("E-TYPE", f"{where}: effects", "is not a table", "Write [effects.quadratic_drag] and c = 0.4.")
+    effects = []
+    for id, given in table.items():
+        place = f"{where}: [effects.{id}]"
+        if not isinstance(given, dict):
+            raise InputError("E-TYPE", place, f"is {given!r}"[:80], f"Write [effects.{id}] and its parameters below.")
+        given = dict(given)
+        file = given.pop("file", None)
+        kind = find(id, place) if file is None else load_user(file, taken=EFFECTS)
+        if kind.id != id:
+            raise InputError(
+                "E-EFFECT", place, f"but the effect in {file} is {kind.id!r}", f"Write [effects.{kind.id}]."
+            )
+        effects.append(make(kind, given, place))
+    return in_step_order(effects)
+
+
+def to_table(effects: Iterable[Effect]) -> dict[str, dict[str, Any]]:
+    """The [effects] table of a model file: what `from_table` reads back to the same effects."""
+    table = {}
+    for effect in effects:
+        values = {name: value for name, value in effect.values().items() if value is not None}
+        table[effect.id] = ({"file": effect.file} if effect.file else {}) | values
+    return table
+
+
+def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
+    """The effects in the order in which they act; a user's own after the built-in ones, as given.
+
+    Raises InputError (E-EFFECT) where one is given twice.
+    """
+    effects = list(effects)
+    ids = [effect.id for effect in effects]
+    for id in ids:
+        if ids.count(id) > 1:
+            raise InputError("E-EFFECT", f"effect {id}", "is given twice", "Give it once, with all its parameters.")
+    rank = {id: i for i, id in enumerate(EFFECTS)}
+    return tuple(sorted(effects, key=lambda effect: rank.get(effect.id, len(rank))))
+
+
+def measured(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
+    """What the gyroscope of these effects shows: crv (..., N, 3) [rad/s] at t (N,) [s], in the order of a real one.
+
+    Misalignment, scale, bandwidth, bias and drift, saturation, clock. Noise and quantisation are not here.
+    """
+    for effect in in_step_order(effects):
+        crv = effect.sensor(t, crv)
+    return crv

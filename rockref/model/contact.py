@@ -63,6 +63,17 @@ def kelvin_voigt(xi: np.ndarray, xi_rate: np.ndarray, K_N: np.ndarray, C_N: np.n
     return np.maximum(K_N * xi + C_N * xi_rate, 0)  # (3.5a)
 
 
+def altered_normal_force(k: Kinematics, points, effects) -> np.ndarray:
+    """Rules N1 and N2 with effects: they change spring and damper before the no-tension cut, which is made once, last.
+
+    effects : pairs of effect and memory  ->  (..., n) [N]. Without a change the bits are those of `kelvin_voigt`.
+    """
+    F = points.K_N * k.xi + points.C_N * k.xi_rate
+    for effect, m in effects:
+        F = effect.normal_force(F, k, points, m)
+    return open_gap(k.xi, np.maximum(F, 0))
+
+
 def open_gap(xi: np.ndarray, F_N: np.ndarray) -> np.ndarray:
     """Rule N2: no normal force where the point is above the plate, xi < 0. All (..., n). Source: (3.5b)."""
     return np.where(xi < 0, 0, F_N)  # (3.5b)

@@ -113,10 +113,11 @@ def evaluate_contact(problem: Problem, state: State, x, Lambda, v, W, turn, t, m
     k = contact.point_kinematics(x, Lambda, v, W, points.P, points.radius, plate)
     u_t = k.u[..., :2]
 
-    F_N = contact.open_gap(k.xi, contact.kelvin_voigt(k.xi, k.xi_rate, points.K_N, points.C_N))
+    if effects:
+        F_N = contact.altered_normal_force(k, points, effects)
+    else:
+        F_N = contact.open_gap(k.xi, contact.kelvin_voigt(k.xi, k.xi_rate, points.K_N, points.C_N))
     mu_0, mu = points.mu_0, points.mu
-    for effect, m in effects:
-        F_N = effect.normal_force(F_N, k, points, m)
     for effect, m in effects:
         mu_0, mu = effect.friction_coefficient(mu_0, mu, F_N, k, points, m)
 

@@ -1,0 +1,1 @@
+"""How the plate pushes back: normal contact."""

@@ -1,0 +1,37 @@
+"""Feet of different damping."""
+
+from dataclasses import dataclass, replace
+
+from rockref.effects.base import Effect, Quantity
+from rockref.effects.feet import of_foot
+
+
+@dataclass(frozen=True)
+class UnevenFootDamping(Effect):
+    """Scales C_N and C_T of the points of each foot.
+
+    Source: one of the scenarios that the model's authors tried before the eight points ("Defects").
+    """
+
+    id = "uneven_foot_damping"
+    question = "contact"
+    quantities = {
+        f"foot{i}": Quantity("1", 1.0, 0.2, 5.0, typical, "any", f"damping of foot {i} over the common one", 0.0)
+        for i, typical in enumerate((0.5, 2.0, 0.6, 1.6), 1)
+    }
+    sentence = "Feet lose different shares of an impact: one on bare steel, another on a film of oil or a shim."
+    equation = r"C^{(N)}_i \to s_i C^{(N)}_i,\quad C^{(T)}_i \to s_i C^{(T)}_i"
+    reference = 'The model\'s source, "Defects", (3.8)'
+    confounder = "uneven_foot_stiffness"
+    experiment = "Turn the block by 180 degrees on the same plate, then swap shims: the loss follows the foot."
+
+    foot1: float = 1.0
+    foot2: float = 1.0
+    foot3: float = 1.0
+    foot4: float = 1.0
+
+    def points(self, block, points):
+        if self.is_absent():
+            return block, points
+        scale = of_foot(points, (self.foot1, self.foot2, self.foot3, self.foot4), self.id)
+        return block, replace(points, C_N=points.C_N * scale, C_T=points.C_T * scale)

@@ -1,0 +1,1 @@
+"""How the plate holds the feet: friction."""

@@ -1,0 +1,37 @@
+"""Feet of different friction."""
+
+from dataclasses import dataclass, replace
+
+from rockref.effects.base import Effect, Quantity
+from rockref.effects.feet import of_foot
+
+
+@dataclass(frozen=True)
+class UnevenFootFriction(Effect):
+    """Scales mu_0 and mu of the points of each foot.
+
+    Source: one of the scenarios that the model's authors tried before the eight points ("Defects").
+    """
+
+    id = "uneven_foot_friction"
+    question = "friction"
+    quantities = {
+        f"foot{i}": Quantity("1", 1.0, 0.4, 2.5, typical, "any", f"friction of foot {i} over the common one", 0.0)
+        for i, typical in enumerate((0.7, 1.3, 0.85, 1.15), 1)
+    }
+    sentence = "A foot that is polished, worn or oily holds less than its neighbours."
+    equation = r"\mu_i \to s_i\,\mu_i"
+    reference = 'The model\'s source, "Defects"'
+    confounder = "uneven_foot_stiffness"
+    experiment = "Turn the block by 180 degrees on the same plate; clean one foot at a time."
+
+    foot1: float = 1.0
+    foot2: float = 1.0
+    foot3: float = 1.0
+    foot4: float = 1.0
+
+    def points(self, block, points):
+        if self.is_absent():
+            return block, points
+        scale = of_foot(points, (self.foot1, self.foot2, self.foot3, self.foot4), self.id)
+        return block, replace(points, mu_0=points.mu_0 * scale, mu=points.mu * scale)

@@ -1,0 +1,1 @@
+"""What else pulls and pushes: loads."""

@@ -1,0 +1,47 @@
+"""A floor that shakes."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.effects.base import Effect, Quantity
+
+
+@dataclass(frozen=True)
+class BaseVibration(Effect):
+    """An inertial force -m A cos(2 pi f t + phase) at the centre of mass, along a horizontal direction.
+
+    The equations are those of the plate's own axes, which accelerate. Simplified: one tone; each run has a phase of its
+    own, since the floor does not know when the wire lets go.
+    """
+
+    id = "base_vibration"
+    question = "loads"
+    quantities = {
+        "amplitude": Quantity("m/s2", 0.0, 1e-3, 0.5, 0.1, "any", "of the base's acceleration"),
+        "frequency": Quantity("Hz", 10.0, 1.0, 60.0, 10.0, "+", "of the base's motion", 0.0),
+        "direction": Quantity("rad", 0.0, -math.pi, math.pi, 0.0, "any", "0: along y of the laboratory, pi/2: along x"),
+        "phase": Quantity("rad", 0.0, -math.pi, math.pi, 0.0, "any", "at t = 0; its own in every run"),
+    }
+    switches = ("amplitude",)
+    sentence = "Traffic, pumps or the table's own control shake the plate, and the block feels it as an inertial force."
+    equation = r"F = -m A\cos(2\pi f t + \varphi)\,(\sin d,\ \cos d,\ 0)"
+    reference = (
+        "C.-S. Yim, A. K. Chopra, J. Penzien (1980), Earthquake Eng. Struct. Dyn. 8:565-587, doi:10.1002/eqe.4290080606"
+    )
+    confounder = "gyro_drift"
+    experiment = "Put an accelerometer on the plate, record at rest, repeat at night: it is not locked to the release."
+
+    amplitude: float = 0.0
+    frequency: float = 10.0
+    direction: float = 0.0
+    phase: float = 0.0
+
+    def body_wrench(self, problem, c, x, Lambda, v, W, m):
+        if self.is_absent():
+            return None
+        size = -problem.block.mass * self.amplitude * math.cos(2 * math.pi * self.frequency * c.t + self.phase)
+        F = np.zeros_like(x)
+        F[..., 0], F[..., 1] = size * math.sin(self.direction), size * math.cos(self.direction)
+        return F, np.zeros_like(x)

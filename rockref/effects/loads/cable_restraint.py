@@ -1,0 +1,44 @@
+"""The sensor's cable."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.effects.base import Effect, Quantity
+from rockref.effects.loads.attachment import arm, half_height, velocity_at
+from rockref.model.rotation import cross
+
+
+@dataclass(frozen=True)
+class CableRestraint(Effect):
+    """A horizontal spring and damper from the body point (0, 0, height) to a fixed point above the plate's origin.
+
+    Without `height` the cable holds the top, as far above the centre of mass as the base is below. Simplified: no weight
+    of the cable, no vertical part, no friction inside it.
+    """
+
+    id = "cable_restraint"
+    question = "loads"
+    quantities = {
+        "k": Quantity("N/m", 0.0, 0.05, 20.0, 5.0, "+", "stiffness of the cable", 0.0),
+        "c": Quantity("N s/m", 0.0, 0.01, 2.0, 0.3, "+", "damping of the cable", 0.0),
+        "height": Quantity("m", None, 0.0, 0.5, None, "any", "of the attachment, above the centre of mass"),
+    }
+    switches = ("k", "c")
+    sentence = "The cable to the sensor pulls the block back toward the middle and damps it at the top."
+    equation = r"F_{xy} = -k\,(p_{xy} - 0) - c\,\dot p_{xy},\quad p = x + \Lambda\,(0,0,z_c)"
+    reference = "Linear spring and damper, as in any textbook of vibrations; no source needed"
+    confounder = "quadratic_drag"
+    experiment = "Take the cable off (a logger on the block), or lead it another way: only this effect changes."
+
+    k: float = 0.0
+    c: float = 0.0
+    height: float | None = None
+
+    def body_wrench(self, problem, c, x, Lambda, v, W, m):
+        if self.is_absent():
+            return None
+        r = arm(Lambda, half_height(problem.points) if self.height is None else self.height)
+        F = -self.k * (x + r) - self.c * velocity_at(r, Lambda, v, W)
+        F[..., 2] = 0
+        return F, cross(r, F)

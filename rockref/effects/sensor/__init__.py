@@ -1,0 +1,1 @@
+"""What the gyroscope makes of the crv: sensor."""

@@ -1,0 +1,34 @@
+"""A gyroscope that is not square to the block."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.effects.base import Effect, Quantity
+from rockref.model.rotation import apply, exponential
+
+
+@dataclass(frozen=True)
+class GyroMisalignment(Effect):
+    """The measured crv is R crv, with R the rotation by the vector (x, y, z) (exponential, no small-angle form)."""
+
+    id = "gyro_misalignment"
+    question = "sensor"
+    quantities = {
+        axis: Quantity("rad", 0.0, -0.1, 0.1, typical, "any", f"rotation vector of the sensor, {axis}", -3.2, 3.2)
+        for axis, typical in (("x", 0.03), ("y", 0.03), ("z", -0.03))
+    }
+    sentence = "A sensor glued on slightly turned shows a part of one rate in the channel of another."
+    equation = r"W_m = \exp(\hat r)\,W"
+    reference = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
+    confounder = "release_velocity"
+    experiment = "Mount the sensor turned by 90 degrees: does the signal follow the sensor or the block?"
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+
+    def sensor(self, t, crv):
+        if self.is_absent():
+            return crv
+        return apply(exponential(np.array((self.x, self.y, self.z), crv.dtype)), crv)

@@ -1,0 +1,1 @@
+"""What the block is: contact points, centre of mass, inertia, sides."""

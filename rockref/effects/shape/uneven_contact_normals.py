@@ -1,0 +1,52 @@
+"""Feet that do not stand square on the plate."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.effects.base import Effect, Quantity
+from rockref.effects.feet import of_foot
+from rockref.model import assembly
+
+
+@dataclass(frozen=True)
+class UnevenContactNormals(Effect):
+    """The normal at foot i is (x_i, y_i, 1), in plate axes: a further force F_N (x_i, y_i, 0) at its points.
+
+    First order in the angles. Simplified: penetration and friction keep to the flat plate; so a foot that slides along
+    its own slope gains or loses energy that a real slope would take from its height. Angles belong to the place on the
+    plate where the foot stands, and are not turned with the block.
+    Source: one of the scenarios that the model's authors tried before the eight points ("Defects").
+    """
+
+    id = "uneven_contact_normals"
+    question = "shape"
+    quantities = {
+        f"{axis}{i}": Quantity(
+            "rad", 0.0, -0.05, 0.05, typical[j], "any", f"tilt of the normal at foot {i} toward {axis}", -0.5, 0.5
+        )
+        for i, typical in enumerate(((0.01, -0.01), (-0.01, 0.005), (0.005, 0.01), (-0.005, -0.01)), 1)
+        for j, axis in enumerate("xy")
+    }
+    sentence = "Scratches and chamfers turn the plate's push a little sideways, differently at each foot."
+    equation = r"F_i \to F_i + F_i^{(N)}\,(x_i,\ y_i,\ 0)"
+    reference = 'The model\'s source, "Defects"'
+    confounder = "uneven_foot_friction"
+    experiment = "Move the block to another place on the plate, then turn it by 180 degrees in the same place."
+
+    x1: float = 0.0
+    y1: float = 0.0
+    x2: float = 0.0
+    y2: float = 0.0
+    x3: float = 0.0
+    y3: float = 0.0
+    x4: float = 0.0
+    y4: float = 0.0
+
+    def point_wrench(self, problem, c, m):
+        if self.is_absent():
+            return None
+        F = np.zeros_like(c.F)
+        F[..., 0] = c.F_N * of_foot(problem.points, (self.x1, self.x2, self.x3, self.x4), self.id)
+        F[..., 1] = c.F_N * of_foot(problem.points, (self.y1, self.y2, self.y3, self.y4), self.id)
+        return assembly.sum_over_points(F), assembly.resultant_moment(c.k.r, F)

@@ -1,0 +1,1 @@
+"""What the plate stands on: support."""

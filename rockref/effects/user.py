@@ -1,0 +1,133 @@
+"""A user's own effect: loaded from his file, and looked over, so that a mistake is explained to him at once."""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import importlib.util
+import inspect
+import sys
+from collections.abc import Container
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from types import ModuleType
+
+from rockref.effects.base import HOOKS, Effect, Quantity
+from rockref.effects.probe import probe
+from rockref.model.errors import InputError
+
+HELP = "See examples/my_effect.py."
+
+
+def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
+    """The effect class that "path/to/file.py:Class" names, looked over and tried once.
+
+    taken : ids that it must not have.
+
+    Raises
+    ------
+    InputError
+        E-FILE, where the file cannot be run; E-EFFECT, where the class is not an effect that can be used: what is
+        wrong and what to write.
+    """
+    path, _, name = spec.rpartition(":")
+    if not path.endswith(".py") or not name.isidentifier():
+        raise InputError("E-EFFECT", spec, "names no class in a file", "Write path/to/file.py:Class.")
+    module = run_file(Path(path))
+    kind = getattr(module, name, None)
+    if kind is None:
+        classes = [
+            n for n, c in vars(module).items() if inspect.isclass(c) and issubclass(c, Effect) and c is not Effect
+        ]
+        raise InputError(
+            "E-EFFECT", spec, f"there is no class {name!r} in it", f"It has {', '.join(classes) or 'none'}."
+        )
+    if not (inspect.isclass(kind) and issubclass(kind, Effect)):
+        raise InputError("E-EFFECT", spec, f"{name} is not an Effect", f"Write class {name}(Effect). {HELP}")
+    kind.file = spec
+    check_class(kind, spec)
+    if kind.id in taken:
+        raise InputError("E-EFFECT", spec, f"the id {kind.id!r} is that of a built-in effect", "Choose another id.")
+    probe(kind.typical(), spec)
+    return kind
+
+
+def run_file(path: Path) -> ModuleType:
+    """Run a Python file as a module of its own. Raises InputError (E-FILE) that names its line."""
+    try:
+        source = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as e:
+        raise InputError("E-FILE", str(path), f"cannot be read ({e})", "Check the path.") from e
+    try:
+        ast.parse(source)
+    except SyntaxError as e:
+        raise InputError("E-FILE", f"{path}, line {e.lineno}", f"is not valid Python: {e.msg}", "Mend the line.") from e
+    name = f"rockref_user_effect_{path.stem}"
+    module_spec = importlib.util.spec_from_file_location(name, path)
+    assert module_spec is not None and module_spec.loader is not None
+    module = importlib.util.module_from_spec(module_spec)
+    sys.modules[name] = module  # dataclasses look their module up there
+    try:
+        module_spec.loader.exec_module(module)
+    except Exception as e:
+        line = e.__traceback__
+        while line is not None and line.tb_next is not None:
+            line = line.tb_next
+        where = f"{path}, line {line.tb_lineno}" if line is not None else str(path)
+        raise InputError("E-FILE", where, f"fails when it is run: {type(e).__name__}: {e}", "Mend the line.") from e
+    return module
+
+
+def check_class(kind: type[Effect], spec: str) -> None:
+    """Refuse a class that says too little or has a hook that nobody calls. Raises InputError (E-EFFECT)."""
+
+    def refuse(what: str, cure: str):
+        return InputError("E-EFFECT", spec, what, f"{cure} {HELP}")
+
+    if not is_dataclass(kind) or "__dataclass_params__" not in vars(kind):
+        raise refuse("is not a dataclass", "Write @dataclass(frozen=True) above the class.")
+    if not vars(kind)["__dataclass_params__"].frozen:
+        raise refuse("is not frozen", "Write @dataclass(frozen=True) above the class.")
+    if not kind.id.isidentifier() or kind.id == "none":
+        raise refuse(f"has the id {kind.id!r}", 'Write id = "my_effect", a name of letters, digits and underscores.')
+    names = [f.name for f in fields(kind)]
+    for name in names:
+        if name not in kind.quantities:
+            cure = f'Write quantities = {{"{name}": Quantity("N", absent=0.0, low=..., high=..., typical=...)}}.'
+            raise refuse(f"parameter {name!r} has no quantity", cure)
+    for name, quantity in kind.quantities.items():
+        if name not in names:
+            raise refuse(f"quantity {name!r} belongs to no parameter", f"Write {name}: float = ... in the class.")
+        if not isinstance(quantity, Quantity):
+            raise refuse(f"quantity {name!r} is {quantity!r}", 'Write Quantity("N", 0.0, 0.1, 10.0, 1.0).')
+        if not isinstance(quantity.unit, str) or not quantity.unit.strip():
+            raise refuse(f"parameter {name!r} has no unit", 'Give one, for example "N s/m", or "1" for a plain number.')
+    try:
+        absent = kind()
+    except TypeError as e:
+        raise refuse(
+            f"cannot be made without parameters ({e})", "Give every parameter its absent value as default."
+        ) from e
+    if names and not absent.is_absent():
+        raise refuse("is not absent by default", "Make the default of each parameter the absent value of its quantity.")
+    check_hooks(kind, refuse)
+
+
+def check_hooks(kind: type[Effect], refuse) -> None:
+    """Refuse hooks with a wrong name or wrong arguments, and a class without any."""
+    own = {
+        n: f for c in kind.__mro__[: kind.__mro__.index(Effect)] for n, f in vars(c).items() if inspect.isfunction(f)
+    }
+    for name in own:
+        near = difflib.get_close_matches(name, HOOKS, 1, cutoff=0.75)
+        if name not in HOOKS and near:
+            raise refuse(f"method {name!r} is no hook: nobody would call it", f"Did you mean {near[0]!r}?")
+    hooks = [name for name in own if name in HOOKS]
+    if not hooks:
+        raise refuse("changes nothing", f"Write one of the methods {', '.join(HOOKS)}.")
+    for name in hooks:
+        wanted = len(HOOKS[name])
+        given = list(inspect.signature(own[name]).parameters)[1:]
+        if len(given) != wanted:
+            what = f"{name} takes ({', '.join(given)})"
+            raise refuse(what, f"Write def {name}(self, {', '.join(HOOKS[name])}).")
