@@ -49,10 +49,10 @@ class Quantity(NamedTuple):
 class Effect:
     """Base of all effects: every hook leaves the law alone. A subclass overrides the one that it changes.
 
-    Class attributes: `id` (appears in files and verdicts), `file` (of a user's own), `question` (the folder), `quantities` (one Quantity per
-    parameter), `switches` (the parameters that bring the effect in; None: all of them), `sentence` (the physics),
-    `equation` (LaTeX), `reference` (with DOI where there is one), `confounder` (id), `experiment` (what would tell
-    them apart).
+    Class attributes: `id` (appears in files and verdicts), `file` (of a user's own), `question` (the folder),
+    `quantities` (one Quantity per parameter), `switches` (the parameters that bring the effect in; None: all of them),
+    `sentence` (the physics), `equation` (LaTeX), `source` (with DOI where there is one), `confounder` (id),
+    `experiment` (what would tell them apart).
     The hooks in the order of the step. Arrays as in the model; `m` is the effect's own memory, whose entries may be
     replaced (never changed in place).
     """
@@ -64,7 +64,7 @@ class Effect:
     switches: ClassVar[tuple[str, ...] | None] = None
     sentence: ClassVar[str] = ""
     equation: ClassVar[str] = ""
-    reference: ClassVar[str] = ""
+    source: ClassVar[str] = ""
     confounder: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
 

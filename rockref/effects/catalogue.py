@@ -50,8 +50,8 @@ from rockref.effects.support.none import RigidSupport
 from rockref.effects.user import load_user
 from rockref.model.errors import InputError
 
-#: All effects in the order of the step: what makes the body, how it starts, what the plate does, normal force and
-#: friction, loads, and the gyroscope from the sensor to the recorder. Effects act in this order, however they are given.
+#: All effects in the order in which they act, however they are given: what makes the body, normal force and friction,
+#: forces of the points, loads, the plate, the release, and the gyroscope from the sensor to the recorder.
 IN_STEP_ORDER: tuple[type[Effect], ...] = (
     FootDefects, DimensionDeviation, RoundedFeet, MassEccentricity, InertiaDeviation,
     UnevenFootStiffness, UnevenFootDamping, UnevenFootFriction,

@@ -9,7 +9,7 @@ from rockref.model.problem import ContactPoints
 
 
 def foot_numbers(points: ContactPoints, effect: str) -> np.ndarray:
-    """Foot of every point, 0 to 3, (n,). Raises InputError (E-FEET) for a point whose name does not begin with 1 to 4."""
+    """Foot of every point, 0 to 3, (n,). Raises InputError (E-FEET) for a name that does not begin with 1 to 4."""
     for name in points.names:
         if name[:1] not in ("1", "2", "3", "4"):
             raise InputError(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from dataclasses import is_dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from rockref.model.errors import InputError
 from rockref.model.geometry import EXTERNAL, INTERNAL, cuboid_inertia, eight_points
 from rockref.model.integrator import evaluate_contact
 from rockref.model.parameters import BLOCK, Parameters, point_properties
-from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, as_arrays, stack
+from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, State, as_arrays, stack
 from rockref.model.release import release_posture
 
 
@@ -59,7 +59,7 @@ def probe(effect: Effect, spec: str) -> None:
     for key in ("K_N", "K_T", "C_N", "C_T", "mu_0", "mu"):
         numbers(spec, "points", key, getattr(points, key), (points.n,))
     state = call(effect, spec, "release", block, points, single.start)
-    if not is_dataclass(state) or not hasattr(state, "Lambda"):
+    if not isinstance(state, State):
         raise wrong(spec, "release", f"gives back {type(state).__name__}", "Return dataclasses.replace(state, ...).")
     numbers(spec, "release", "W", state.W, (3,))
     crv = call(effect, spec, "sensor", np.arange(50) / 2000, np.full((50, 3), 0.1))

@@ -92,6 +92,8 @@ def check_class(kind: type[Effect], spec: str) -> None:
         raise refuse(f"has the id {kind.id!r}", 'Write id = "my_effect", a name of letters, digits and underscores.')
     names = [f.name for f in fields(kind)]
     for name in names:
+        if hasattr(Effect, name):
+            raise refuse(f"parameter {name!r} hides what every effect has under that name", "Choose another name.")
         if name not in kind.quantities:
             cure = f'Write quantities = {{"{name}": Quantity("N", absent=0.0, low=..., high=..., typical=...)}}.'
             raise refuse(f"parameter {name!r} has no quantity", cure)

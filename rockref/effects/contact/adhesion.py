@@ -26,7 +26,7 @@ class Adhesion(Effect):
     switches = ("force",)
     sentence = "Magnetism, an oil film or clean metal hold the feet down until they are some micrometres off the plate."
     equation = r"F_z = -F_a\,\mathrm{clip}(1 + \xi/d_a,\ 0,\ 1)"
-    reference = (
+    source = (
         "B. V. Derjaguin, V. M. Muller, Y. P. Toporov (1975), J. Colloid Interface Sci. 53:314-326, "
         "doi:10.1016/0021-9797(75)90018-1 (pull of the surface outside the contact; here with a linear fade)"
     )

@@ -27,7 +27,7 @@ class HertzianContact(Effect):
     switches = ("exponent",)
     sentence = "Curved or rough faces touch over an area that grows with the load, so the contact stiffens with depth."
     equation = r"F^{(N)} = \max\!\left(K^{(N)} x_0 (\xi/x_0)^p + C^{(N)}\dot\xi,\ 0\right)"
-    reference = (
+    source = (
         "H. Hertz (1882), J. reine angew. Math. 92:156-171, doi:10.1515/crll.1882.92.156; "
         "K. L. Johnson (1985), Contact Mechanics, ch. 4, doi:10.1017/CBO9781139171731"
     )

@@ -18,7 +18,7 @@ class HuntCrossleyContact(Effect):
     quantities = {"a": Quantity("s/m", 0.0, 0.02, 5.0, 0.5, "+", "damping per stiffness and depth", 0.0)}
     sentence = "Material damping acts in the area that touches, so it grows with depth and begins at zero."
     equation = r"F^{(N)} = \max\!\left(K^{(N)}\xi\,(1 + a\,\dot\xi) + C^{(N)}\dot\xi,\ 0\right)"
-    reference = "K. H. Hunt, F. R. E. Crossley (1975), J. Appl. Mech. 42:440-445, doi:10.1115/1.3423596"
+    source = "K. H. Hunt, F. R. E. Crossley (1975), J. Appl. Mech. 42:440-445, doi:10.1115/1.3423596"
     confounder = "hertzian_contact"
     experiment = "Releases from 0.02 to 0.13 rad: the loss at an impact grows faster than with the square of its speed."
 

@@ -25,11 +25,11 @@ class HystereticContact(Effect):
         r"F_{el} = \max(\min(K^{(N)}\xi,\ K^{(N)}(1+\kappa)(\xi-\xi_p)),\,0),\quad "
         r"\xi_p = \tfrac{\kappa}{1+\kappa}\,\xi_{max}"
     )
-    reference = "O. R. Walton, R. L. Braun (1986), J. Rheol. 30:949-980, doi:10.1122/1.549893"
+    source = "O. R. Walton, R. L. Braun (1986), J. Rheol. 30:949-980, doi:10.1122/1.549893"
     confounder = "uneven_foot_damping"
     experiment = (
-        "Impacts over a wide range of speeds: this loss is the same share of the energy at every speed and every contact "
-        "duration; a damper's changes with added mass."
+        "Add mass on top: this loss is the same share of an impact's energy at every speed and every contact duration; "
+        "a damper's share changes."
     )
 
     kappa: float = 0.0

@@ -21,7 +21,7 @@ class UnevenFootDamping(Effect):
     }
     sentence = "Feet lose different shares of an impact: one on bare steel, another on a film of oil or a shim."
     equation = r"C^{(N)}_i \to s_i C^{(N)}_i,\quad C^{(T)}_i \to s_i C^{(T)}_i"
-    reference = 'The model\'s source, "Defects", (3.8)'
+    source = 'The model\'s source, "Defects", (3.8)'
     confounder = "uneven_foot_stiffness"
     experiment = "Turn the block by 180 degrees on the same plate, then swap shims: the loss follows the foot."
 

@@ -21,7 +21,7 @@ class UnevenFootStiffness(Effect):
     }
     sentence = "A foot on a softer spot, or with a smaller face, yields more under the same load."
     equation = r"K^{(N)}_i \to s_i K^{(N)}_i,\quad K^{(T)}_i \to s_i K^{(T)}_i"
-    reference = 'The model\'s source, "Defects"; K. L. Johnson (1985), Contact Mechanics, doi:10.1017/CBO9781139171731'
+    source = 'The model\'s source, "Defects"; K. L. Johnson (1985), Contact Mechanics, doi:10.1017/CBO9781139171731'
     confounder = "uneven_foot_friction"
     experiment = "Turn the block by 180 degrees on the same plate: what belongs to the feet turns with it. Swap shims."
 

@@ -31,7 +31,7 @@ class LoadDependentFriction(Effect):
     switches = ("exponent",)
     sentence = "The true area of contact grows more slowly than the load, so the coefficient falls as the load rises."
     equation = r"\mu \to \mu\,(F^{(N)}/F_0)^{-p}"
-    reference = (
+    source = (
         "J. F. Archard (1957), Elastic deformation and the laws of friction, Proc. R. Soc. Lond. A 243:190-205, "
         "doi:10.1098/rspa.1957.0214 (area between load^(2/3), one smooth contact, and load^1, many)"
     )

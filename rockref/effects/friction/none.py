@@ -14,4 +14,4 @@ class NoFrictionEffect(Effect):
         "Coulomb's cone with a stick spring and damper, radial return, no resistance to turning (rules T1 to T6)."
     )
     equation = r"\|F^{(T)}\| \le \mu F^{(N)}"
-    reference = "The model's source, (3.6)"
+    source = "The model's source, (3.6)"

@@ -25,12 +25,14 @@ class RollingResistance(Effect):
     }
     sentence = "The face under a turning edge presses harder ahead than behind, so the centre of pressure runs ahead."
     equation = r"M_{xy} = -\,a\,F^{(N)}\,\omega_{xy}/\|\omega_{xy}\| \quad\text{(spring and return)}"
-    reference = (
-        "J. Ai, J.-F. Chen, J. M. Rotter, J. Y. Ooi (2011), Assessment of rolling resistance models in discrete element "
-        "simulations, Powder Technol. 206:269-282, doi:10.1016/j.powtec.2010.09.030"
+    source = (
+        "J. Ai, J.-F. Chen, J. M. Rotter, J. Y. Ooi (2011), Assessment of rolling resistance models in discrete "
+        "element simulations, Powder Technol. 206:269-282, doi:10.1016/j.powtec.2010.09.030"
     )
     confounder = "quadratic_drag"
-    experiment = "Change the edge (sharp, rounded, hardened shim) or add mass on top: this loss follows load and edge, not speed."
+    experiment = (
+        "Change the edge (sharp, rounded, hardened shim) or add mass: this loss follows load and edge, not speed."
+    )
 
     lever: float = 0.0
 

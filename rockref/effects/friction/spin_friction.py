@@ -22,7 +22,7 @@ class SpinFriction(Effect):
     quantities = {"radius": Quantity("m", 0.0, 2e-4, 5e-3, 2e-3, "+", "lever of the friction in the contact face", 0.0)}
     sentence = "A contact has a face, not a point: its rim rubs when the block turns on it about the vertical."
     equation = r"M_z = -\,r\,\mu F^{(N)}\,\mathrm{sign}(\omega_z) \quad\text{(spring and return)}"
-    reference = (
+    source = (
         "R. I. Leine, C. Glocker (2003), A set-valued force law for spatial Coulomb-Contensou friction, "
         "Eur. J. Mech. A/Solids 22:193-216, doi:10.1016/S0997-7538(03)00025-1"
     )

@@ -25,7 +25,7 @@ class StribeckFriction(Effect):
     switches = ("ratio",)
     sentence = "Surfaces at rest interlock or squeeze out their film; sliding parts them, so friction falls with speed."
     equation = r"\mu \to \mu\left[1 + (\rho - 1)\,e^{-(\|v_s\|/v_0)^2}\right]"
-    reference = (
+    source = (
         "B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit (1994), Automatica 30:1083-1138, "
         "doi:10.1016/0005-1098(94)90209-7"
     )

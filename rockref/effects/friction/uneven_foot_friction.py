@@ -21,7 +21,7 @@ class UnevenFootFriction(Effect):
     }
     sentence = "A foot that is polished, worn or oily holds less than its neighbours."
     equation = r"\mu_i \to s_i\,\mu_i"
-    reference = 'The model\'s source, "Defects"'
+    source = 'The model\'s source, "Defects"'
     confounder = "uneven_foot_stiffness"
     experiment = "Turn the block by 180 degrees on the same plate; clean one foot at a time."
 

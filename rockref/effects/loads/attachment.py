@@ -6,7 +6,7 @@ from rockref.model.rotation import apply, cross
 
 
 def half_height(points):
-    """Height of the centre of mass above the base, -min(P_z), (...) [m]: the top of a uniform block is as far above it."""
+    """Height of the centre of mass above the base, -min(P_z), (...) [m]; the top of a uniform block is as far away."""
     return -np.min(points.P[..., 2], axis=-1)
 
 

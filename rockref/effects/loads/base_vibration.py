@@ -27,7 +27,7 @@ class BaseVibration(Effect):
     switches = ("amplitude",)
     sentence = "Traffic, pumps or the table's own control shake the plate, and the block feels it as an inertial force."
     equation = r"F = -m A\cos(2\pi f t + \varphi)\,(\sin d,\ \cos d,\ 0)"
-    reference = (
+    source = (
         "C.-S. Yim, A. K. Chopra, J. Penzien (1980), Earthquake Eng. Struct. Dyn. 8:565-587, doi:10.1002/eqe.4290080606"
     )
     confounder = "gyro_drift"

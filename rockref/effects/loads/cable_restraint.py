@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.loads.attachment import arm, half_height, velocity_at
 from rockref.model.rotation import cross
@@ -11,10 +9,10 @@ from rockref.model.rotation import cross
 
 @dataclass(frozen=True)
 class CableRestraint(Effect):
-    """A horizontal spring and damper from the body point (0, 0, height) to a fixed point above the plate's origin.
+    """A horizontal spring and damper from the body point (0, 0, height) to a point fixed above the plate's origin.
 
-    Without `height` the cable holds the top, as far above the centre of mass as the base is below. Simplified: no weight
-    of the cable, no vertical part, no friction inside it.
+    Without `height` the cable holds the top, as far above the centre of mass as the base is below. Simplified: no
+    weight of the cable, no vertical part, no friction inside it.
     """
 
     id = "cable_restraint"
@@ -27,7 +25,7 @@ class CableRestraint(Effect):
     switches = ("k", "c")
     sentence = "The cable to the sensor pulls the block back toward the middle and damps it at the top."
     equation = r"F_{xy} = -k\,(p_{xy} - 0) - c\,\dot p_{xy},\quad p = x + \Lambda\,(0,0,z_c)"
-    reference = "Linear spring and damper, as in any textbook of vibrations; no source needed"
+    source = "Linear spring and damper, as in any textbook of vibrations; no source needed"
     confounder = "quadratic_drag"
     experiment = "Take the cable off (a logger on the block), or lead it another way: only this effect changes."
 

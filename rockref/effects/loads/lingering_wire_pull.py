@@ -26,7 +26,7 @@ class LingeringWirePull(Effect):
     switches = ("force",)
     sentence = "A latch that sticks or a wire that burns through holds the block back for a moment after release."
     equation = r"F_y = F_w\,e^{-t/\tau}\ \text{at}\ x + \Lambda(0,0,h/2)"
-    reference = "A load decided here; the release by a wire is in the model's source, section 3.3"
+    source = "A load decided here; the release by a wire is in the model's source, section 3.3"
     confounder = "release_velocity"
     experiment = "Cut the wire in another way (burn, electromagnet) and film the release: later arcs stay as they were."
 

@@ -12,4 +12,4 @@ class NoLoad(Effect):
     question = "loads"
     sentence = "The weight alone, along e_z (rule A1)."
     equation = r"F = \sum_i F_i - m g\,e_z"
-    reference = "The model's source, section 3.3"
+    source = "The model's source, section 3.3"

@@ -9,7 +9,7 @@ from rockref.effects.loads.attachment import half_height
 from rockref.model import assembly
 from rockref.model.rotation import apply, cross, dot
 
-#: Slices of the height; decided: with 16 the moment of a block that turns about its base is within 0.2 % of the integral.
+#: Slices of the height; decided: with 16 the moment on a block that turns about its base is 0.2 % from the integral.
 SLICES = 16
 #: Centres of the slices, in parts of half the height, (SLICES, 1).
 CENTRES = ((2 * np.arange(SLICES) + 1) / SLICES - 1)[:, None]
@@ -28,7 +28,7 @@ class QuadraticDrag(Effect):
     quantities = {"c": Quantity("N s2/m2", 0.0, 0.02, 1.0, 0.4, "+", "drag over speed squared, whole height", 0.0)}
     sentence = "Air in front of the moving faces is pushed aside; bare the block hardly feels it, with a sail it does."
     equation = r"F = -\sum_{k=1}^{16} \tfrac{c}{16}\,\|v_k\|\,v_k,\quad c = \tfrac12\rho\,C_d A"
-    reference = "G. K. Batchelor (1967), An Introduction to Fluid Dynamics, doi:10.1017/CBO9780511800955"
+    source = "G. K. Batchelor (1967), An Introduction to Fluid Dynamics, doi:10.1017/CBO9780511800955"
     confounder = "cable_restraint"
     experiment = (
         "Fix a sail of cardboard, ten times the face; or compare large with small swings: drag goes with speed cubed."

@@ -12,4 +12,4 @@ class ReleaseAtRest(Effect):
     question = "release"
     sentence = "At rest, in equilibrium with the wire, both pivot points touching with half the weight each (decided)."
     equation = r"v = 0,\quad W = 0"
-    reference = "The model's source says only that the block is released by a wire"
+    source = "The model's source says only that the block is released by a wire"

@@ -25,7 +25,7 @@ class ReleaseVelocity(Effect):
     }
     sentence = "A wire that snaps or a hand that steadies leaves the block turning when it is let go."
     equation = r"W(0) = (x, y, z),\quad v(0) = -\omega \times r_{pivot}"
-    reference = "Kinematics of a turning body; no source needed"
+    source = "Kinematics of a turning body; no source needed"
     confounder = "lingering_wire_pull"
     experiment = "Film the release, or release by an electromagnet: repeats of one run then agree in their first arc."
 

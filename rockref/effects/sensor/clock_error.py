@@ -23,7 +23,10 @@ class ClockError(Effect):
     }
     sentence = "A cheap oscillator runs fast or slow, so the whole record is stretched or squeezed in time."
     equation = r"W_m(t) = W(\eta\,t)"
-    reference = "D. W. Allan (1966), Statistics of atomic frequency standards, Proc. IEEE 54:221-230, doi:10.1109/PROC.1966.4634"
+    source = (
+        "D. W. Allan (1966), Statistics of atomic frequency standards, Proc. IEEE 54:221-230, "
+        "doi:10.1109/PROC.1966.4634"
+    )
     confounder = "inertia_deviation"
     experiment = "Record a second pulse of a known clock, or an hour by a watch: the count tells the rate."
 

@@ -24,7 +24,7 @@ class GyroBandwidth(Effect):
     }
     sentence = "The sensor's own filter smooths the steps of an impact and shows everything a little late."
     equation = r"H(s) = \omega^2/(s^2 + \sqrt2\,\omega s + \omega^2),\quad \omega = 2\pi f"
-    reference = "S. Butterworth (1930), On the theory of filter amplifiers, Experimental Wireless 7:536-541 (order two)"
+    source = "S. Butterworth (1930), On the theory of filter amplifiers, Experimental Wireless 7:536-541 (order two)"
     confounder = "hertzian_contact"
     experiment = "Knock the sensor alone on a table and look at the rise of the step; or log a second, faster sensor."
 

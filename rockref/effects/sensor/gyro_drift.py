@@ -25,7 +25,7 @@ class GyroDrift(Effect):
     }
     sentence = "Temperature and ageing shift the zero of each axis, and warming up lets it wander."
     equation = r"W_m = W + b + \dot b\,t"
-    reference = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
+    source = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
     confounder = "base_vibration"
     experiment = "Record a minute at rest before and after the run: mean and slope are the bias and its rate."
 

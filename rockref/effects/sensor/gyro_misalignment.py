@@ -20,7 +20,7 @@ class GyroMisalignment(Effect):
     }
     sentence = "A sensor glued on slightly turned shows a part of one rate in the channel of another."
     equation = r"W_m = \exp(\hat r)\,W"
-    reference = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
+    source = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
     confounder = "release_velocity"
     experiment = "Mount the sensor turned by 90 degrees: does the signal follow the sensor or the block?"
 

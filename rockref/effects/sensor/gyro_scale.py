@@ -19,7 +19,7 @@ class GyroScale(Effect):
     }
     sentence = "Calibration and temperature change the scale factor of each axis of the sensor."
     equation = r"W_m = \mathrm{diag}(s_x, s_y, s_z)\,W"
-    reference = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
+    source = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
     confounder = "inertia_deviation"
     experiment = "Turn the sensor by hand through 90 degrees between two stops: the integral must be 90 degrees."
 

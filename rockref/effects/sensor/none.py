@@ -12,4 +12,4 @@ class IdealGyroscope(Effect):
     question = "sensor"
     sentence = "What is measured is the crv, along the block's axes (rule M1)."
     equation = r"W_m = W"
-    reference = "The model's source, Fig. 3.4"
+    source = "The model's source, Fig. 3.4"

@@ -35,7 +35,7 @@ class FootDefects(Effect):
     }
     sentence = "No base is flat: each foot touches at its outer corner and at an inner point, at different heights."
     equation = r"P_{int} = P_{corner}\,(1 - \delta_{diag}/\|P_{corner}\|)_{xy},\quad z_{ext} = -h/2 + \delta_{long,i}"
-    reference = 'The model\'s source, "Defects", Fig. 3.2b and Table 3.1'
+    source = 'The model\'s source, "Defects", Fig. 3.2b and Table 3.1'
     confounder = "uneven_foot_stiffness"
     experiment = (
         "Measure the base with a feeler gauge or blue ink; turn the block by 180 degrees: the rattle turns with it."

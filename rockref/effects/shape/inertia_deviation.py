@@ -9,7 +9,7 @@ from rockref.effects.base import POSITIVE, Effect, Quantity
 
 @dataclass(frozen=True)
 class InertiaDeviation(Effect):
-    """Scales the principal inertias by xx, yy, zz; products of inertia, where given, by the geometric mean of their two."""
+    """Scales the principal inertias by xx, yy, zz; products of inertia, if any, by the geometric mean of their two."""
 
     id = "inertia_deviation"
     question = "shape"
@@ -21,7 +21,9 @@ class InertiaDeviation(Effect):
     }
     sentence = "Holes, fittings and density change the resistance to turning without moving the centre of mass."
     equation = r"J_{ii} \to s_i J_{ii}"
-    reference = "J. C. Simo, K. K. Wong (1991), Int. J. Numer. Methods Eng. 31:19-52, doi:10.1002/nme.1620310103 (where J enters)"
+    source = (
+        "J. C. Simo, K. K. Wong (1991), Int. J. Numer. Methods Eng. 31:19-52, doi:10.1002/nme.1620310103 (how J enters)"
+    )
     confounder = "gyro_scale"
     experiment = "Hang the block on two wires and time its swing; or turn the gyroscope by 90 degrees and repeat a run."
 

@@ -22,7 +22,7 @@ class RoundedFeet(Effect):
         "An edge is round: the contact wanders inward as the block rises, which shortens the lever of its weight."
     )
     equation = r"r = \Lambda(P + \rho\,e_Z) - \rho\,e_z"
-    reference = (
+    source = (
         "P. A. Cundall, O. D. L. Strack (1979), Geotechnique 29:47-65, doi:10.1680/geot.1979.29.1.47 (rolling contact)"
     )
     confounder = "gyro_scale"

@@ -30,7 +30,7 @@ class UnevenContactNormals(Effect):
     }
     sentence = "Scratches and chamfers turn the plate's push a little sideways, differently at each foot."
     equation = r"F_i \to F_i + F_i^{(N)}\,(x_i,\ y_i,\ 0)"
-    reference = 'The model\'s source, "Defects"'
+    source = 'The model\'s source, "Defects"'
     confounder = "uneven_foot_friction"
     experiment = "Move the block to another place on the plate, then turn it by 180 degrees in the same place."
 

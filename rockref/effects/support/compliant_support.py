@@ -28,7 +28,7 @@ class CompliantSupport(Effect):
     switches = ("frequency",)
     sentence = "The plate and its table give a little under each impact and ring on after it."
     equation = r"M\ddot q = -\sum_i F_i^{(N)} + m g - k q - c\dot q,\quad \xi_i = q - z_i"
-    reference = (
+    source = (
         "I. N. Psycharis, P. C. Jennings (1983), Rocking of slender rigid bodies allowed to uplift, "
         "Earthquake Eng. Struct. Dyn. 11:57-76, doi:10.1002/eqe.4290110106"
     )

@@ -12,4 +12,4 @@ class RigidSupport(Effect):
     question = "support"
     sentence = "The plate is fixed (rule K1: penetration is -z)."
     equation = r"\xi = -z"
-    reference = 'The model\'s source, "Contact non-linearities"'
+    source = 'The model\'s source, "Contact non-linearities"'
