@@ -1,0 +1,234 @@
+"""Short windows of a run, each restarted from the reconstructed state, laid end to end and seen through the gyroscope.
+
+A rocking block forgets: after a few impacts a model that is right in everything but its start is out of step. Over a
+tenth of a second it is not. So each run is cut where the motion is smooth; every window starts from the state that the
+gyroscope implies, with five small corrections of its own; and the pieces, joined, pass through the gyroscope's filter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover.reconstruct import attitudes, corner_starts, local_rates, roughness, undo_low_pass
+from rockref.engines.compiled import kernel, pack
+from rockref.engines.compiled.batch import Batch, run_batch
+from rockref.measure.experiment import Experiment
+from rockref.measure.gyroscope import low_pass
+from rockref.model.problem import as_arrays
+
+#: Step inside windows [s]; decided: 32 steps a millisecond; halving it changes the residual by less than a hundredth
+#: of the noise (the gate measures it again on every experiment).
+STEP = 1e-3 / 32
+#: Samples after a restart that do not count: the filter of the gyroscope settles (300 Hz: 0.75 ms).
+SETTLE = 4
+#: Corrections of a window's start: tilt, roll [rad], three rates [rad/s].
+STATES = 5
+
+
+@dataclass(frozen=True)
+class Cut:
+    """Windows of one run: first and last+1 sample of each, (w,)."""
+
+    start: np.ndarray
+    stop: np.ndarray
+
+
+def cut(crv: np.ndarray, rate: float, shortest: float, longest: float, first_end: float, end: float) -> Cut:
+    """Cut a record where it is smooth: the first window ends after `first_end` s, the others last shortest to longest s.
+
+    crv : (N, 3) [rad/s], with the gyroscope's filter undone; rate [Hz]; end [s]: what lies beyond is not used.
+    """
+    rough = roughness(crv)
+    last = min(len(crv), int(end * rate))
+    marks = [0]
+    low, high = int(first_end * rate), int((first_end + longest - shortest + 0.02) * rate)
+    while high < last:
+        marks.append(low + int(np.argmin(rough[low:high])))
+        low, high = marks[-1] + int(shortest * rate), marks[-1] + int(longest * rate)
+    marks.append(last)
+    if len(marks) > 2 and marks[-1] - marks[-2] < shortest * rate / 2:
+        marks.pop(-2)
+    return Cut(np.array(marks[:-1]), np.array(marks[1:]))
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """What is between the block and the record: everything that a gyroscope may do to the crv.
+
+    turn : rotation vector of a misalignment [rad]; scale : of each axis; bias [rad/s]; drift [rad/s2]
+    bandwidth : [Hz] of a further low-pass, inf for none; range : [rad/s] at which it saturates; clock : seconds of the
+    block per second of the device.
+    """
+
+    turn: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    scale: np.ndarray = field(default_factory=lambda: np.ones(3))
+    bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    drift: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    bandwidth: float = np.inf
+    range: float = np.inf
+    clock: float = 1.0
+
+    def matrix(self) -> np.ndarray:
+        """(3, 3) scale times rotation: what the axes of the record are made of."""
+        from rockref.model.rotation import exponential
+
+        return self.scale[:, None] * exponential(np.asarray(self.turn, float))
+
+
+def sensor_of(model: Model) -> Sensor:
+    """The sensor effects of a model as one Sensor."""
+    values: dict = {}
+    for e in model.effects:
+        if e.id == "gyro_misalignment":
+            values["turn"] = np.array([e.x, e.y, e.z])
+        elif e.id == "gyro_scale":
+            values["scale"] = np.array([e.x, e.y, e.z])
+        elif e.id == "gyro_drift":
+            values["bias"] = np.array([e.bias_x, e.bias_y, e.bias_z])
+            values["drift"] = np.array([e.rate_x, e.rate_y, e.rate_z])
+        elif e.id == "gyro_bandwidth":
+            values["bandwidth"] = e.frequency
+        elif e.id == "gyro_saturation":
+            values["range"] = e.range
+        elif e.id == "clock_error":
+            values["clock"] = e.rate
+    return Sensor(**values)
+
+
+def true_rates(crv: np.ndarray, t: np.ndarray, rate: float, bandwidth: float, sensor: Sensor) -> np.ndarray:
+    """The block's rates at the samples of a record, with the sensor undone (saturation cannot be), (N, 3) [rad/s].
+
+    Sample k of the device stands at t_k * clock in the block's own time.
+    """
+    w = crv - sensor.bias - sensor.drift * t[:, None]
+    bandwidths = (bandwidth,) if not np.isfinite(sensor.bandwidth) else (bandwidth, sensor.bandwidth)
+    return undo_low_pass(w, rate, bandwidths) @ np.linalg.inv(sensor.matrix()).T
+
+
+class Series:
+    """The runs of an experiment cut into windows, ready to be compared with any model.
+
+    B windows in all; residuals are (B, M, 3) in noise sigmas, zero where a sample does not count. `refine` divides the
+    step inside the windows.
+    """
+
+    ROWS_PER_SAMPLE = 2
+
+    def __init__(self, experiment: Experiment, runs, cuts, refine: int = 1, workers: int | None = None):
+        self.experiment, self.runs, self.cuts = experiment, tuple(runs), tuple(cuts)
+        self.refine, self.workers = refine, workers
+        gyro = experiment.gyro
+        self.rate, self.bandwidth = gyro.sample_rate, gyro.bandwidth
+        self.sigma = float(np.sqrt(gyro.noise**2 + gyro.resolution**2 / 12))
+        self.run_of = np.concatenate([np.full(len(c.start), i) for i, c in enumerate(self.cuts)])
+        self.start = np.concatenate([c.start for c in self.cuts])
+        self.stop = np.concatenate([c.stop for c in self.cuts])
+        self.length = self.stop - self.start
+        self.first = self.start == 0
+        self.B, self.M = len(self.start), int(self.length.max())
+        self.time = self.start / self.rate
+        k = np.arange(self.M)
+        self.valid = (k[None, :] < self.length[:, None]) & ((k[None, :] >= SETTLE) | self.first[:, None])
+        self.count = 3 * self.valid.sum(axis=1)
+        self.measured = np.zeros((self.B, self.M, 3))
+        for b in range(self.B):
+            self.measured[b, : self.length[b]] = self.runs[self.run_of[b]].crv[self.start[b] : self.stop[b]]
+        self._rates: dict = {}
+
+    def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
+        """True rates of run i and the smoothed ones; kept for the sensors that were seen last."""
+        names = ("turn", "scale", "bias", "drift", "bandwidth")
+        key = (i, *(np.asarray(getattr(sensor, n), float).tobytes() for n in names))
+        if key not in self._rates:
+            if len(self._rates) > 64:
+                self._rates.clear()
+            run = self.runs[i]
+            w = true_rates(run.crv, run.t, self.rate, self.bandwidth, sensor)
+            self._rates[key] = (np.ascontiguousarray(w), local_rates(w))
+        return self._rates[key]
+
+    def batch(self, models, tilt: np.ndarray, corrections: np.ndarray, which: np.ndarray, sensor: Sensor) -> Batch:
+        """Windows `which` as one batch. models: one a run; tilt (runs,) [rad]; corrections (len(which), STATES)."""
+        B, run_of = len(which), self.run_of[which]
+        n = models[0].body()[1].n
+        body, P = np.empty((B, kernel.BODY)), np.empty((B, n, 3))
+        props, memory = np.empty((B, n, kernel.PROPS)), np.empty((B, n, kernel.MEMORY))
+        effects, state = np.empty((B, pack.slots.SLOTS)), np.empty((B, kernel.STATE))
+        Lambda, W, upright = np.empty((B, 3, 3)), np.empty((B, 3)), np.empty((B, 3, 3))
+        firsts = []
+        for i in np.unique(run_of):
+            turned = bool(self.runs[i].block_turned)
+            problem = models[i].problem(duration=1.0, theta_0=tilt[i], turned=turned)
+            problem = pack.with_memory(as_arrays(problem, np.float64))
+            at = run_of == i
+            body[at], P[at], props[at] = pack.body_row(problem), problem.points.P, pack.props_rows(problem)
+            effects[at] = pack.effects_row(problem)
+            w, smooth = self.rates(i, sensor)
+            L = attitudes(np.ascontiguousarray(problem.start.Lambda), w, sensor.clock / self.rate)
+            Lambda[at], W[at] = L[self.start[which[at]]], smooth[self.start[which[at]]]
+            upright[at] = np.diag([-1.0, -1.0, 1.0]) if turned else np.eye(3)
+            firsts.append((np.flatnonzero(at & self.first[which]), problem))
+        corner_starts(Lambda, W, corrections, body, P, props, upright, state, memory, np.zeros((B, 3)))
+        state[:, kernel.TIME] = state[:, kernel.ORIGIN] = self.time[which] * sensor.clock
+        for where, problem in firsts:
+            state[where], memory[where] = pack.state_row(problem), pack.memory_rows(problem.start)
+        per_sample = int(round(1 / self.rate / (STEP / self.refine)))
+        rows = np.arange(int(self.length[which].max()) * self.ROWS_PER_SAMPLE + 1) * (per_sample // self.ROWS_PER_SAMPLE)
+        wanted = np.minimum(rows[None, :], self.length[which, None] * per_sample).astype(np.int64)
+        h = sensor.clock / self.rate / per_sample
+        return Batch(body, P, props, memory, effects, state, h, wanted)
+
+    def simulate(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None) -> np.ndarray:
+        """Modelled records at the samples of the windows `which` (default all), (len(which), M, 3) [rad/s]."""
+        which = np.arange(self.B) if which is None else np.asarray(which)
+        s = sensor_of(models[0])
+        states = run_batch(self.batch(models, tilt, corrections, which, s), self.workers)
+        w = states[:, :-1, 15:18] @ s.matrix().T
+        np.nan_to_num(w, copy=False, nan=1e3, posinf=1e3, neginf=-1e3)
+        step = 1 / self.rate / self.ROWS_PER_SAMPLE
+        w = low_pass(w, step, self.bandwidth)
+        if np.isfinite(s.bandwidth):
+            w = self._chained(w, step, s.bandwidth, which)
+        out = np.zeros((len(which), self.M, 3))
+        w = w[:, :: self.ROWS_PER_SAMPLE]
+        t = self.time[which, None] + np.arange(w.shape[1])[None, :] / self.rate
+        w = w + s.bias + s.drift * t[:, :, None]
+        out[:, : w.shape[1]] = np.clip(w, -s.range, s.range) if np.isfinite(s.range) else w
+        return out
+
+    def _chained(self, w: np.ndarray, step: float, bandwidth: float, which: np.ndarray) -> np.ndarray:
+        """A slow filter, which remembers the window before: windows that follow each other are filtered as one."""
+        out = np.empty_like(w)
+        length = self.length[which] * self.ROWS_PER_SAMPLE
+        follows = np.concatenate([[False], (self.stop[which[:-1]] == self.start[which[1:]]) & (self.run_of[which[:-1]] == self.run_of[which[1:]])])
+        groups = np.split(np.arange(len(which)), np.flatnonzero(~follows)[1:])
+        for group in groups:
+            joined = low_pass(np.concatenate([w[b, : length[b]] for b in group]), step, bandwidth)
+            edges = np.concatenate([[0], np.cumsum(length[group])])
+            for k, b in enumerate(group):
+                out[b, : length[b]] = joined[edges[k] : edges[k + 1]]
+                out[b, length[b] :] = 0
+        return out
+
+    def residual(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None) -> np.ndarray:
+        """(measured - modelled) / sigma, (len(which), M, 3); zero where a sample does not count."""
+        which = np.arange(self.B) if which is None else np.asarray(which)
+        r = (self.measured[which] - self.simulate(models, tilt, corrections, which)) / self.sigma
+        return np.where(self.valid[which, :, None], r, 0.0)
+
+
+def series(
+    experiment: Experiment, runs, shortest: float, longest: float, end: float, sensor: Sensor | None = None, **options
+) -> Series:
+    """Cut the runs into windows of `shortest` to `longest` s up to `end` s; the first one ends 45 ms after the impact."""
+    from rockref.measure.impacts import main_impacts
+
+    cuts = []
+    for run in runs:
+        w = true_rates(run.crv, run.t, experiment.gyro.sample_rate, experiment.gyro.bandwidth, sensor or Sensor())
+        impact = float(main_impacts(run.t, run.crv).times[0])
+        cuts.append(cut(w, experiment.gyro.sample_rate, shortest, longest, impact + 0.045, end))
+    return Series(experiment, tuple(runs), tuple(cuts), **options)
