@@ -29,7 +29,9 @@ def chosen(problem: Problem, engine: str, dtype=None) -> str:
         raise InputError("E-ENGINE", "engine", f"is {engine!r}", f"Use one of {', '.join(ENGINES)}.")
     if engine == "numba":
         if not has_numba():
-            raise InputError("E-ENGINE", "engine", "numba is not installed", "pip install 'rockref[fast]', or use numpy.")
+            raise InputError(
+                "E-ENGINE", "engine", "numba is not installed", "pip install 'rockref[fast]', or use numpy."
+            )
         if dtype is not None and dtype != float:
             raise InputError("E-ENGINE", "dtype", "the compiled engine computes in float64 only", 'Use engine="numpy".')
     if engine != "auto":

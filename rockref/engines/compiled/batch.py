@@ -14,6 +14,7 @@ import numba
 import numpy as np
 
 from rockref.engines.compiled import kernel, pack, slots
+from rockref.engines.compiled.sources import FINGERPRINT
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
 from rockref.model.simulate import output_steps
@@ -96,10 +97,11 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False):
     forces, memories = np.full((kept, R, n, 3), np.nan), np.full((kept, R, n, kernel.MEMORY), np.nan)
     loop = _loop_with_effects if batch.effects.any() else _loop_law
     own_forces, memory = batch.forces, batch.memory
+    centres = pack.centres(batch.P, batch.props)
 
     def piece(bounds) -> None:
         loop(
-            *bounds, batch.body, batch.P, batch.props, memory, own_forces, batch.effects, batch.state, batch.h,
+            *bounds, batch.body, centres, batch.props, memory, own_forces, batch.effects, batch.state, batch.h,
             batch.wanted, full, states, forces, memories,
         )  # fmt: skip
 
@@ -132,20 +134,25 @@ def checked(batch: Batch) -> Batch:
     return replace(batch, wanted=wanted, h=float(batch.h), **written, **read)
 
 
-def _make_loop(run):
+def _make_loop(with_effects: bool, source: int):
     @numba.njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
     def loop(
-        first, last, body, P, props, memory, own_forces, effects, state, h, wanted, full, states, forces, memories
+        first, last, body, centres, props, memory, own_forces, effects, state, h, wanted, full, states, forces, memories
     ):
         for b in range(first, last):
             k = b if full else 0
-            run(
-                body[b], P[b], props[b], memory[b], own_forces[b], effects[b], state[b], h, wanted[b], full,
-                states[b], forces[k], memories[k],
-            )  # fmt: skip
+            if with_effects:
+                kernel.with_effects(
+                    body[b], centres[b], props[b], memory[b], own_forces[b], effects[b], state[b], h, wanted[b], full,
+                    states[b], forces[k], memories[k],
+                )  # fmt: skip
+            else:
+                kernel.law(
+                    body[b], centres[b], props[b], memory[b], own_forces[b], effects[b], state[b], h, wanted[b], full,
+                    states[b], forces[k], memories[k],
+                )  # fmt: skip
 
     return loop
 
 
-_loop_law = _make_loop(kernel.law)
-_loop_with_effects = _make_loop(kernel.with_effects)
+_loop_law, _loop_with_effects = _make_loop(False, FINGERPRINT), _make_loop(True, FINGERPRINT)

@@ -10,10 +10,11 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.engines.compiled import kernel, pack
-from rockref.model.problem import Problem, as_arrays, stack
+from rockref.model.errors import NumericalError
+from rockref.model.integrator import first_evaluation, prepared_inertia
+from rockref.model.problem import Problem, State, as_arrays, stack
 from rockref.model.response import Response, pick
 from rockref.model.simulate import check, not_finite, output_steps
-from rockref.model.integrator import first_evaluation, prepared_inertia
 
 
 def simulate(problem: Problem, progress=None, keep_going: bool = False) -> Response:
@@ -45,14 +46,16 @@ def _one(problem: Problem, keep_going: bool) -> Response:
     memories = np.empty((rows, n, kernel.MEMORY))
     first = np.zeros((n, 3)) if problem.start.F is None else problem.start.F.copy()
     run = kernel.with_effects if effects.any() else kernel.law
-    P = np.ascontiguousarray(problem.points.P)
+    props = pack.props_rows(problem)
     written = run(
-        pack.body_row(problem), P, pack.props_rows(problem), pack.memory_rows(problem.start), first, effects,
+        pack.body_row(problem), pack.centres(problem.points.P, props), props, pack.memory_rows(problem.start), first, effects,
         pack.state_row(problem), float(problem.step), wanted, True, states, forces, memories,
     )  # fmt: skip
     if not np.isfinite(states[written - 1, 15:18]).all() and not keep_going:
-        good = pack.final_state(problem, states[written - 2], memories[written - 2], forces[written - 2])
-        raise not_finite(problem, good, prepared_inertia(problem.block))
+        good = problem.start
+        if written > 1:
+            good = pack.final_state(problem, states[written - 2], memories[written - 2], forces[written - 2])
+        raise lost(problem, good)
     states[written:], forces[written:] = np.nan, np.nan
     return Response(
         problem=problem,
@@ -61,6 +64,16 @@ def _one(problem: Problem, keep_going: bool) -> Response:
         F=forces, s=memories[:, :, 0:2], anchored=memories[:, :, 2] != 0, sliding=memories[:, :, 3] != 0,
         final_state=pack.final_state(problem, states[-1], memories[-1], forces[-1]),
     )  # fmt: skip
+
+
+def lost(problem: Problem, good: State) -> NumericalError:
+    """The error that names the step and the point at which the numbers were lost: the law finds them, from a good state.
+
+    Raises InputError (E-ANGLE) itself where a step turns the block too far, as the law does.
+    """
+    with np.errstate(all="ignore"):
+        state = first_evaluation(replace(problem, start=good))
+        return not_finite(problem, state, prepared_inertia(problem.block))
 
 
 def joined(problem: Problem, responses: list[Response]) -> Response:

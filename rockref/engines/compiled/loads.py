@@ -1,4 +1,5 @@
-"""What the effects add to the force and the moment on the body; compiled."""
+"""What the effects add to the force and the moment on the body, compiled; each sums over the points by itself, as the
+text in `rockref.effects` does, so that the bits agree."""
 
 from __future__ import annotations
 
@@ -7,53 +8,181 @@ import math
 import numba
 
 from rockref.engines.compiled import slots
+from rockref.engines.compiled.columns import (
+    ANCHORED,
+    C_N,
+    C_T,
+    FOOT,
+    K_N,
+    K_T,
+    MU,
+    R_X,
+    R_Y,
+    R_Z,
+    ROLL_X,
+    ROLL_Y,
+    V_X,
+    V_Y,
+    XI,
+    YAW,
+)  # fmt: skip
+from rockref.engines.compiled.contact import length
 
+#: Slices of the drag, as in `rockref.effects.loads.quadratic_drag`.
 SLICES = 16
 
 
 @numba.njit(inline="always")
-def body_loads(e, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, t):
-    """Force (3) [N] and moment about the centre of mass (3) [N m], plate axes."""
-    fx = fy = fz = mx = my = mz = 0.0
+def pull(e, xi):
+    """Adhesion of one point at penetration xi [N]."""
+    return e[slots.ADHESION + 1] * min(max(1 + xi / e[slots.ADHESION + 2], 0.0), 1.0)
+
+
+@numba.njit(_nrt=False)
+def add_point_forces(load, e, props, memory, forces):
+    """Adhesion, viscous friction and uneven normals."""
+    Fx, Fy, Fz, Mx, My, Mz = load
+    for k in range(3):
+        on = e[slots.ADHESION] if k == 0 else e[slots.VISCOUS] if k == 1 else e[slots.NORMALS]
+        if on == 0.0:
+            continue
+        fx = fy = fz = mx = my = mz = 0.0
+        for i in range(memory.shape[0]):
+            touching, F_N = memory[i, ANCHORED] != 0.0, forces[i, 2]
+            px = py = pz = 0.0
+            if k == 0:
+                pz = -pull(e, memory[i, XI])
+            elif k == 1 and touching:
+                px, py = -e[slots.VISCOUS + 1] * memory[i, V_X], -e[slots.VISCOUS + 1] * memory[i, V_Y]
+            elif k == 2 and touching:
+                at = slots.NORMALS + 2 * int(props[i, FOOT])
+                px, py = F_N * e[at - 1], F_N * e[at]
+            rx, ry, rz = memory[i, R_X], memory[i, R_Y], memory[i, R_Z]
+            fx, fy, fz = fx + px, fy + py, fz + pz
+            mx, my, mz = mx + (ry * pz - rz * py), my + (rz * px - rx * pz), mz + (rx * py - ry * px)
+        Fx += fx
+        Fy += fy
+        Fz += fz
+        Mx += mx
+        My += my
+        Mz += mz
+    return Fx, Fy, Fz, Mx, My, Mz
+
+
+@numba.njit(_nrt=False)
+def add_point_moments(load, e, props, memory, forces, ox, oy, oz, turn0, turn1, turn2):
+    """Spin friction and rolling resistance; their memories move on."""
+    Fx, Fy, Fz, Mx, My, Mz = load
+    if e[slots.SPIN] != 0.0:
+        radius = e[slots.SPIN + 1]
+        square, mz = radius * radius, 0.0
+        for i in range(memory.shape[0]):
+            if memory[i, ANCHORED] == 0.0:
+                memory[i, YAW] = 0.0
+                continue
+            K, C = props[i, K_T] * square, props[i, C_T] * square
+            yaw = memory[i, YAW] + turn2
+            M = -K * yaw - C * oz
+            limit = radius * props[i, MU] * forces[i, 2]
+            if abs(M) > limit:
+                M = min(max(M, -limit), limit)
+                yaw = -(M + C * oz) / K
+            memory[i, YAW] = yaw
+            mz += M
+        Mz += mz
+    if e[slots.ROLLING] != 0.0:
+        lever = e[slots.ROLLING + 1]
+        square, mx, my = lever * lever, 0.0, 0.0
+        for i in range(memory.shape[0]):
+            if memory[i, ANCHORED] == 0.0:
+                memory[i, ROLL_X] = memory[i, ROLL_Y] = 0.0
+                continue
+            K, C = props[i, K_N] * square, props[i, C_N] * square
+            ax, ay = memory[i, ROLL_X] + turn0, memory[i, ROLL_Y] + turn1
+            tx, ty = -K * ax - C * ox, -K * ay - C * oy
+            size, limit = length(tx, ty), lever * forces[i, 2]
+            if size > limit:
+                scale = limit / size
+                tx, ty = scale * tx, scale * ty
+                ax, ay = -(tx + C * ox) / K, -(ty + C * oy) / K
+            memory[i, ROLL_X], memory[i, ROLL_Y] = ax, ay
+            mx += tx
+            my += ty
+        Mx += mx
+        My += my
+    return Fx, Fy, Fz, Mx, My, Mz
+
+
+@numba.njit(_nrt=False)
+def add_body_loads(load, e, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, t):
+    """Drag, cable, wire, vibration and tilt."""
+    Fx, Fy, Fz, Mx, My, Mz = load
     if e[slots.DRAG] != 0.0:
-        c, low, high = e[slots.DRAG + 1] / SLICES, e[slots.DRAG + 2], e[slots.DRAG + 3]
+        c, half = -e[slots.DRAG + 1] / SLICES, e[slots.DRAG + 2]
+        fx = fy = fz = mx = my = mz = 0.0
         for k in range(SLICES):
-            z = low + (high - low) * (k + 0.5) / SLICES
+            z = half * ((2 * k + 1) / SLICES - 1)
             rx, ry, rz = L2 * z, L5 * z, L8 * z
             vx, vy, vz = v0 + (oy * rz - oz * ry), v1 + (oz * rx - ox * rz), v2 + (ox * ry - oy * rx)
-            speed = c * math.sqrt(vx * vx + vy * vy + vz * vz)
-            dx, dy, dz = -speed * vx, -speed * vy, -speed * vz
-            fx += dx
-            fy += dy
-            fz += dz
-            mx += ry * dz - rz * dy
-            my += rz * dx - rx * dz
-            mz += rx * dy - ry * dx
+            scale = c * math.sqrt(vx * vx + vy * vy + vz * vz)
+            dx, dy, dz = scale * vx, scale * vy, scale * vz
+            fx, fy, fz = fx + dx, fy + dy, fz + dz
+            mx, my, mz = mx + (ry * dz - rz * dy), my + (rz * dx - rx * dz), mz + (rx * dy - ry * dx)
+        Fx += fx
+        Fy += fy
+        Fz += fz
+        Mx += mx
+        My += my
+        Mz += mz
     if e[slots.CABLE] != 0.0:
-        z = e[slots.CABLE + 3]
+        k, c, z = e[slots.CABLE + 1], e[slots.CABLE + 2], e[slots.CABLE + 3]
         rx, ry, rz = L2 * z, L5 * z, L8 * z
-        vx, vy = v0 + (oy * rz - oz * ry), v1 + (oz * rx - ox * rz)
-        dx = -e[slots.CABLE + 1] * (x0 + rx) - e[slots.CABLE + 2] * vx
-        dy = -e[slots.CABLE + 1] * (x1 + ry) - e[slots.CABLE + 2] * vy
-        fx += dx
-        fy += dy
-        mx -= rz * dy
-        my += rz * dx
-        mz += rx * dy - ry * dx
+        fx = -k * (x0 + rx) - c * (v0 + (oy * rz - oz * ry))
+        fy = -k * (x1 + ry) - c * (v1 + (oz * rx - ox * rz))
+        Fx += fx
+        Fy += fy
+        Mx -= rz * fy
+        My += rz * fx
+        Mz += rx * fy - ry * fx
     if e[slots.WIRE] != 0.0:
-        z = e[slots.WIRE + 3]
-        rx, ry, rz = L2 * z, L5 * z, L8 * z
-        dy = e[slots.WIRE + 4] * e[slots.WIRE + 1] * math.exp(-t / e[slots.WIRE + 2])
-        fy += dy
-        mx -= rz * dy
-        mz += rx * dy
+        z, fy = e[slots.WIRE + 3], e[slots.WIRE + 1] * math.exp(-t / e[slots.WIRE + 2])
+        Fy += fy
+        Mx -= (L8 * z) * fy
+        Mz += (L2 * z) * fy
     if e[slots.VIBRATION] != 0.0:
-        force = -mass * e[slots.VIBRATION + 1] * math.cos(e[slots.VIBRATION + 2] * t + e[slots.VIBRATION + 4])
-        fx += force * math.sin(e[slots.VIBRATION + 3])
-        fy += force * math.cos(e[slots.VIBRATION + 3])
+        k = slots.VIBRATION
+        size = -mass * e[k + 1] * math.cos(e[k + 2] * t + e[k + 3])
+        Fx += size * e[k + 4]
+        Fy += size * e[k + 5]
     if e[slots.TILT] != 0.0:
-        a, b = e[slots.TILT + 1], e[slots.TILT + 2]
-        fx += mass * g * a
-        fy += mass * g * b
-        fz += mass * g * ((a * a + b * b) / 2)
-    return fx, fy, fz, mx, my, mz
+        weight, a, b = mass * g, e[slots.TILT + 1], e[slots.TILT + 2]
+        Fx += weight * a
+        Fy += weight * b
+        Fz += weight * ((a * a + b * b) / 2)
+    return Fx, Fy, Fz, Mx, My, Mz
+
+
+@numba.njit(_nrt=False)
+def add_loads(
+    load, e, mass, g, props, memory, forces, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, turn0, turn1, turn2, t
+):
+    """Everything that the effects add to force and moment (6), in the order of the step."""
+    load = add_point_forces(load, e, props, memory, forces)
+    load = add_point_moments(load, e, props, memory, forces, ox, oy, oz, turn0, turn1, turn2)
+    return add_body_loads(load, e, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, t)
+
+
+@numba.njit(_nrt=False)
+def advance_support(e, mass, g, h, memory, forces, q, q_rate):
+    """The plate on its spring, one step on: q, q_rate."""
+    carried = 0.0
+    for i in range(memory.shape[0]):
+        carried += forces[i, 2]
+    if e[slots.ADHESION] != 0.0:
+        pulled = 0.0
+        for i in range(memory.shape[0]):
+            pulled += pull(e, memory[i, XI])
+        carried -= pulled
+    k = slots.SUPPORT
+    q_rate = q_rate + h * ((mass * g - carried) - e[k + 2] * q - e[k + 3] * q_rate) / e[k + 1]
+    return q + h * q_rate, q_rate

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from rockref.effects.base import Effect
+from rockref.effects.feet import foot_numbers
+from rockref.effects.loads.attachment import half_height
 from rockref.engines.compiled import kernel, slots
 from rockref.model.errors import InputError
 from rockref.model.integrator import prepared_inertia
@@ -25,6 +29,13 @@ def body_row(problem: Problem) -> np.ndarray:
     row[11:20] = np.diag(inertia.J_inverse).ravel() if principal else inverse(np.asarray(block.inertia)).ravel()
     row[20] = principal
     return row
+
+
+def centres(P: np.ndarray, props: np.ndarray) -> np.ndarray:
+    """(..., n, 3) contact points raised by the radius of their feet [m]."""
+    raised = np.array(P, np.float64, order="C")
+    raised[..., 2] += props[..., kernel.RADIUS]
+    return raised
 
 
 def props_rows(problem: Problem) -> np.ndarray:
@@ -79,62 +90,88 @@ def with_memory(problem: Problem) -> Problem:
 
 
 def effects_row(problem: Problem) -> np.ndarray:
-    """(SLOTS,) the numbers of the effects. Raises InputError (E-TWIN) for an effect that has no compiled twin."""
+    """(SLOTS,) the numbers of the effects.
+
+    Raises
+    ------
+    InputError
+        E-TWIN, for an effect without a compiled twin, and for effects in another order than that of the step.
+    """
     row = np.zeros(slots.SLOTS)
-    for effect in problem.effects:
+    active = [effect for effect in problem.effects if not effect.is_absent()]
+    for effect in active:
         if not knows(effect):
-            cure = 'Use engine="numpy", or engine="auto", which does.'
-            raise InputError("E-TWIN", f"effect {effect.id}", "has no compiled twin", cure)
-        if effect.id in FILL and not effect.is_absent():
+            raise InputError("E-TWIN", f"effect {effect.id}", "has no compiled twin", NUMPY)
+        if effect.id in FILL:
             FILL[effect.id](row, effect, problem)
+    if not in_order(active):
+        raise InputError("E-TWIN", "effects", "are given twice, or not in the order of the step", NUMPY)
+    row[slots.ON_BODY] = any(effect.id in ON_BODY for effect in active)
     return row
 
 
+NUMPY = 'Use engine="numpy", or engine="auto", which does.'
+
+
+def in_order(effects: Sequence[Effect]) -> bool:
+    """Whether the effects that act in the step stand once each, in the order in which the compiled step has them."""
+    ranks = [slots.IN_THE_STEP.index(effect.id) for effect in effects if effect.id in slots.IN_THE_STEP]
+    return all(a < b for a, b in zip(ranks, ranks[1:], strict=False))
+
+
 def knows(effect: Effect) -> bool:
-    """Whether the compiled step has a twin of this effect, or the effect does not act in the step at all."""
-    return effect.id in FILL or effect.id in slots.OUTSIDE_THE_STEP
+    """Whether the compiled step has a twin of this very class, or the effect does not act in the step at all.
+
+    A user's effect has no twin even where it takes the id of one that has.
+    """
+    return (effect.id in FILL or effect.id in slots.OUTSIDE_THE_STEP) and type(effect).__module__.startswith("rockref.")
 
 
 def _put(row, first, *values):
-    if row[first] != 0.0:
-        raise InputError("E-TWIN", "effects", "the same effect is given twice", "Give one of them.")
     row[first : first + 1 + len(values)] = (1.0, *values)
 
 
-def _heights(problem: Problem) -> tuple[float, float]:
-    z = np.asarray(problem.points.P)[:, 2]
-    return float(np.min(z)), -float(np.min(z))
+def _height(problem: Problem) -> float:
+    return float(half_height(np.asarray(problem.points.P)))
 
 
 def _support(row, e, problem):
-    k = (2 * np.pi * e.frequency) ** 2 * e.mass
-    _put(row, slots.SUPPORT, e.mass, k, 2 * e.ratio * np.sqrt(k * e.mass))
+    k = (2 * math.pi * e.frequency) ** 2 * e.mass
+    _put(row, slots.SUPPORT, e.mass, k, 2 * e.ratio * math.sqrt(k * e.mass))
 
 
 def _normals(row, e, problem):
+    foot_numbers(problem.points, e.id)  # refuses points without a foot
     _put(row, slots.NORMALS, e.x1, e.y1, e.x2, e.y2, e.x3, e.y3, e.x4, e.y4)
+
+
+def _vibration(row, e, problem):
+    omega = 2 * math.pi * e.frequency
+    _put(row, slots.VIBRATION, e.amplitude, omega, e.phase, math.sin(e.direction), math.cos(e.direction))
 
 
 FILL = {
     "hertzian_contact": lambda r, e, p: _put(r, slots.HERTZ, e.exponent, e.reference),
-    "hunt_crossley_contact": lambda r, e, p: _put(r, slots.HUNT, e.a),
     "hysteretic_contact": lambda r, e, p: _put(r, slots.HYSTERESIS, e.kappa),
-    "adhesion": lambda r, e, p: _put(r, slots.ADHESION, e.force, e.range),
+    "hunt_crossley_contact": lambda r, e, p: _put(r, slots.HUNT, e.a),
     "stribeck_friction": lambda r, e, p: _put(r, slots.STRIBECK, e.ratio, e.velocity),
-    "viscous_friction": lambda r, e, p: _put(r, slots.VISCOUS, e.c),
     "load_dependent_friction": lambda r, e, p: _put(r, slots.LOAD, e.exponent, e.reference),
+    "adhesion": lambda r, e, p: _put(r, slots.ADHESION, e.force, e.range),
+    "viscous_friction": lambda r, e, p: _put(r, slots.VISCOUS, e.c),
+    "uneven_contact_normals": _normals,
     "spin_friction": lambda r, e, p: _put(r, slots.SPIN, e.radius),
     "rolling_resistance": lambda r, e, p: _put(r, slots.ROLLING, e.lever),
-    "uneven_contact_normals": _normals,
-    "quadratic_drag": lambda r, e, p: _put(r, slots.DRAG, e.c, *_heights(p)),
-    "cable_restraint": lambda r, e, p: _put(r, slots.CABLE, e.k, e.c, _heights(p)[1]),
-    "lingering_wire_pull": lambda r, e, p: _put(r, slots.WIRE, e.force, e.tau, _heights(p)[1], 1.0),
-    "base_vibration": lambda r, e, p: _put(
-        r, slots.VIBRATION, e.amplitude, 2 * np.pi * e.frequency, e.direction, e.phase
-    ),
+    "quadratic_drag": lambda r, e, p: _put(r, slots.DRAG, e.c, _height(p)),
+    "cable_restraint": lambda r, e, p: _put(r, slots.CABLE, e.k, e.c, _height(p) if e.height is None else e.height),
+    "lingering_wire_pull": lambda r, e, p: _put(r, slots.WIRE, e.force, e.tau, _height(p)),
+    "base_vibration": _vibration,
     "plate_tilt": lambda r, e, p: _put(r, slots.TILT, e.x, e.y),
     "compliant_support": _support,
 }
+ON_BODY = frozenset(slots.IN_THE_STEP) - {
+    "hertzian_contact", "hysteretic_contact", "hunt_crossley_contact", "stribeck_friction", "load_dependent_friction",
+    "compliant_support",
+}  # fmt: skip
 
 
 def final_state(problem: Problem, row: np.ndarray, memory: np.ndarray, forces: np.ndarray) -> State:

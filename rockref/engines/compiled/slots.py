@@ -15,22 +15,31 @@ def _block(n: int) -> int:
 
 
 HERTZ = _block(3)  # on, exponent, reference
-HUNT = _block(2)  # on, a
 HYSTERESIS = _block(2)  # on, kappa
-ADHESION = _block(3)  # on, force, range
+HUNT = _block(2)  # on, a
 STRIBECK = _block(3)  # on, ratio, velocity
-VISCOUS = _block(2)  # on, c
 LOAD = _block(3)  # on, exponent, reference
+#: Whether any of the following, which add forces and moments to the body, is on.
+ON_BODY = _block(1)
+ADHESION = _block(3)  # on, force, range
+VISCOUS = _block(2)  # on, c
+NORMALS = _block(9)  # on, x1, y1 .. x4, y4
 SPIN = _block(2)  # on, radius
 ROLLING = _block(2)  # on, lever
-NORMALS = _block(9)  # on, x1, y1 .. x4, y4
-DRAG = _block(4)  # on, c, height of the lowest point, height of the highest
+DRAG = _block(3)  # on, c, half the height
 CABLE = _block(4)  # on, k, c, height of attachment
-WIRE = _block(5)  # on, force, tau, height of attachment, side
-VIBRATION = _block(5)  # on, amplitude, angular frequency, direction, phase
+WIRE = _block(4)  # on, force, tau, height of attachment
+VIBRATION = _block(6)  # on, amplitude, angular frequency, phase, sine and cosine of the direction
 TILT = _block(3)  # on, x, y
 SUPPORT = _block(4)  # on, mass, stiffness, damping
 SLOTS = _next
+
+#: The effects that act in the step, in the order in which they do (that of `rockref.effects.catalogue`).
+IN_THE_STEP = tuple(
+    "hertzian_contact hysteretic_contact hunt_crossley_contact stribeck_friction load_dependent_friction adhesion "
+    "viscous_friction uneven_contact_normals spin_friction rolling_resistance quadratic_drag cable_restraint "
+    "lingering_wire_pull base_vibration plate_tilt compliant_support".split()
+)
 
 #: Effects that act before the run (on points, mass, release) or after it (sensor): the compiled step need not know them.
 OUTSIDE_THE_STEP = frozenset(
