@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib.util
 
+import numpy as np
+
 from rockref.model import simulate as law
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
@@ -18,7 +20,7 @@ def has_numba() -> bool:
 
 
 def chosen(problem: Problem, engine: str, dtype=None) -> str:
-    """The engine that will run: "auto" takes numba where it is installed, knows all effects, and float64 is wanted.
+    """The engine that will run: "auto" takes numba where it is installed, has a twin of every effect, and float64 is wanted.
 
     Raises
     ------
@@ -27,20 +29,21 @@ def chosen(problem: Problem, engine: str, dtype=None) -> str:
     """
     if engine not in ENGINES:
         raise InputError("E-ENGINE", "engine", f"is {engine!r}", f"Use one of {', '.join(ENGINES)}.")
+    double = np.dtype(dtype or problem.start.x.dtype) == np.float64
     if engine == "numba":
         if not has_numba():
             raise InputError(
                 "E-ENGINE", "engine", "numba is not installed", "pip install 'rockref[fast]', or use numpy."
             )
-        if dtype is not None and dtype != float:
-            raise InputError("E-ENGINE", "dtype", "the compiled engine computes in float64 only", 'Use engine="numpy".')
+        if not double:
+            raise InputError("E-ENGINE", "dtype", "the compiled engine computes in float64", 'Use engine="numpy".')
     if engine != "auto":
         return engine
-    if not has_numba() or (dtype is not None and dtype != float):
+    if not has_numba() or not double:
         return "numpy"
-    from rockref.engines.compiled.pack import knows
+    from rockref.engines.compiled.pack import has_twin
 
-    return "numba" if all(knows(effect) for effect in problem.effects) else "numpy"
+    return "numba" if has_twin(problem) else "numpy"
 
 
 def run(problem: Problem, engine: str = "auto", progress=None, dtype=None) -> Response:

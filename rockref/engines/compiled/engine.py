@@ -47,9 +47,10 @@ def _one(problem: Problem, keep_going: bool) -> Response:
     first = np.zeros((n, 3)) if problem.start.F is None else problem.start.F.copy()
     run = kernel.with_effects if effects.any() else kernel.law
     props = pack.props_rows(problem)
+    memory, centres = pack.memory_rows(problem.start), pack.centres(problem.points.P, props)
     written = run(
-        pack.body_row(problem), pack.centres(problem.points.P, props), props, pack.memory_rows(problem.start), first, effects,
-        pack.state_row(problem), float(problem.step), wanted, True, states, forces, memories,
+        pack.body_row(problem), centres, props, memory, first, effects, pack.state_row(problem),
+        float(problem.step), wanted, True, states, forces, memories,
     )  # fmt: skip
     if not np.isfinite(states[written - 1, 15:18]).all() and not keep_going:
         good = problem.start
@@ -67,7 +68,7 @@ def _one(problem: Problem, keep_going: bool) -> Response:
 
 
 def lost(problem: Problem, good: State) -> NumericalError:
-    """The error that names the step and the point at which the numbers were lost: the law finds them, from a good state.
+    """The error that names step and point at which the numbers were lost: the law finds them, from a good state.
 
     Raises InputError (E-ANGLE) itself where a step turns the block too far, as the law does.
     """

@@ -1,4 +1,4 @@
-"""The loop over the steps, compiled. Operation for operation the text of `rockref.model`; the rule ids are at the margin.
+"""The loop over the steps, compiled. Operation for operation the text of `rockref.model`; rule ids at the margin.
 
 One function makes the loop twice: for the law alone, and with the effects, so that the law pays nothing for them. It
 holds the fingerprint of the sources, by which numba's files of compiled code are told apart.
@@ -40,8 +40,8 @@ from rockref.engines.compiled.loads import advance_support
 from rockref.engines.compiled.sources import FINGERPRINT
 
 __all__ = [
-    "A_", "BODY", "COUNT", "GIVEN", "L", "MEMORY", "ORIGIN", "PROPS", "Q", "Q_RATE", "RADIUS", "STATE", "TIME", "T_", "V", "W_",
-    "X", "law", "with_effects",
+    "A_", "BODY", "COUNT", "GIVEN", "L", "MEMORY", "ORIGIN", "PROPS", "Q", "Q_RATE", "RADIUS", "STATE", "TIME", "T_",
+    "V", "W_", "X", "law", "with_effects",
 ]  # fmt: skip
 
 

@@ -113,6 +113,12 @@ def effects_row(problem: Problem) -> np.ndarray:
 NUMPY = 'Use engine="numpy", or engine="auto", which does.'
 
 
+def has_twin(problem: Problem) -> bool:
+    """Whether the compiled step can run this problem."""
+    active = [effect for effect in problem.effects if not effect.is_absent()]
+    return all(knows(effect) for effect in active) and in_order(active)
+
+
 def in_order(effects: Sequence[Effect]) -> bool:
     """Whether the effects that act in the step stand once each, in the order in which the compiled step has them."""
     ranks = [slots.IN_THE_STEP.index(effect.id) for effect in effects if effect.id in slots.IN_THE_STEP]

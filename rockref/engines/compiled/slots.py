@@ -41,7 +41,7 @@ IN_THE_STEP = tuple(
     "lingering_wire_pull base_vibration plate_tilt compliant_support".split()
 )
 
-#: Effects that act before the run (on points, mass, release) or after it (sensor): the compiled step need not know them.
+#: Effects that act before the run (on points, mass, release) or after it (sensor).
 OUTSIDE_THE_STEP = frozenset(
     "foot_defects rounded_feet uneven_foot_stiffness uneven_foot_damping uneven_foot_friction mass_eccentricity "
     "inertia_deviation dimension_deviation release_velocity gyro_misalignment gyro_scale gyro_drift gyro_bandwidth "
