@@ -3,7 +3,7 @@
 Between two apexes the rate about the main axis grows to a cusp and falls again. It grows until the feet of the other
 side touch; there it loses a few per cent within some milliseconds, and does not change sign. That sharp drop is the
 main impact. The feet do not touch all at once: two or three drops may follow one another within 20 ms. The instant is
-the half-way point of the one that follows the largest rate, for model and data alike.
+the middle of the one that follows the largest rate, for model and data alike.
 """
 
 from __future__ import annotations
@@ -23,8 +23,9 @@ COARSE_WINDOW = 0.009
 FINE_WINDOW = 0.002
 # decided: the cusp of the smooth rate is at most this far from the cusp of the rate itself.
 SEARCH = 0.012
-# decided: a contact lasts 1.5 ms (half period of 13 kg on 6e7 N/m), and the gyroscope's 300 Hz add 2 ms.
-DROP_WINDOW = 0.005
+# decided: a contact lasts 1.5 ms (half period of 13 kg on 6e7 N/m), and the gyroscope's 300 Hz add 2 ms. If the rate
+# goes on to fall at the slope of the free motion, half way down is up to 0.7 ms late; model and data alike.
+DROP_WINDOW = 0.004
 # decided: an impact takes three per cent (1 - 1.5 sin^2 of the slenderness, Housner 1963); where less than one is lost
 # in 5 ms the top is flat, cut off by the range of the gyroscope, and its middle is taken with a drop of zero.
 FLAT = 0.01

@@ -14,9 +14,9 @@ from rockref.measure.rawfile import read_text, shown
 from rockref.model.errors import InputError
 
 # decided: a thousand runs of 150 characters are 150 kB.
-MAX_TOML_BYTES = 2**20
+MAX_TOML_BYTES = 2**18
 # decided: no key of ours needs more; it also bounds the depth of dotted keys, whose cost grows with its square.
-MAX_TOML_LINE = 2000
+MAX_TOML_LINE = 1000
 
 
 @dataclass(frozen=True)

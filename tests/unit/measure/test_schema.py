@@ -76,14 +76,14 @@ def test_ranges_are_inclusive(value):
 HOSTILE = {
     "not TOML": (b"a = \n", "E-TOML", "line 1"),
     "key twice": (b"a = 1\na = 2\n", "E-TOML", "line 2"),
-    "deep list": (b"a = " + b"[" * 1900 + b"]" * 90, "E-TOML", ""),
-    "deep list over lines": (b"a = " + b"[\n" * 100_000 + b"]\n" * 100_000, "E-TOML", "deeply"),
-    "deep inline tables": (b"a = " + b"{a = " * 390, "E-TOML", ""),
-    "integer of 2000 digits": (b"a = [\n" + b"1" * 2000 + b"\n]", None, ""),
-    "integer of 2001 digits": (b"a = [\n" + b"1" * 2001 + b"\n]", "E-TOML", "line 2"),
+    "deep list": (b"a = " + b"[" * 900 + b"]" * 90, "E-TOML", ""),
+    "deep list over lines": (b"a = " + b"[\n" * 50_000 + b"]\n" * 50_000, "E-TOML", "deeply"),
+    "deep inline tables": (b"a = " + b"{a = " * 190, "E-TOML", ""),
+    "integer of 1000 digits": (b"a = [\n" + b"1" * 1000 + b"\n]", None, ""),
+    "integer of 1001 digits": (b"a = [\n" + b"1" * 1001 + b"\n]", "E-TOML", "line 2"),
     "long line": (b"# " + b"x" * 3000 + b"\n", "E-TOML", "line 1"),
     "long dotted key": (b".".join([b"a"] * 5000) + b" = 1\n", "E-TOML", "characters"),
-    "huge file": (b"# x\n" * 400_000, "E-SIZE", "1 MiB"),
+    "huge file": (b"# x\n" * 100_000, "E-SIZE", "262144 bytes"),
     "not UTF-8": (b"a = 'caf\xe9'\n", "E-ENCODING", "line 1"),
     "zero byte": (b"a = 1\0\n", "E-ENCODING", "line 1"),
     "empty": (b"\n\n", "E-EMPTY", "empty"),
@@ -98,7 +98,7 @@ def test_hostile_toml(tmp_path, case):
     path = tmp_path / "experiment.toml"
     path.write_bytes(content)
     if code is None:
-        assert read_toml(path)[0]["a"][0] > 10**1990
+        assert read_toml(path)[0]["a"][0] > 10**990
         return
     with pytest.raises(InputError) as caught:
         read_toml(path)
@@ -108,8 +108,8 @@ def test_hostile_toml(tmp_path, case):
 
 def test_many_dotted_keys_take_no_time(tmp_path):
     path = tmp_path / "experiment.toml"
-    line = ".".join(["a"] * 990)
-    path.write_text("".join(f"{line}.k{i} = 1\n" for i in range(200)))
+    line = ".".join(["a"] * 480)
+    path.write_text("".join(f"{line}.k{i} = 1\n" for i in range(250)))
     document, _ = read_toml(path)
     assert list(document) == ["a"]
     with pytest.raises(InputError, match="the key is not known"):

@@ -1,0 +1,169 @@
+"""The gyroscope against its transfer function and its data sheet."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rockref.measure.experiment import Gyro
+from rockref.measure.gyroscope import (
+    DAMPING,
+    add_noise,
+    low_pass,
+    natural_frequency,
+    quantise,
+    record,
+    sample,
+    sample_times,
+    saturate,
+)
+from rockref.model.errors import InputError
+
+STEP = 1.0 / 20000.0
+
+
+def response(frequency, bandwidth, damping=DAMPING):
+    """The transfer function of the data sheet at a frequency in Hz."""
+    ratio = 2.0 * math.pi * frequency / natural_frequency(bandwidth, damping)
+    return 1.0 / (1.0 - ratio**2 + 2j * damping * ratio)
+
+
+@pytest.mark.parametrize("damping", [0.4, DAMPING, 1.0, 2.0])
+def test_bandwidth_is_where_the_power_is_halved(damping):
+    assert abs(response(300.0, 300.0, damping)) ** 2 == pytest.approx(0.5, rel=1e-12)
+
+
+def test_butterworth_damping_puts_the_natural_frequency_there():
+    assert natural_frequency(300.0) == pytest.approx(2.0 * math.pi * 300.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("frequency", [10.0, 100.0, 300.0, 900.0])
+def test_sines_pass_as_the_transfer_function_says(frequency):
+    t = np.arange(0.0, 0.5, STEP)
+    wave = np.exp(2j * np.pi * frequency * t)
+    crv = np.stack((wave.real, wave.imag, 0 * t), axis=-1)
+    out = low_pass(crv, STEP, 300.0)
+    # After 0.1 s the start has died by exp(-133).
+    late = t > 0.1
+    expected = response(frequency, 300.0) * wave
+    # A sine between samples is not straight: (pi f step)^2/3 of it at most.
+    error = (math.pi * frequency * STEP) ** 2
+    assert np.abs(out[late, 0] - expected.real[late]).max() < error
+    assert np.abs(out[late, 1] - expected.imag[late]).max() < error
+    assert not out[:, 2].any()
+
+
+def test_ramp_is_delayed_by_the_stated_time():
+    t = np.arange(0.0, 0.2, STEP)
+    out = low_pass(np.stack((3.0 * t, -t, 1.0 + t), axis=-1), STEP, 300.0)
+    delay = 2.0 * DAMPING / natural_frequency(300.0)
+    assert delay == pytest.approx(0.75e-3, rel=1e-3)
+    late = t > 0.05
+    assert np.allclose(out[late, 0], 3.0 * (t[late] - delay), rtol=0.0, atol=1e-12)
+    assert np.allclose(out[late, 2], 1.0 + t[late] - delay, rtol=0.0, atol=1e-12)
+    # Settled on the first sample: no jump at the start.
+    assert out[0, 2] == pytest.approx(1.0, abs=STEP)
+
+
+def test_step_follows_the_closed_form():
+    """A step of one sample's width, seen by a second-order low-pass of damping 1/sqrt(2)."""
+    t = np.arange(0.0, 0.05, STEP)
+    out = low_pass((t >= 0.01)[:, None] * np.ones(3), STEP, 300.0)[:, 0]
+    a = natural_frequency(300.0) / math.sqrt(2.0)
+    s = np.maximum(t - 0.01 + 0.5 * STEP, 0.0)
+    closed = 1.0 - np.exp(-a * s) * (np.cos(a * s) + np.sin(a * s))
+    # The step is a ramp of 0.05 ms: second order in that, (omega step)^2/24.
+    assert np.abs(out - closed).max() < (natural_frequency(300.0) * STEP) ** 2 / 6.0
+    assert out.max() == pytest.approx(1.0 + math.exp(-math.pi), abs=1e-4)
+
+
+def test_batches_are_filtered_one_by_one():
+    crv = np.random.default_rng(0).standard_normal((2, 5, 400, 3))
+    whole = low_pass(crv, STEP, 300.0)
+    assert whole.shape == crv.shape
+    assert np.array_equal(whole[1, 3], low_pass(crv[1, 3], STEP, 300.0))
+
+
+@pytest.mark.parametrize("step", [1e-3, 5.1e-4, 0.0, -1e-5, math.nan])
+def test_coarse_signals_are_refused(step):
+    with pytest.raises(InputError) as caught:
+        low_pass(np.zeros((10, 3)), step, 300.0)
+    assert caught.value.code == "E-STEP"
+
+
+@pytest.mark.parametrize("numbers", [(0.0, 0.7), (300.0, 0.0), (-1.0, 0.7)])
+def test_filters_that_are_none_are_refused(numbers):
+    with pytest.raises(InputError) as caught:
+        natural_frequency(*numbers)
+    assert caught.value.code == "E-RANGE"
+
+
+def test_sampling_on_the_grid_takes_the_samples():
+    t = np.arange(4001) / 2000.0
+    crv = np.random.default_rng(0).standard_normal((2, 4001, 3))
+    assert np.array_equal(sample(t, crv, np.arange(2001) / 1000.0), crv[:, ::2])
+
+
+def test_sampling_between_is_cubic():
+    t = np.arange(0.0, 1.0, 0.0005)
+    cubic = t**3 - t
+    times = np.sort(np.random.default_rng(0).uniform(0.0, t[-1], 100))
+    found = sample(t, np.stack((cubic, cubic, cubic), axis=-1), times)
+    assert np.allclose(found[:, 0], times**3 - times, rtol=0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("times", [[-0.1], [1.1]])
+def test_times_outside_are_refused(times):
+    with pytest.raises(InputError) as caught:
+        sample(np.arange(1001) / 1000.0, np.zeros((1001, 3)), np.array(times))
+    assert caught.value.code == "E-TIMES"
+
+
+@pytest.mark.parametrize(("end", "rate", "count"), [(1.0, 1000.0, 1001), (0.9995, 1000.0, 1000), (0.3, 10.0, 4)])
+def test_sample_times_hold_both_ends(end, rate, count):
+    times = sample_times(0.0, end, rate)
+    assert len(times) == count
+    assert times[0] == 0.0 and times[-1] <= end + 1e-9
+
+
+def test_noise_saturation_and_steps_keep_to_the_data_sheet():
+    rng = np.random.default_rng(11)
+    noisy = add_noise(np.zeros((100000, 3)), 2e-3, rng)
+    # 300000 draws: 0.13 % of the width, and a mean of 4e-6.
+    assert noisy.std() == pytest.approx(2e-3, rel=5e-3)
+    assert abs(noisy.mean()) < 2e-5
+    assert np.abs(np.corrcoef(noisy.T) - np.eye(3)).max() < 0.02
+    cut = saturate(noisy, 1e-3)
+    assert (cut.max(), cut.min()) == (1e-3, -1e-3)
+    assert np.array_equal(saturate(noisy, None), noisy)
+    rounded = quantise(noisy, 5e-4)
+    assert np.abs(rounded - noisy).max() <= 2.5e-4 * (1.0 + 1e-9)
+    assert np.allclose(rounded / 5e-4, np.rint(rounded / 5e-4), rtol=0.0, atol=1e-9)
+    assert np.array_equal(quantise(noisy, 0.0), noisy)
+
+
+def test_record_is_the_chain_in_order():
+    gyro = Gyro(sample_rate=1000.0, noise=1e-3, bandwidth=300.0, resolution=5e-4, range=0.4)
+    t = np.arange(0.0, 1.0, 0.0005)
+    crv = np.stack((0.6 * np.sin(9.0 * t), 0.1 * np.cos(40.0 * t), 0 * t), axis=-1)
+    times, seen = record(t, crv, gyro, np.random.default_rng(5))
+    smooth = low_pass(crv, 0.0005, 300.0)[::2]
+    noisy = add_noise(smooth, 1e-3, np.random.default_rng(5))
+    assert np.array_equal(seen, quantise(saturate(noisy, 0.4), 5e-4))
+    assert np.allclose(times, t[::2], rtol=0.0, atol=1e-12)
+    assert np.abs(seen).max() == pytest.approx(0.4, abs=2.5e-4)
+    _, expected = record(t, crv, gyro)
+    assert np.array_equal(expected, saturate(smooth, 0.4))
+
+
+def test_record_is_repeated_by_its_seed():
+    gyro = Gyro(1000.0, 1e-3, 300.0, 1e-4)
+    t = np.arange(0.0, 0.5, 0.0005)
+    a, b, c = (record(t, np.zeros((len(t), 3)), gyro, np.random.default_rng(seed))[1] for seed in (1, 1, 2))
+    assert np.array_equal(a, b) and not np.array_equal(a, c)
+
+
+def test_record_of_one_sample_is_refused():
+    with pytest.raises(InputError) as caught:
+        record(np.zeros(1), np.zeros((1, 3)), Gyro(1000.0, 0.0, 300.0, 0.0))
+    assert caught.value.code == "E-STEP"
