@@ -11,6 +11,12 @@ import numpy as np
 from rockref.model.rotation import apply, apply_to_points, cross
 
 
+#: Sums of two squares above it are rounded like any other number, in each precision.
+LEAST_SQUARE = {
+    np.dtype(real): np.finfo(real).tiny / np.finfo(real).eps for real in (np.float32, np.float64, np.longdouble)
+}
+
+
 class Kinematics(NamedTuple):
     """Where the n points are and how they move, relative to the plate: r, u, u_rate (..., n, 3); xi, xi_rate (..., n);
     v_slide (..., n, 2)."""
@@ -76,7 +82,7 @@ def altered_normal_force(k: Kinematics, points, effects) -> np.ndarray:
 
 def open_gap(xi: np.ndarray, F_N: np.ndarray) -> np.ndarray:
     """Rule N2: no normal force where the point is above the plate, xi < 0. All (..., n). Source: (3.5b)."""
-    return np.where(xi < 0, 0, F_N)  # (3.5b)
+    return F_N * (xi >= 0)  # (3.5b)
 
 
 def touch(xi: np.ndarray, u_t: np.ndarray, s: np.ndarray, had_anchor: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -119,9 +125,9 @@ def norm(F: np.ndarray) -> np.ndarray:
     """
     x, y = F[..., 0], F[..., 1]
     squares = x * x + y * y
-    small = squares < np.finfo(F.dtype).tiny / np.finfo(F.dtype).eps
+    small = squares < LEAST_SQUARE[F.dtype]
     size = np.sqrt(squares)
-    if small.any():
+    if np.count_nonzero(small):
         largest = np.maximum(np.abs(x), np.abs(y))
         unit = np.where(largest > 0, largest, 1)
         size = np.where(small, largest * np.sqrt((x / unit) * (x / unit) + (y / unit) * (y / unit)), size)
@@ -139,7 +145,8 @@ def radial_return(F_trial: np.ndarray, size: np.ndarray, stick: np.ndarray, mu_F
     `size` is the length of the trial force and `mu_F_N` the sliding force, both (..., n). A point above the plate has
     F_N = 0 and so no friction. Source: (3.6b).
     """
-    scale = np.where(stick, 1, mu_F_N / np.where(stick, 1, size))
+    one = stick.astype(size.dtype)
+    scale = np.divide(mu_F_N, size, out=one, where=~stick)
     return scale[..., None] * F_trial  # (3.6b)
 
 
