@@ -20,7 +20,7 @@ def has_numba() -> bool:
 
 
 def chosen(problem: Problem, engine: str, dtype=None) -> str:
-    """The engine that will run: "auto" takes numba where it is installed, has a twin of every effect, and float64 is wanted.
+    """The engine that will run: "auto" takes numba where it is installed, knows every effect, and float64 is wanted.
 
     Raises
     ------

@@ -10,10 +10,11 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
-import numba
 import numpy as np
 
+from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import kernel, pack, slots
+from rockref.engines.compiled.jit import entered
 from rockref.engines.compiled.sources import FINGERPRINT
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
@@ -92,9 +93,9 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False):
     batch = checked(batch)
     B, n = batch.P.shape[:2]
     R = batch.wanted.shape[1]
-    states = np.full((B, R, kernel.STATE), np.nan)
+    states = np.full((B, R, col.STATE), np.nan)
     kept = B if full else 1
-    forces, memories = np.full((kept, R, n, 3), np.nan), np.full((kept, R, n, kernel.MEMORY), np.nan)
+    forces, memories = np.full((kept, R, n, 3), np.nan), np.full((kept, R, n, col.MEMORY), np.nan)
     loop = _loop_with_effects if batch.effects.any() else _loop_law
     own_forces, memory = batch.forces, batch.memory
     centres = pack.centres(batch.P, batch.props)
@@ -122,8 +123,8 @@ def checked(batch: Batch) -> Batch:
     B, n = np.shape(batch.P)[:2]
     wanted = np.ascontiguousarray(np.broadcast_to(np.asarray(batch.wanted, np.int64), (B, np.shape(batch.wanted)[-1])))
     shapes = {
-        "body": (B, kernel.BODY), "P": (B, n, 3), "props": (B, n, kernel.PROPS), "memory": (B, n, kernel.MEMORY),
-        "effects": (B, slots.SLOTS), "state": (B, kernel.STATE), "forces": (B, n, 3),
+        "body": (B, col.BODY), "P": (B, n, 3), "props": (B, n, col.PROPS), "memory": (B, n, col.MEMORY),
+        "effects": (B, slots.SLOTS), "state": (B, col.STATE), "forces": (B, n, 3),
     }  # fmt: skip
     given = {k: np.zeros(shape) if getattr(batch, k) is None else getattr(batch, k) for k, shape in shapes.items()}
     for key, shape in shapes.items():
@@ -135,7 +136,7 @@ def checked(batch: Batch) -> Batch:
 
 
 def _make_loop(with_effects: bool, source: int):
-    @numba.njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
+    @entered
     def loop(
         first, last, body, centres, props, memory, own_forces, effects, state, h, wanted, full, states, forces, memories
     ):

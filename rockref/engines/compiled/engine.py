@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import kernel, pack
 from rockref.model.errors import NumericalError
 from rockref.model.integrator import first_evaluation, prepared_inertia
@@ -42,8 +43,8 @@ def _one(problem: Problem, keep_going: bool) -> Response:
     n, rows = problem.points.n, len(wanted)
     problem = pack.with_memory(problem)
     effects = pack.effects_row(problem)
-    states, forces = np.empty((rows, kernel.STATE)), np.empty((rows, n, 3))
-    memories = np.empty((rows, n, kernel.MEMORY))
+    states, forces = np.empty((rows, col.STATE)), np.empty((rows, n, 3))
+    memories = np.empty((rows, n, col.MEMORY))
     first = np.zeros((n, 3)) if problem.start.F is None else problem.start.F.copy()
     run = kernel.with_effects if effects.any() else kernel.law
     props = pack.props_rows(problem)
@@ -60,7 +61,7 @@ def _one(problem: Problem, keep_going: bool) -> Response:
     states[written:], forces[written:] = np.nan, np.nan
     return Response(
         problem=problem,
-        t=states[:, kernel.TIME],
+        t=states[:, col.TIME],
         x=states[:, 0:3], v=states[:, 3:6], Lambda=states[:, 6:15].reshape(rows, 3, 3), W=states[:, 15:18],
         F=forces, s=memories[:, :, 0:2], anchored=memories[:, :, 2] != 0, sliding=memories[:, :, 3] != 0,
         final_state=pack.final_state(problem, states[-1], memories[-1], forces[-1]),

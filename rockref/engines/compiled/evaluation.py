@@ -2,33 +2,15 @@
 
 from __future__ import annotations
 
-import numba
-
+from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
-from rockref.engines.compiled.columns import (
-    ANCHORED,
-    C_N,
-    GRAVITY,
-    K_N,
-    MASS,
-    MU,
-    MU_0,
-    R_X,
-    R_Y,
-    R_Z,
-    RADIUS,
-    SLIDING,
-    V_X,
-    V_Y,
-    XI,
-    XI_LARGEST,
-)  # fmt: skip
 from rockref.engines.compiled.contact import altered, altered_friction, friction
+from rockref.engines.compiled.jit import inlined
 from rockref.engines.compiled.loads import add_loads
 
 
 def _make_evaluation(with_effects: bool):
-    @numba.njit(inline="always")
+    @inlined
     def evaluate(
         body, centres, props, memory, forces, e, t, q, q_rate,
         x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn0, turn1, turn2,
@@ -43,37 +25,37 @@ def _make_evaluation(with_effects: bool):
         Fx = Fy = Fz = Mx = My = Mz = 0.0
         for i in range(centres.shape[0]):
             Px, Py, Pz = centres[i, 0], centres[i, 1], centres[i, 2]
-            rz = (L6 * Px + L7 * Py + L8 * Pz) - props[i, RADIUS]
+            rz = (L6 * Px + L7 * Py + L8 * Pz) - props[i, col.RADIUS]
             height = x2 + rz
             if with_effects:
                 height = height - q
             if height > 0.0:  # not touching; lost numbers count as touching, so that they show
-                if memory[i, ANCHORED] != 0.0:
-                    memory[i, ANCHORED] = memory[i, SLIDING] = 0.0  # T5
+                if memory[i, col.ANCHORED] != 0.0:
+                    memory[i, col.ANCHORED] = memory[i, col.SLIDING] = 0.0  # T5
                     forces[i, 0] = forces[i, 1] = forces[i, 2] = 0.0  # N2
                 if with_effects:
-                    memory[i, XI_LARGEST] = 0.0
+                    memory[i, col.XI_LARGEST] = 0.0
                     if e[slots.ADHESION] == 0.0:
                         continue
-                    memory[i, XI], memory[i, R_Z] = -height, rz
-                    memory[i, R_X], memory[i, R_Y] = L0 * Px + L1 * Py + L2 * Pz, L3 * Px + L4 * Py + L5 * Pz
+                    memory[i, col.XI], memory[i, col.R_Z] = -height, rz
+                    memory[i, col.R_X], memory[i, col.R_Y] = L0 * Px + L1 * Py + L2 * Pz, L3 * Px + L4 * Py + L5 * Pz
                 continue
             rx = L0 * Px + L1 * Py + L2 * Pz
             ry = L3 * Px + L4 * Py + L5 * Pz
             vx = v0 + (oy * rz - oz * ry)  # K1
             vy = v1 + (oz * rx - ox * rz)
             vz = v2 + (ox * ry - oy * rx)
-            mu_0, mu = props[i, MU_0], props[i, MU]
+            mu_0, mu = props[i, col.MU_0], props[i, col.MU]
             if with_effects:
                 vz = vz - q_rate
-            fz = props[i, K_N] * -height + props[i, C_N] * -vz  # (3.5a)
+            fz = props[i, col.K_N] * -height + props[i, col.C_N] * -vz  # (3.5a)
             if with_effects:
                 fz = altered(fz, -height, -vz, props, i, e, memory)
             fz = 0.0 if fz <= 0.0 else fz  # N1
             if with_effects:
                 mu_0, mu = altered_friction(mu_0, mu, vx, vy, fz, e)
-                memory[i, XI], memory[i, R_X], memory[i, R_Y], memory[i, R_Z] = -height, rx, ry, rz
-                memory[i, V_X], memory[i, V_Y] = vx, vy
+                memory[i, col.XI], memory[i, col.R_X], memory[i, col.R_Y], memory[i, col.R_Z] = -height, rx, ry, rz
+                memory[i, col.V_X], memory[i, col.V_Y] = vx, vy
             fx, fy = friction(x0 + rx, x1 + ry, vx, vy, fz, mu_0, mu, props, memory, i, turn0, turn1)
             forces[i, 0], forces[i, 1], forces[i, 2] = fx, fy, fz
             Fx += fx
@@ -82,12 +64,12 @@ def _make_evaluation(with_effects: bool):
             Mx += ry * fz - rz * fy  # A2
             My += rz * fx - rx * fz
             Mz += rx * fy - ry * fx
-        mass = body[MASS]
-        Fz -= mass * body[GRAVITY]  # A1
+        mass = body[col.MASS]
+        Fz -= mass * body[col.GRAVITY]  # A1
         if with_effects:
             if e[slots.ON_BODY] != 0.0:
                 Fx, Fy, Fz, Mx, My, Mz = add_loads(
-                    (Fx, Fy, Fz, Mx, My, Mz), e, mass, body[GRAVITY], props, memory, forces,
+                    (Fx, Fy, Fz, Mx, My, Mz), e, mass, body[col.GRAVITY], props, memory, forces,
                     x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, turn0, turn1, turn2, t,
                 )  # fmt: skip
         Tx = L0 * Mx + L3 * My + L6 * Mz  # A3

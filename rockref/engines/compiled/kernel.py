@@ -8,47 +8,21 @@ from __future__ import annotations
 
 import math
 
-import numba
-
+from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
-from rockref.engines.compiled.columns import (
-    A_,
-    BODY,
-    COUNT,
-    GIVEN,
-    GRAVITY,
-    J_INVERSE,
-    MASS,
-    MEMORY,
-    ORIGIN,
-    PRINCIPAL,
-    PROPS,
-    Q_RATE,
-    RADIUS,
-    STATE,
-    T_,
-    TIME,
-    W_,
-    J,
-    L,
-    Q,
-    V,
-    X,
-)  # fmt: skip
+from rockref.engines.compiled.columns import BODY, MEMORY, ORIGIN, PROPS, STATE, TIME
 from rockref.engines.compiled.evaluation import evaluate_law, evaluate_with_effects
+from rockref.engines.compiled.jit import called, entered, inlined
 from rockref.engines.compiled.loads import advance_support
 from rockref.engines.compiled.sources import FINGERPRINT
 
-__all__ = [
-    "A_", "BODY", "COUNT", "GIVEN", "L", "MEMORY", "ORIGIN", "PROPS", "Q", "Q_RATE", "RADIUS", "STATE", "TIME", "T_",
-    "V", "W_", "X", "law", "with_effects",
-]  # fmt: skip
+__all__ = ["BODY", "MEMORY", "ORIGIN", "PROPS", "STATE", "TIME", "law", "with_effects"]
 
 
-@numba.njit(inline="always")
+@inlined
 def _times(body, at, x, y, z):
     """J or J^-1, which stand in `body` from column `at`, times a vector."""
-    if body[PRINCIPAL] != 0.0:
+    if body[col.PRINCIPAL] != 0.0:
         return body[at] * x, body[at + 4] * y, body[at + 8] * z
     return (
         body[at] * x + body[at + 1] * y + body[at + 2] * z,
@@ -57,7 +31,7 @@ def _times(body, at, x, y, z):
     )
 
 
-@numba.njit(_nrt=False)
+@called
 def _long_series(t):
     s = c = 1.0 if t <= 10.24 else math.nan  # beyond 3.2 rad the law refuses the step: the caller finds out where
     for k in range(17, 0, -1):
@@ -66,7 +40,7 @@ def _long_series(t):
     return s, c / 2
 
 
-@numba.njit(inline="always")
+@inlined
 def _series(t):
     """sin(theta)/theta and (1 - cos(theta))/theta^2 from t = theta^2, as `rotation.series_coefficients`."""
     if not t <= 1e-4:
@@ -80,7 +54,7 @@ def _series(t):
     return s, c / 2
 
 
-@numba.njit(inline="always")
+@inlined
 def _turned(m0, m1, m2, E0, E1, E2, E3, E4, E5, E6, E7, E8):
     """The row m (I + E)."""
     return (
@@ -93,11 +67,11 @@ def _turned(m0, m1, m2, E0, E1, E2, E3, E4, E5, E6, E7, E8):
 def _make_begin(with_effects: bool, source: int):
     """The first force evaluation of a run: a and T (6); `source` only marks the stored code."""
 
-    @numba.njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
+    @entered
     def begin(body, centres, props, memory, forces, e, s):
         if with_effects:
             return evaluate_with_effects(
-                body, centres, props, memory, forces, e, s[TIME], s[Q], s[Q_RATE],
+                body, centres, props, memory, forces, e, s[col.TIME], s[col.Q], s[col.Q_RATE],
                 s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14],
                 s[15], s[16], s[17], 0.0, 0.0, 0.0,
             )  # fmt: skip
@@ -116,7 +90,7 @@ begin_law, begin_with_effects = _make_begin(False, FINGERPRINT), _make_begin(Tru
 def _make_run(with_effects: bool, source: int):
     """The compiled run: for the law alone, or with the effects that `e` switches on; `source` as above."""
 
-    @numba.njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
+    @entered
     def run(body, centres, props, memory, forces, e, state, h, wanted, full, rows_state, rows_F, rows_memory):
         """All steps of one run; rows are written at the step numbers `wanted`. Returns the number of rows written.
 
@@ -126,19 +100,19 @@ def _make_run(with_effects: bool, source: int):
         L0, L1, L2, L3, L4, L5 = state[6], state[7], state[8], state[9], state[10], state[11]
         L6, L7, L8, W0, W1, W2 = state[12], state[13], state[14], state[15], state[16], state[17]
         a0, a1, a2, T0, T1, T2 = state[18], state[19], state[20], state[21], state[22], state[23]
-        origin, count, q, q_rate = state[ORIGIN], state[COUNT], state[Q], state[Q_RATE]
-        if state[GIVEN] == 0.0:
+        origin, count, q, q_rate = state[col.ORIGIN], state[col.COUNT], state[col.Q], state[col.Q_RATE]
+        if state[col.GIVEN] == 0.0:
             if with_effects:
                 a0, a1, a2, T0, T1, T2 = begin_with_effects(body, centres, props, memory, forces, e, state)
             else:
                 a0, a1, a2, T0, T1, T2 = begin_law(body, centres, props, memory, forces, e, state)
-        done, t = 0, state[TIME]
+        done, t = 0, state[col.TIME]
         half, half_square = h / 2, h * h / 2
         for row in range(wanted.shape[0]):
             for _ in range(done, wanted[row]):
-                JW0, JW1, JW2 = _times(body, J, W0, W1, W2)
+                JW0, JW1, JW2 = _times(body, col.J, W0, W1, W2)
                 A0, A1, A2 = _times(
-                    body, J_INVERSE,
+                    body, col.J_INVERSE,
                     T0 - (W1 * JW2 - W2 * JW1), T1 - (W2 * JW0 - W0 * JW2), T2 - (W0 * JW1 - W1 * JW0),
                 )  # fmt: skip
                 x0 = x0 + h * v0 + half_square * a0  # I1
@@ -168,7 +142,7 @@ def _make_run(with_effects: bool, source: int):
                         W0 + h * A0, W1 + h * A1, W2 + h * A2, turn0, turn1, turn2,
                     )  # fmt: skip
                     if e[slots.SUPPORT] != 0.0:
-                        q, q_rate = advance_support(e, body[MASS], body[GRAVITY], h, memory, forces, q, q_rate)
+                        q, q_rate = advance_support(e, body[col.MASS], body[col.GRAVITY], h, memory, forces, q, q_rate)
                 else:
                     b0, b1, b2, N0, N1, N2 = evaluate_law(
                         body, centres, props, memory, forces, e, t, q, q_rate,
@@ -181,19 +155,19 @@ def _make_run(with_effects: bool, source: int):
                 a0, a1, a2 = b0, b1, b2
                 mx, my, mz = JW0 + half * T0, JW1 + half * T1, JW2 + half * T2
                 px, py, pz = _turned(mx, my, mz, E0, E1, E2, E3, E4, E5, E6, E7, E8)
-                W0, W1, W2 = _times(body, J_INVERSE, px + half * N0, py + half * N1, pz + half * N2)  # I5
+                W0, W1, W2 = _times(body, col.J_INVERSE, px + half * N0, py + half * N1, pz + half * N2)  # I5
                 T0, T1, T2 = N0, N1, N2
             done = wanted[row]
             pose = (x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, a0, a1, a2, T0, T1, T2)
             for j in range(24):
                 rows_state[row, j] = pose[j]
-            rows_state[row, GIVEN], rows_state[row, TIME], rows_state[row, ORIGIN] = 1.0, t, origin
-            rows_state[row, COUNT], rows_state[row, Q], rows_state[row, Q_RATE] = count, q, q_rate
+            rows_state[row, col.GIVEN], rows_state[row, col.TIME], rows_state[row, col.ORIGIN] = 1.0, t, origin
+            rows_state[row, col.COUNT], rows_state[row, col.Q], rows_state[row, col.Q_RATE] = count, q, q_rate
             if full:
                 for i in range(centres.shape[0]):
                     for j in range(3):
                         rows_F[row, i, j] = forces[i, j]
-                    for j in range(MEMORY):
+                    for j in range(col.MEMORY):
                         rows_memory[row, i, j] = memory[i, j]
             if not math.isfinite(W0 + W1 + W2):
                 return row + 1

@@ -5,40 +5,22 @@ from __future__ import annotations
 
 import math
 
-import numba
-
+from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
-from rockref.engines.compiled.columns import (
-    ANCHORED,
-    C_N,
-    C_T,
-    FOOT,
-    K_N,
-    K_T,
-    MU,
-    R_X,
-    R_Y,
-    R_Z,
-    ROLL_X,
-    ROLL_Y,
-    V_X,
-    V_Y,
-    XI,
-    YAW,
-)  # fmt: skip
 from rockref.engines.compiled.contact import length
+from rockref.engines.compiled.jit import called, inlined
 
 #: Slices of the drag, as in `rockref.effects.loads.quadratic_drag`.
 SLICES = 16
 
 
-@numba.njit(inline="always")
+@inlined
 def pull(e, xi):
     """Adhesion of one point at penetration xi [N]."""
     return e[slots.ADHESION + 1] * min(max(1 + xi / e[slots.ADHESION + 2], 0.0), 1.0)
 
 
-@numba.njit(_nrt=False)
+@called
 def add_point_forces(load, e, props, memory, forces):
     """Adhesion, viscous friction and uneven normals."""
     Fx, Fy, Fz, Mx, My, Mz = load
@@ -48,16 +30,16 @@ def add_point_forces(load, e, props, memory, forces):
             continue
         fx = fy = fz = mx = my = mz = 0.0
         for i in range(memory.shape[0]):
-            touching, F_N = memory[i, ANCHORED] != 0.0, forces[i, 2]
+            touching, F_N = memory[i, col.ANCHORED] != 0.0, forces[i, 2]
             px = py = pz = 0.0
             if k == 0:
-                pz = -pull(e, memory[i, XI])
+                pz = -pull(e, memory[i, col.XI])
             elif k == 1 and touching:
-                px, py = -e[slots.VISCOUS + 1] * memory[i, V_X], -e[slots.VISCOUS + 1] * memory[i, V_Y]
+                px, py = -e[slots.VISCOUS + 1] * memory[i, col.V_X], -e[slots.VISCOUS + 1] * memory[i, col.V_Y]
             elif k == 2 and touching:
-                at = slots.NORMALS + 2 * int(props[i, FOOT])
+                at = slots.NORMALS + 2 * int(props[i, col.FOOT])
                 px, py = F_N * e[at - 1], F_N * e[at]
-            rx, ry, rz = memory[i, R_X], memory[i, R_Y], memory[i, R_Z]
+            rx, ry, rz = memory[i, col.R_X], memory[i, col.R_Y], memory[i, col.R_Z]
             fx, fy, fz = fx + px, fy + py, fz + pz
             mx, my, mz = mx + (ry * pz - rz * py), my + (rz * px - rx * pz), mz + (rx * py - ry * px)
         Fx += fx
@@ -69,7 +51,7 @@ def add_point_forces(load, e, props, memory, forces):
     return Fx, Fy, Fz, Mx, My, Mz
 
 
-@numba.njit(_nrt=False)
+@called
 def add_point_moments(load, e, props, memory, forces, ox, oy, oz, turn0, turn1, turn2):
     """Spin friction and rolling resistance; their memories move on."""
     Fx, Fy, Fz, Mx, My, Mz = load
@@ -77,35 +59,35 @@ def add_point_moments(load, e, props, memory, forces, ox, oy, oz, turn0, turn1, 
         radius = e[slots.SPIN + 1]
         square, mz = radius * radius, 0.0
         for i in range(memory.shape[0]):
-            if memory[i, ANCHORED] == 0.0:
-                memory[i, YAW] = 0.0
+            if memory[i, col.ANCHORED] == 0.0:
+                memory[i, col.YAW] = 0.0
                 continue
-            K, C = props[i, K_T] * square, props[i, C_T] * square
-            yaw = memory[i, YAW] + turn2
+            K, C = props[i, col.K_T] * square, props[i, col.C_T] * square
+            yaw = memory[i, col.YAW] + turn2
             M = -K * yaw - C * oz
-            limit = radius * props[i, MU] * forces[i, 2]
+            limit = radius * props[i, col.MU] * forces[i, 2]
             if abs(M) > limit:
                 M = min(max(M, -limit), limit)
                 yaw = -(M + C * oz) / K
-            memory[i, YAW] = yaw
+            memory[i, col.YAW] = yaw
             mz += M
         Mz += mz
     if e[slots.ROLLING] != 0.0:
         lever = e[slots.ROLLING + 1]
         square, mx, my = lever * lever, 0.0, 0.0
         for i in range(memory.shape[0]):
-            if memory[i, ANCHORED] == 0.0:
-                memory[i, ROLL_X] = memory[i, ROLL_Y] = 0.0
+            if memory[i, col.ANCHORED] == 0.0:
+                memory[i, col.ROLL_X] = memory[i, col.ROLL_Y] = 0.0
                 continue
-            K, C = props[i, K_N] * square, props[i, C_N] * square
-            ax, ay = memory[i, ROLL_X] + turn0, memory[i, ROLL_Y] + turn1
+            K, C = props[i, col.K_N] * square, props[i, col.C_N] * square
+            ax, ay = memory[i, col.ROLL_X] + turn0, memory[i, col.ROLL_Y] + turn1
             tx, ty = -K * ax - C * ox, -K * ay - C * oy
             size, limit = length(tx, ty), lever * forces[i, 2]
             if size > limit:
                 scale = limit / size
                 tx, ty = scale * tx, scale * ty
                 ax, ay = -(tx + C * ox) / K, -(ty + C * oy) / K
-            memory[i, ROLL_X], memory[i, ROLL_Y] = ax, ay
+            memory[i, col.ROLL_X], memory[i, col.ROLL_Y] = ax, ay
             mx += tx
             my += ty
         Mx += mx
@@ -113,7 +95,7 @@ def add_point_moments(load, e, props, memory, forces, ox, oy, oz, turn0, turn1, 
     return Fx, Fy, Fz, Mx, My, Mz
 
 
-@numba.njit(_nrt=False)
+@called
 def add_body_loads(load, e, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, t):
     """Drag, cable, wire, vibration and tilt."""
     Fx, Fy, Fz, Mx, My, Mz = load
@@ -162,7 +144,7 @@ def add_body_loads(load, e, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz,
     return Fx, Fy, Fz, Mx, My, Mz
 
 
-@numba.njit(_nrt=False)
+@called
 def add_loads(
     load, e, mass, g, props, memory, forces, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, turn0, turn1, turn2, t
 ):
@@ -172,7 +154,7 @@ def add_loads(
     return add_body_loads(load, e, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, t)
 
 
-@numba.njit(_nrt=False)
+@called
 def advance_support(e, mass, g, h, memory, forces, q, q_rate):
     """The plate on its spring, one step on: q, q_rate."""
     carried = 0.0
@@ -181,7 +163,7 @@ def advance_support(e, mass, g, h, memory, forces, q, q_rate):
     if e[slots.ADHESION] != 0.0:
         pulled = 0.0
         for i in range(memory.shape[0]):
-            pulled += pull(e, memory[i, XI])
+            pulled += pull(e, memory[i, col.XI])
         carried -= pulled
     k = slots.SUPPORT
     q_rate = q_rate + h * ((mass * g - carried) - e[k + 2] * q - e[k + 3] * q_rate) / e[k + 1]

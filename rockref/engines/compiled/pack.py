@@ -11,7 +11,8 @@ import numpy as np
 from rockref.effects.base import Effect
 from rockref.effects.feet import foot_numbers
 from rockref.effects.loads.attachment import half_height
-from rockref.engines.compiled import kernel, slots
+from rockref.engines.compiled import columns as col
+from rockref.engines.compiled import slots
 from rockref.model.errors import InputError
 from rockref.model.integrator import prepared_inertia
 from rockref.model.problem import Problem, State
@@ -21,7 +22,7 @@ from rockref.model.rotation import inverse
 def body_row(problem: Problem) -> np.ndarray:
     """(BODY,) mass, gravity, inertia and its inverse."""
     block = problem.block
-    row = np.zeros(kernel.BODY)
+    row = np.zeros(col.BODY)
     inertia = prepared_inertia(block)
     principal = inertia.J.ndim == 1
     row[0], row[1] = block.mass, block.g
@@ -34,14 +35,14 @@ def body_row(problem: Problem) -> np.ndarray:
 def centres(P: np.ndarray, props: np.ndarray) -> np.ndarray:
     """(..., n, 3) contact points raised by the radius of their feet [m]."""
     raised = np.array(P, np.float64, order="C")
-    raised[..., 2] += props[..., kernel.RADIUS]
+    raised[..., 2] += props[..., col.RADIUS]
     return raised
 
 
 def props_rows(problem: Problem) -> np.ndarray:
     """(n, PROPS) properties of the points."""
     q = problem.points
-    rows = np.zeros((q.n, kernel.PROPS))
+    rows = np.zeros((q.n, col.PROPS))
     for j, name in enumerate(("K_N", "K_T", "C_N", "C_T", "mu_0", "mu")):
         rows[:, j] = getattr(q, name)
     if q.radius is not None:
@@ -52,7 +53,7 @@ def props_rows(problem: Problem) -> np.ndarray:
 
 def memory_rows(state: State) -> np.ndarray:
     """(n, MEMORY) what the points remember."""
-    rows = np.zeros((state.s.shape[0], kernel.MEMORY))
+    rows = np.zeros((state.s.shape[0], col.MEMORY))
     rows[:, 0:2], rows[:, 2], rows[:, 3] = state.s, state.anchored, state.sliding
     for m in state.memory:
         for key, column in POINT_MEMORY.items():
@@ -68,16 +69,16 @@ POINT_MEMORY: dict[str, int | slice] = {"xi_largest": 4, "yaw": 5, "roll": slice
 def state_row(problem: Problem) -> np.ndarray:
     """(STATE,) pose, rates, accelerations and time of the start."""
     s = problem.start
-    row = np.zeros(kernel.STATE)
+    row = np.zeros(col.STATE)
     row[0:3], row[3:6], row[6:15], row[15:18] = s.x, s.v, np.asarray(s.Lambda).ravel(), s.W
     if s.a is not None and s.T is not None and s.F is not None:
-        row[18:21], row[21:24], row[kernel.GIVEN] = s.a, s.T, 1.0
-    row[kernel.TIME] = s.t
+        row[18:21], row[21:24], row[col.GIVEN] = s.a, s.T, 1.0
+    row[col.TIME] = s.t
     counted = s.h == problem.step
-    row[kernel.ORIGIN], row[kernel.COUNT] = (s.origin, s.count) if counted else (s.t, 0)
+    row[col.ORIGIN], row[col.COUNT] = (s.origin, s.count) if counted else (s.t, 0)
     for m in s.memory:
         if "q" in m:
-            row[kernel.Q], row[kernel.Q_RATE] = m["q"], m["q_rate"]
+            row[col.Q], row[col.Q_RATE] = m["q"], m["q_rate"]
     return row
 
 
@@ -187,13 +188,13 @@ def final_state(problem: Problem, row: np.ndarray, memory: np.ndarray, forces: n
         started = m or effect.start(problem)
         kept = {k: memory[:, POINT_MEMORY[k]].copy() for k in started if k in POINT_MEMORY}
         if "q" in started:
-            kept |= {"q": np.array(row[kernel.Q]), "q_rate": np.array(row[kernel.Q_RATE])}
+            kept |= {"q": np.array(row[col.Q]), "q_rate": np.array(row[col.Q_RATE])}
         own.append({**started, **kept})
     return replace(
         problem.start,
         x=row[0:3].copy(), v=row[3:6].copy(), Lambda=row[6:15].reshape(3, 3).copy(), W=row[15:18].copy(),
         s=memory[:, 0:2].copy(), anchored=memory[:, 2] != 0, sliding=memory[:, 3] != 0,
         a=row[18:21].copy(), T=row[21:24].copy(), F=forces.copy(),
-        t=float(row[kernel.TIME]), origin=float(row[kernel.ORIGIN]), count=int(row[kernel.COUNT]), h=problem.step,
+        t=float(row[col.TIME]), origin=float(row[col.ORIGIN]), count=int(row[col.COUNT]), h=problem.step,
         memory=tuple(own),
     )  # fmt: skip
