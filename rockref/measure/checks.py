@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rockref.measure.experiment import Experiment, Run
 
 GRAVITY = 9.81
-# decided: a gyroscope that saturates early shows a tenth of the rate, nothing makes it three times; a unit is off by 57.
+# decided: a gyroscope that saturates early shows a tenth of the rate, nothing thrice of it; a unit is off by 57.
 RATE_MARGIN = (0.1, 3.0)
 # decided: a loose mass or a slow wire delays the first impact by a fifth; more is another release.
 TIME_MARGIN = 0.3
