@@ -10,7 +10,6 @@ import numpy as np
 
 from rockref.model.rotation import apply, apply_to_points, cross
 
-
 #: Sums of two squares above it are rounded like any other number, in each precision.
 LEAST_SQUARE = {
     np.dtype(real): np.finfo(real).tiny / np.finfo(real).eps for real in (np.float32, np.float64, np.longdouble)

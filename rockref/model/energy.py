@@ -66,16 +66,18 @@ def energy(problem: Problem, state: State) -> Energy:
 
 
 def contact_work(problem: Problem, before: State, after: State) -> np.ndarray:
-    """Work that the contacts take from the block in one step [J], (...): -sum of mean force times way of the point."""
+    """Work that the contacts take from the block in one step [J], (...): -sum of mean force times way of the point.
+
+    Both states come from a step, or from `first_evaluation`: they bring their point forces.
+    """
     points = problem.points
-    way = 0
-    for sign, s in ((1, after), (-1, before)):
-        way = way + sign * point_kinematics(s.x, s.Lambda, s.v, s.W, points.P, points.radius).u
-    return -np.sum((before.F + after.F) / 2 * way, axis=(-1, -2))
+    u_before, u_after = (point_kinematics(s.x, s.Lambda, s.v, s.W, points.P, points.radius).u for s in (before, after))
+    mean_force = (np.asarray(before.F) + np.asarray(after.F)) / 2
+    return -np.sum(mean_force * (u_after - u_before), axis=(-1, -2))
 
 
 class Balance(NamedTuple):
-    """Energy account of a run, one row a step: t (steps+1,), energies and work summed from the start, (steps+1, ...) [J]."""
+    """Energy account of a run, a row a step: t (steps+1,) [s]; energies, and work from the start, (steps+1, ...) [J]."""
 
     t: np.ndarray
     mechanical: np.ndarray

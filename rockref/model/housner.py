@@ -28,7 +28,7 @@ def frequency_parameter(mass: float, J_G: float, R: float, g: float) -> float:
 
 
 def velocity_ratio(mass: float, J_G: float, R: float, alpha: float) -> float:
-    """Angular velocity after an impact over that before: 1 - (2 m R^2 / I_O) sin^2(alpha), alpha = slenderness [rad]."""
+    """Angular velocity after an impact over that before: 1 - (2 m R^2 / I_O) sin^2(alpha); alpha, slenderness [rad]."""
     return 1 - 2 * mass * R * R / (J_G + mass * R * R) * float(np.sin(alpha)) ** 2
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from rockref.model import assembly, contact
 from rockref.model.contact import Kinematics
-from rockref.model.problem import Block, Problem, State
+from rockref.model.problem import Block, Problem, State, complete_state
 from rockref.model.rotation import apply, apply_transposed, cross, empty, exp_minus_identity, inverse, product
 
 
@@ -95,9 +95,17 @@ def angular_acceleration(T, W, JW, J_inverse):
     return times(J_inverse, T - cross(W, JW))
 
 
-def plate_motion(problem: Problem, t: float, memory):
-    """Displacement and velocity of the plate, two (..., 3), summed over the effects; None while it is fixed."""
-    motions = [effect.plate_motion(t, m) for effect, m in zip(problem.effects, memory, strict=True)]
+def acting(problem: Problem, memory) -> tuple:
+    """Pairs of effect and memory, in the order in which they act; none for the law alone."""
+    return tuple(zip(problem.effects, memory, strict=True)) if problem.effects else ()
+
+
+def plate_motion(effects, t: float):
+    """Displacement and velocity of the plate, two (..., 3), summed over the effects; None while it is fixed.
+
+    effects : pairs of effect and memory; t : time [s].
+    """
+    motions = [effect.plate_motion(t, m) for effect, m in effects]
     motions = [motion for motion in motions if motion is not None]
     return (sum(q for q, _ in motions), sum(q_rate for _, q_rate in motions)) if motions else None
 
@@ -108,8 +116,8 @@ def evaluate_contact(problem: Problem, state: State, x, Lambda, v, W, turn, t, m
     `state` brings the anchors of the last step; `turn` (..., 3) [rad, plate axes] is the rotation since then, which
     only round feet and some effects need; `memory` holds one mapping per effect, whose entries it may replace.
     """
-    points, effects = problem.points, tuple(zip(problem.effects, memory, strict=True))
-    plate = plate_motion(problem, t, memory) if effects else None
+    points, effects = problem.points, acting(problem, memory)
+    plate = plate_motion(effects, t) if effects else None
     k = contact.point_kinematics(x, Lambda, v, W, points.P, points.radius, plate)
     u_t = k.u[..., :2]
 
@@ -140,7 +148,7 @@ def resultants(problem: Problem, c: Contact, x, Lambda, v, W, memory) -> tuple[n
     block = problem.block
     force = assembly.resultant_force(c.F, block.mass, block.g)
     moment = assembly.resultant_moment(c.k.r, c.F)
-    for effect, m in zip(problem.effects, memory, strict=True):
+    for effect, m in acting(problem, memory):
         for load in (effect.point_wrench(problem, c, m), effect.body_wrench(problem, c, x, Lambda, v, W, m)):
             if load is not None:
                 force, moment = force + load[0], moment + load[1]
@@ -149,7 +157,7 @@ def resultants(problem: Problem, c: Contact, x, Lambda, v, W, memory) -> tuple[n
 
 def evaluate(problem: Problem, state: State, x, Lambda, v, W, turn, t):
     """One force evaluation: acceleration, body moment, contact, and the memories of the effects afterwards."""
-    memory = tuple(dict(m) for m in state.memory)
+    memory = tuple(dict(m) for m in state.memory) if state.memory else ()
     c = evaluate_contact(problem, state, x, Lambda, v, W, turn, t, memory)
     a, T = resultants(problem, c, x, Lambda, v, W, memory)
     return a, T, c, memory
@@ -190,14 +198,12 @@ def step(problem: Problem, state: State, inertia: Inertia) -> State:
     t = state.origin + (state.count + 1) * problem.step
     turn = apply(state.Lambda, Theta) if problem.effects or problem.points.radius is not None else None
     a, T, c, memory = evaluate(problem, state, x, Lambda, state.v + h * state.a, state.W + h * A, turn, t)
-    for effect, m in zip(problem.effects, memory, strict=True):
+    for effect, m in acting(problem, memory):
         effect.advance(problem, c, h, m)
 
     v = update_velocity(state.v, state.a, a, h)
     W = times(inertia.J_inverse, update_momentum(JW, state.T, T, E, h))
-    return State(
+    return complete_state(
         x=x, v=v, Lambda=Lambda, W=W, s=c.s, anchored=c.touching, sliding=c.sliding, a=a, T=T, F=c.F,
         t=t, origin=state.origin, count=state.count + 1, h=state.h, memory=memory,
     )  # fmt: skip
-
-

@@ -116,19 +116,17 @@ def point_properties(parameters: Parameters, mass: float, external: np.ndarray) 
 def chromosome_12(parameters: Parameters) -> np.ndarray:
     """The twelve genes in the order of Table 3.1, (12,)."""
     p = parameters
-    return np.array(
-        [p.K_N, p.K_T, p.beta_int, p.beta_ext, p.mu_int, p.mu_ext, *p.delta_long, p.delta_diag, p.theta_0]
-    )
+    return np.array([p.K_N, p.K_T, p.beta_int, p.beta_ext, p.mu_int, p.mu_ext, *p.delta_long, p.delta_diag, p.theta_0])
 
 
 def from_chromosome_12(genes: np.ndarray) -> Parameters:
     """Parameters from twelve genes, (12,)."""
-    g = _genes(genes, 12)
-    return Parameters(*g[:6], delta_long=(g[6], g[7], g[8], g[9]), delta_diag=g[10], theta_0=g[11])
+    K_N, K_T, beta_int, beta_ext, mu_int, mu_ext, d1, d2, d3, d4, delta_diag, theta_0 = _genes(genes, 12)
+    return Parameters(K_N, K_T, beta_int, beta_ext, mu_int, mu_ext, (d1, d2, d3, d4), delta_diag, theta_0)
 
 
 def chromosome_54(parameters: Parameters, mass: float) -> np.ndarray:
-    """The 54 genes: six properties for each of the eight points (1ext..4ext, 1int..4int), delta_long, delta_diag, theta_0."""
+    """The 54 genes: six properties for each of 1ext..4ext, 1int..4int, then delta_long, delta_diag, theta_0, (54,)."""
     properties = point_properties(parameters, mass, np.arange(8) < 4)
     per_point = np.stack([properties[k] for k in PROPERTIES], axis=-1).ravel()
     return np.concatenate([per_point, parameters.delta_long, [parameters.delta_diag, parameters.theta_0]])

@@ -40,7 +40,7 @@ def release_posture(
     turned: bool = False,
     out_of_plane: float = 0.0,
 ) -> State:
-    """The state at release: at rest, in equilibrium with the wire, both pivot points touching with half the weight each.
+    """The state at release: at rest, in equilibrium with the wire, half the weight on each of the two pivot points.
 
     The block leans to +y of the laboratory by a turn of -theta_0 about X, then the small roll about Y that makes both
     pivot points touch; penetration m g / (2 K_N) at each, anchors at the touching points, zero velocity.

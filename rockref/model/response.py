@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from rockref.model import energy as energies
 from rockref.model.channel import crv_deg_s
 from rockref.model.contact import point_kinematics
 from rockref.model.errors import InputError
-from rockref.model.problem import Problem, State
+from rockref.model.problem import Block, Problem, State
 from rockref.model.rotation import quaternion
 
 if TYPE_CHECKING:
@@ -81,11 +81,13 @@ class Response:
         """
         tilt = self.tilt
         if tilt.ndim != 1:
-            raise InputError("E-BATCH", "main_impacts", "was asked of a batch", "Index the response first: response[i].")
+            raise InputError(
+                "E-BATCH", "main_impacts", "was asked of a batch", "Index the response first: response[i]."
+            )
         threshold = 1e-3 * np.max(np.abs(tilt))
         crossings = np.flatnonzero(np.signbit(tilt[1:]) != np.signbit(tilt[:-1]))
         instants, last = [], 0
-        for i in crossings:
+        for i in map(int, crossings):
             if np.max(np.abs(tilt[last : i + 1])) > threshold:
                 fraction = tilt[i] / (tilt[i] - tilt[i + 1])
                 instants.append(self.t[i] + fraction * (self.t[i + 1] - self.t[i]))
@@ -107,14 +109,14 @@ class Response:
         """Energies at every row [J], each (..., T): kinetic, potential, stored_normal, stored_tangential, total, and
         dissipated, which is what is missing of the total at the first row."""
         block, points = self.problem.block, self.problem.points
+        P, K_N, K_T, radius = points.P, points.K_N, points.K_T, points.radius
         if self.problem.batch:
-            block = replace(block, **{k: np.expand_dims(getattr(block, k), len(self.problem.batch)) for k in ("mass", "inertia", "g")})
-            axes = {k: np.expand_dims(getattr(points, k), len(self.problem.batch)) for k in ("P", "K_N", "K_T")}
-            radius = None if points.radius is None else np.expand_dims(points.radius, len(self.problem.batch))
-        else:
-            axes, radius = {k: getattr(points, k) for k in ("P", "K_N", "K_T")}, points.radius
-        k = point_kinematics(self.x, self.Lambda, self.v, self.W, np.broadcast_to(axes["P"], self.F.shape), radius)
-        stored = energies.spring_energy(k.xi, self.anchored, k.u[..., :2], self.s, axes["K_N"], axes["K_T"])
+            time = len(self.problem.batch)
+            block = Block(*(np.expand_dims(a, time) for a in (block.mass, block.inertia, block.g)))
+            P, K_N, K_T = (np.expand_dims(a, time) for a in (P, K_N, K_T))
+            radius = None if radius is None else np.expand_dims(radius, time)
+        k = point_kinematics(self.x, self.Lambda, self.v, self.W, np.broadcast_to(P, self.F.shape), radius)
+        stored = energies.spring_energy(k.xi, self.anchored, k.u[..., :2], self.s, K_N, K_T)
         kinetic = energies.kinetic_energy(self.v, self.W, block.mass, block.inertia)
         e = energies.Energy(kinetic, energies.potential_energy(self.x, block.mass, block.g), *stored)
         return {**e._asdict(), "total": e.total, "dissipated": e.total[..., :1] - e.total}
@@ -122,8 +124,8 @@ class Response:
     def to_frame(self) -> pandas.DataFrame:
         """The response of one block as a table; the column names carry the units.
 
-        t_s, wx_deg_s .. wz_deg_s, x_m .. z_m, qw .. qz (body to plate), and for every point fx_1ext_N .. fz, contact_1ext,
-        slip_1ext.
+        t_s, wx_deg_s .. wz_deg_s, x_m .. z_m, qw .. qz (body to plate), and for every point, for example, fx_1ext_N ..
+        fz_1ext_N, contact_1ext, slip_1ext.
         """
         import pandas
 
@@ -143,14 +145,14 @@ def pick_state(state: State, index) -> State:
     """One state of a batch."""
     arrays = {k: getattr(state, k) for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "a", "T", "F")}
     memory = tuple({k: a[index] for k, a in m.items()} for m in state.memory)
-    return replace(state, memory=memory, **{k: None if a is None else a[index] for k, a in arrays.items()})
+    picked: dict[str, Any] = {k: None if a is None else a[index] for k, a in arrays.items()}
+    return replace(state, memory=memory, **picked)
 
 
 def pick(problem: Problem, index) -> Problem:
     """One problem of a batch."""
     block = replace(problem.block, **{k: getattr(problem.block, k)[index] for k in ("mass", "inertia", "g")})
-    names = ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu", "radius")
-    points = replace(
-        problem.points, **{k: None if getattr(problem.points, k) is None else getattr(problem.points, k)[index] for k in names}
-    )
+    arrays = {k: getattr(problem.points, k) for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu", "radius")}
+    picked: dict[str, Any] = {k: None if a is None else a[index] for k, a in arrays.items()}
+    points = replace(problem.points, **picked)
     return replace(problem, block=block, points=points, start=pick_state(problem.start, index))

@@ -1,8 +1,8 @@
 """Three-vectors and finite rotations, in `+ - x /` only, so that every machine gives the same bits.
 
 Shapes carry leading batch axes. NumPy's `@`, `sin` and `cos` are not used on purpose: their last bit depends on
-the processor and on the linear-algebra library. The sums below do not: `add.reduce` adds fewer than eight numbers one by
-one, in their order, wherever they lie in memory (a test holds it to the written-out sums).
+the processor and on the linear-algebra library. The sums below do not: `add.reduce` adds fewer than eight numbers one
+by one, in their order, wherever they lie in memory (a test holds it to the written-out sums).
 """
 
 import numpy as np

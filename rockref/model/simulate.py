@@ -140,11 +140,13 @@ def simulate(
             t[i] = state.t
             for key, column in rows.items():
                 column[i] = getattr(state, key)
-            if not keep_going and not np.all(np.isfinite(state.W)):
+            if not keep_going and not (np.all(np.isfinite(state.W)) and np.all(np.isfinite(state.x))):
                 raise not_finite(problem, good, inertia)
             if progress is not None and i % max(1, len(wanted) // 200) == 0:
                 progress((i + 1) / len(wanted))
-    return Response(problem=problem, t=t, final_state=state, **{k: time_before_core(problem, c) for k, c in rows.items()})
+    return Response(
+        problem=problem, t=t, final_state=state, **{k: time_before_core(problem, c) for k, c in rows.items()}
+    )
 
 
 def time_before_core(problem: Problem, column: np.ndarray) -> np.ndarray:
@@ -155,13 +157,18 @@ def time_before_core(problem: Problem, column: np.ndarray) -> np.ndarray:
 def not_finite(problem: Problem, good: State, inertia: Inertia) -> NumericalError:
     """The error that names the step and the contact point at which the numbers were lost, found from a good state."""
     state = good
-    while np.all(np.isfinite(state.W)) and np.all(np.isfinite(state.F)):
+    while np.all(np.isfinite(state.W)) and np.all(np.isfinite(state.x)):
         state = step(problem, state, inertia)
-    bad = np.argwhere(~np.all(np.isfinite(state.F), axis=-1))
+    force = np.zeros_like(problem.points.P) if state.F is None else state.F
+    bad = np.argwhere(~np.all(np.isfinite(force), axis=-1))
     point = problem.points.names[int(bad[0][-1])] if len(bad) else "none of the contact points"
+    of_batch = ""
+    if problem.batch:
+        lost = np.argwhere(~np.all(np.isfinite(state.W), axis=-1) | ~np.all(np.isfinite(state.x), axis=-1))[0]
+        of_batch = f" of block {', '.join(map(str, lost))}"
     return NumericalError(
         "E-NAN",
         f"step {state.count} (t = {state.t:.6g} s)",
-        f"the angular velocity is no longer a finite number; first bad contact force: {point}",
+        f"position or angular velocity{of_batch} is no longer a finite number; first bad contact force: {point}",
         "Check the start state and the parameters, or use a smaller step.",
     )

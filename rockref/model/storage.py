@@ -30,7 +30,9 @@ def write_bytes(path: str | os.PathLike, data: bytes) -> None:
     except OSError as e:
         if temporary is not None and os.path.exists(temporary):
             os.unlink(temporary)
-        raise InputError("E-WRITE", str(path), f"cannot be written ({e.strerror})", "Check the folder and its space.") from e
+        raise InputError(
+            "E-WRITE", str(path), f"cannot be written ({e.strerror})", "Check the folder and its space."
+        ) from e
 
 
 def write_text(path: str | os.PathLike, text: str) -> None:
