@@ -8,7 +8,9 @@ from rockref.effects.feet import of_foot
 
 @dataclass(frozen=True)
 class UnevenFootStiffness(Effect):
-    """Scales K_N and K_T of the points of each foot; the dampers stay at the unscaled value.
+    """Scales K_N of the points of each foot; K_T and the dampers stay at the unscaled value.
+
+    A softer spot yields under the load; what holds the foot sideways is the friction of the same face.
 
     Source: one of the scenarios that the model's authors tried before the eight points ("Defects").
     """
@@ -20,7 +22,7 @@ class UnevenFootStiffness(Effect):
         for i, typical in enumerate((0.6, 1.4, 0.8, 1.2), 1)
     }
     sentence = "A foot on a softer spot, or with a smaller face, yields more under the same load."
-    equation = r"K^{(N)}_i \to s_i K^{(N)}_i,\quad K^{(T)}_i \to s_i K^{(T)}_i"
+    equation = r"K^{(N)}_i \to s_i K^{(N)}_i"
     source = 'The model\'s source, "Defects"; K. L. Johnson (1985), Contact Mechanics, doi:10.1017/CBO9781139171731'
     confounder = "uneven_foot_friction"
     experiment = "Turn the block by 180 degrees on the same plate: what belongs to the feet turns with it. Swap shims."
@@ -34,4 +36,4 @@ class UnevenFootStiffness(Effect):
         if self.is_absent():
             return block, points
         scale = of_foot(points, (self.foot1, self.foot2, self.foot3, self.foot4), self.id)
-        return block, replace(points, K_N=points.K_N * scale, K_T=points.K_T * scale)
+        return block, replace(points, K_N=points.K_N * scale)

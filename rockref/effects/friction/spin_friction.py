@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import Effect, Quantity
+from rockref.model import assembly
 from rockref.model.rotation import apply
 
 
@@ -46,6 +47,6 @@ class SpinFriction(Effect):
         M = np.clip(trial, -limit, limit)
         yaw = np.where(np.abs(trial) > limit, -(M + C * rate) / K, yaw)
         m["yaw"] = np.where(c.touching, yaw, 0)
-        moment = np.zeros_like(W)
-        moment[..., 2] = np.sum(np.where(c.touching, M, 0), axis=-1)
-        return np.zeros_like(W), moment
+        moments = np.zeros_like(c.F)
+        moments[..., 2] = np.where(c.touching, M, 0)
+        return np.zeros_like(W), assembly.sum_over_points(moments)

@@ -9,10 +9,11 @@ from rockref.model.rotation import cross
 
 @dataclass(frozen=True)
 class CableRestraint(Effect):
-    """A horizontal spring and damper from the body point (0, 0, height) to a point fixed above the plate's origin.
+    """A horizontal spring and damper from the body point (0, 0, height) to where that point stands at the start.
 
-    Without `height` the cable holds the top, as far above the centre of mass as the base is below. Simplified: no
-    weight of the cable, no vertical part, no friction inside it.
+    Decided: the cable hangs slack at release, and holds the block back from there. Without `height` it is fixed at the
+    top, as far above the centre of mass as the base is below. Simplified: no weight of the cable, no vertical part, no
+    friction inside it.
     """
 
     id = "cable_restraint"
@@ -23,8 +24,10 @@ class CableRestraint(Effect):
         "height": Quantity("m", None, 0.0, 0.5, None, "any", "of the attachment, above the centre of mass"),
     }
     switches = ("k", "c")
-    sentence = "The cable to the sensor pulls the block back toward the middle and damps it at the top."
-    equation = r"F_{xy} = -k\,(p_{xy} - 0) - c\,\dot p_{xy},\quad p = x + \Lambda\,(0,0,z_c)"
+    sentence = (
+        "The cable to the sensor is slack at release; then it pulls the top back to where it was, and damps it."
+    )
+    equation = r"F_{xy} = -k\,(p_{xy} - p_{xy}(0)) - c\,\dot p_{xy},\quad p = x + \Lambda\,(0,0,z_c)"
     source = "Linear spring and damper, as in any textbook of vibrations; no source needed"
     confounder = "quadratic_drag"
     experiment = "Take the cable off (a logger on the block), or lead it another way: only this effect changes."
@@ -33,10 +36,17 @@ class CableRestraint(Effect):
     c: float = 0.0
     height: float | None = None
 
+    def attachment(self, problem, Lambda):
+        """Way from the centre of mass to the attachment, plate axes, (..., 3) [m]."""
+        return arm(Lambda, half_height(problem.points) if self.height is None else self.height)
+
+    def start(self, problem):
+        return {"anchor": problem.start.x + self.attachment(problem, problem.start.Lambda)}
+
     def body_wrench(self, problem, c, x, Lambda, v, W, m):
         if self.is_absent():
             return None
-        r = arm(Lambda, half_height(problem.points) if self.height is None else self.height)
-        F = -self.k * (x + r) - self.c * velocity_at(r, Lambda, v, W)
+        r = self.attachment(problem, Lambda)
+        F = -self.k * (x + r - m["anchor"]) - self.c * velocity_at(r, Lambda, v, W)
         F[..., 2] = 0
         return F, cross(r, F)

@@ -19,13 +19,14 @@ CENTRES = ((2 * np.arange(SLICES) + 1) / SLICES - 1)[:, None]
 class QuadraticDrag(Effect):
     """A force -c/16 |v_k| v_k on each of 16 slices of the height, at the slice's centre on the body axis.
 
-    c = rho C_d A / 2 of the whole face. Simplified: the same c for every direction, speed of the slice's centre in
-    still air, no added mass.
+    c = rho C_d A / 2 of the whole face: 0.05 N s2/m2 for the bare block, which no gyroscope sees; a sail of a square
+    metre has some 1 N s2/m2. A moment -q |omega| omega of the same loss has q = c h^3/4. Simplified: the same c for
+    every direction, speed of the slice's centre in still air, no added mass.
     """
 
     id = "quadratic_drag"
     question = "loads"
-    quantities = {"c": Quantity("N s2/m2", 0.0, 0.02, 1.0, 0.4, "+", "drag over speed squared, whole height", 0.0)}
+    quantities = {"c": Quantity("N s2/m2", 0.0, 0.02, 10.0, 4.0, "+", "drag over speed squared, whole height", 0.0)}
     sentence = "Air in front of the moving faces is pushed aside; bare the block hardly feels it, with a sail it does."
     equation = r"F = -\sum_{k=1}^{16} \tfrac{c}{16}\,\|v_k\|\,v_k,\quad c = \tfrac12\rho\,C_d A"
     source = "G. K. Batchelor (1967), An Introduction to Fluid Dynamics, doi:10.1017/CBO9780511800955"

@@ -7,6 +7,7 @@ import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
 from rockref.effects.contact.adhesion import Adhesion
+from rockref.model import assembly
 
 
 @dataclass(frozen=True)
@@ -55,10 +56,10 @@ class CompliantSupport(Effect):
             return
         k = (2 * math.pi * self.frequency) ** 2 * self.mass
         damping = 2 * self.ratio * math.sqrt(k * self.mass)
-        carried = np.sum(c.F_N, axis=-1)
+        carried = assembly.sum_over_points(c.F)[..., 2]
         for effect in problem.effects:
             if isinstance(effect, Adhesion) and not effect.is_absent():
-                carried = carried - np.sum(effect.pull(c.k.xi), axis=-1)
+                carried = carried + effect.point_wrench(problem, c, {})[0][..., 2]
         load = problem.block.mass * problem.block.g - carried
         m["q_rate"] = m["q_rate"] + h * (load - k * m["q"] - damping * m["q_rate"]) / self.mass
         m["q"] = m["q"] + h * m["q_rate"]

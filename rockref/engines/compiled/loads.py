@@ -12,6 +12,8 @@ from rockref.engines.compiled.jit import called, inlined
 
 #: Slices of the drag, as in `rockref.effects.loads.quadratic_drag`.
 SLICES = 16
+#: Arm of the turning stiffness [m], as in `rockref.effects.friction.rolling_resistance`.
+ARM = 0.05
 
 
 @inlined
@@ -74,17 +76,17 @@ def add_point_moments(load, e, props, memory, forces, ox, oy, oz, turn0, turn1, 
         Mz += mz
     if e[slots.ROLLING] != 0.0:
         lever = e[slots.ROLLING + 1]
-        square, mx, my = lever * lever, 0.0, 0.0
+        size, mx, my = lever * ARM, 0.0, 0.0
         for i in range(memory.shape[0]):
             if memory[i, col.ANCHORED] == 0.0:
                 memory[i, col.ROLL_X] = memory[i, col.ROLL_Y] = 0.0
                 continue
-            K, C = props[i, col.K_N] * square, props[i, col.C_N] * square
+            K, C = props[i, col.K_N] * size, props[i, col.C_N] * size
             ax, ay = memory[i, col.ROLL_X] + turn0, memory[i, col.ROLL_Y] + turn1
             tx, ty = -K * ax - C * ox, -K * ay - C * oy
-            size, limit = length(tx, ty), lever * forces[i, 2]
-            if size > limit:
-                scale = limit / size
+            trial, limit = length(tx, ty), lever * forces[i, 2]
+            if trial > limit:
+                scale = limit / trial
                 tx, ty = scale * tx, scale * ty
                 ax, ay = -(tx + C * ox) / K, -(ty + C * oy) / K
             memory[i, col.ROLL_X], memory[i, col.ROLL_Y] = ax, ay
@@ -119,8 +121,8 @@ def add_body_loads(load, e, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz,
     if e[slots.CABLE] != 0.0:
         k, c, z = e[slots.CABLE + 1], e[slots.CABLE + 2], e[slots.CABLE + 3]
         rx, ry, rz = L2 * z, L5 * z, L8 * z
-        fx = -k * (x0 + rx) - c * (v0 + (oy * rz - oz * ry))
-        fy = -k * (x1 + ry) - c * (v1 + (oz * rx - ox * rz))
+        fx = -k * (x0 + rx - e[slots.CABLE + 4]) - c * (v0 + (oy * rz - oz * ry))
+        fy = -k * (x1 + ry - e[slots.CABLE + 5]) - c * (v1 + (oz * rx - ox * rz))
         Fx += fx
         Fy += fy
         Mx -= rz * fy
