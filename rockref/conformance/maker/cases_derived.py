@@ -1,0 +1,63 @@
+"""Questions of L0 (what follows from the parameters, the release posture) and L7 (the measured channel)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from rockref.conformance.maker.bars import Case
+from rockref.conformance.maker.drawing import DELTA_DIAG, DELTA_LONG, MASS, TABLE, THETA_0, Draw, G, table_3_1
+
+FIELDS = {
+    "inertia": ("G1", "G1"),
+    "P": ("G2", "G2"),
+    "K_N": ("P1", "P1"),
+    "K_T": ("P1", "P1"),
+    "C_N": ("P2", "P2"),
+    "C_T": ("P3", "P3"),
+    "mu_0": ("P3", "P3"),
+    "mu": ("P3", "P3"),
+}
+
+
+def parameters(width: float, depth: float, height: float, **changes: float) -> dict:
+    """Inputs of `derived`."""
+    q = {"mass": MASS, "width": width, "depth": depth, "height": height, **TABLE}
+    return q | {"delta_long": np.array(DELTA_LONG), "delta_diag": DELTA_DIAG} | changes
+
+
+def derived() -> Iterator[Case]:
+    """G1, G2, P1 to P3: each rule has its vectors, on Table 3.1 and on blocks whose three sides differ."""
+    d = Draw(10)
+    questions = [parameters(0.1, 0.1, 0.688), parameters(0.125, 0.0625, 0.75), parameters(0.25, 0.5, 0.625, mass=80.0)]
+    for _ in range(2):
+        q = parameters(d.between(0.05, 0.2), d.between(0.05, 0.2), d.between(0.4, 0.9), mass=d.between(10, 90))
+        q |= {k: d.between(0.5, 1.5) * v for k, v in TABLE.items()} | {"delta_long": d.vector(1e-4, 4)}
+        questions.append(q | {"delta_diag": d.between(2e-3, 9e-3)})
+    for rule in ("G1", "G2", "P1", "P2", "P3"):
+        for i, q in enumerate(questions):
+            flags = ("table 3.1",) if i == 0 else ("three sides",)
+            fields = {k: v for k, v in FIELDS.items() if v[0] == rule}
+            yield Case(rule, "L0", "derived", q, fields, flags, branch={})
+
+
+def release() -> Iterator[Case]:
+    """R1: both pivots bear half the weight, on even and uneven feet and stiffnesses."""
+    base = table_3_1()
+    uneven = base | {"K_N": base["K_N"] * np.array([1, 1.5, 1, 1.25, 0.75, 1, 1, 2])}
+    for q, theta, flag in (
+        (base, THETA_0, "table 3.1"),
+        (table_3_1(delta_long=(0.0, 2e-4, 1e-4, 0.0)), 0.09375, "internal pivot"),
+        (uneven, 0.0625, "uneven stiffness"),
+    ):
+        inputs = {k: q[k] for k in ("mass", "P", "K_N")} | {"g": G, "theta_0": theta}
+        yield Case("R1", "L0", "release", inputs, {"x": ("R1", "R1"), "Lambda": ("R1", "R1")}, (flag,))
+
+
+def channel() -> Iterator[Case]:
+    """M1: histories of five samples, the block upright and well tilted."""
+    d = Draw(17)
+    for angle, size in ((0.0, 1.0), (0.2, 1.0), (0.2, 1e-3), (1.0, 20.0), (3.0, 0.5)):
+        inputs = {"W": d.vectors(size, 5), "Lambda": np.stack([d.rotation(angle) for _ in range(5)])}
+        yield Case("M1", "L7", "channel", inputs, {"crv_deg_s": ("M1", "M1")}, (f"tilt up to {angle:g} rad",))

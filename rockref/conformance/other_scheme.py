@@ -1,0 +1,37 @@
+"""The same physics by another integrator: kick and drift, with the same rules of contact.
+
+It shows what the profile "scheme" is for, and is one of the two schemes from which its bars were measured.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rockref.conformance import pieces
+from rockref.conformance.law_backend import RulesBackend
+from rockref.model.integrator import Inertia, times
+from rockref.model.problem import Problem, State
+from rockref.model.rotation import cross
+
+
+def kick_and_drift(rules: pieces.Rules, problem: Problem, state: State, inertia: Inertia) -> State:
+    """Symplectic Euler: velocities by the forces at n, then positions by the new velocities, then the forces there."""
+    h = state.x.dtype.type(problem.step)
+    v = state.v + h * state.a
+    W = state.W + h * times(inertia.J_inverse, state.T - cross(state.W, times(inertia.J, state.W)))
+    x = state.x + h * v
+    Lambda = rules.rotation(state.Lambda, rules.exponential(h * W))
+    a, T, F, c = pieces.evaluate(rules, problem, state, x, Lambda, v, W)
+    return replace(
+        state, x=x, v=v, Lambda=Lambda, W=W, s=c.s, anchored=c.touching, sliding=c.sliding, a=a, T=T, F=F,
+        t=state.origin + (state.count + 1) * problem.step, count=state.count + 1,
+    )  # fmt: skip
+
+
+class KickAndDrift(RulesBackend):
+    """A backend with another integrator; it shows the pieces of contact, and none of the step."""
+
+    step = integrate = None  # type: ignore[assignment]
+
+    def __init__(self) -> None:
+        super().__init__(pieces.law().replace(step=kick_and_drift), name="kick and drift")

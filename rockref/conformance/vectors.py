@@ -1,0 +1,184 @@
+"""The vectors as they are shipped: reading them, checking their digests, the problems that they pose."""
+
+from __future__ import annotations
+
+import csv
+import gzip
+import hashlib
+import io
+import json
+from dataclasses import dataclass, field
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from rockref.model.errors import InputError
+from rockref.model.problem import Block, ContactPoints, Problem, State
+
+VERSION = "v1"
+SCHEMA = "rockref-vectors/1"
+SMALL_LAYERS = ("L0", "L1", "L2", "L3", "L4", "L7")
+
+
+@dataclass(frozen=True)
+class Expected:
+    """One expected result: value (float64 or bool), bar and bar_float32 of the same shape (None: exact flag; in
+    float32 not judged), the rule that it shows, the rule that it shows to who sees the trace, and the route."""
+
+    value: np.ndarray
+    bar: np.ndarray | None
+    bar_float32: np.ndarray | None
+    rule: str
+    rule_traced: str
+    route: str
+
+
+@dataclass(frozen=True)
+class Vector:
+    """One question put to one piece of a backend, with the answers."""
+
+    id: str
+    layer: str
+    rule: str
+    piece: str
+    equation: str
+    flags: tuple[str, ...]
+    hunts: tuple[str, ...]
+    inputs: dict[str, Any]
+    expect: dict[str, Expected]
+    branch: dict[str, Any]
+    margin: float | None = None
+    resolving: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """One run: its problem, the rows, their bars, where comparison ends, and the instants of the main impacts.
+
+    columns : name -> (N,) or (N, k): t_s, W, x, Lambda, and bar_W, bar_x, bar_Lambda (N,) for every profile
+    """
+
+    id: str
+    title: str
+    problem: Problem
+    meta: dict[str, Any]
+    columns: dict[str, np.ndarray]
+
+
+def folder():
+    """The folder of the vectors inside the package."""
+    return files("rockref.conformance") / "vectors" / VERSION
+
+
+def read_bytes(name: str) -> bytes:
+    """A shipped file, e.g. "L1.json". Raises InputError (E-VECTORS) where it is missing or altered."""
+    path = folder().joinpath(*name.split("/"))
+    try:
+        data = path.read_bytes()
+    except OSError as e:
+        raise InputError("E-VECTORS", name, "is not there", "Install rockref anew, or run `make golden`.") from e
+    if name != "MANIFEST.json":
+        wanted = manifest()["files"].get(name, {}).get("sha256")
+        if wanted != hashlib.sha256(data).hexdigest():
+            raise InputError("E-VECTORS", name, "does not have the digest of the manifest", "Install rockref anew.")
+    return data
+
+
+@lru_cache
+def manifest() -> dict[str, Any]:
+    """The manifest: schema, versions, digests, resolving power."""
+    return json.loads(read_bytes("MANIFEST.json"))
+
+
+def from_hex(nested: Any) -> Any:
+    """Numbers from hexadecimal text, nested lists as they are."""
+    return [from_hex(n) for n in nested] if isinstance(nested, list) else float.fromhex(nested)
+
+
+def value_of(entry: Any) -> Any:
+    """A stored value: numbers as float64 array, flags as bool array, whole numbers and names as they are."""
+    if isinstance(entry, dict) and "hex" in entry:
+        return np.array(from_hex(entry["hex"]))
+    if isinstance(entry, dict) and "flags" in entry:
+        return np.array(entry["flags"], bool)
+    return entry
+
+
+def expected_of(entry: dict[str, Any]) -> Expected:
+    """An expected result from its stored form."""
+    bars = {k: None if entry.get(k) is None else np.array(entry[k], float) for k in ("bar", "bar_float32")}
+    rule = entry["rule"]
+    return Expected(
+        np.asarray(value_of(entry)), bars["bar"], bars["bar_float32"], rule, entry.get("rule_traced", rule), entry["route"]
+    )
+
+
+def vector_of(entry: dict[str, Any], sets: dict[str, Any]) -> Vector:
+    """A vector from its stored form; `sets` holds inputs that many vectors share."""
+    stored = dict(sets[entry["set"]]) if "set" in entry else {}
+    stored.update(entry["in"])
+    return Vector(
+        entry["id"],
+        entry["layer"],
+        entry["rule"],
+        entry["piece"],
+        entry["equation"],
+        tuple(entry["flags"]),
+        tuple(entry["hunts"]),
+        {k: value_of(v) for k, v in stored.items()},
+        {k: expected_of(v) for k, v in entry["expect"].items()},
+        entry["branch"],
+        entry.get("margin"),
+        entry.get("resolving", {}),
+    )
+
+
+@lru_cache
+def layer(name: str) -> tuple[Vector, ...]:
+    """All vectors of one layer, "L0" .. "L4", "L7", or of the probes, "LB"."""
+    document = json.loads(read_bytes(f"{name}.json"))
+    return tuple(vector_of(entry, document["sets"]) for entry in document["vectors"])
+
+
+def problem_of(q: dict[str, Any]) -> Problem:
+    """A Problem from flat inputs, the keys of the JSON-lines protocol."""
+    block = Block(np.asarray(q["mass"]), np.asarray(q["inertia"]), np.asarray(q["g"]))
+    properties = (np.asarray(q[k]) for k in ("K_N", "K_T", "C_N", "C_T", "mu_0", "mu"))
+    n = len(q["P"])
+    points = ContactPoints(np.asarray(q["P"]), *properties, None, tuple(q.get("names", [f"point {i}" for i in range(n)])))
+    later = {k: np.asarray(q[k]) for k in ("a", "T", "F") if q.get(k) is not None}
+    memory = [np.asarray(q["s"]), np.asarray(q["anchored"], bool), np.asarray(q["sliding"], bool)]
+    state = State(*(np.asarray(q[k]) for k in ("x", "v", "Lambda", "W")), *memory, t=float(q.get("t", 0.0)), **later)
+    return Problem(block, points, state, float(q["step"]), float(q["duration"]), float(q["output_rate"]))
+
+
+def flat(problem: Problem) -> dict[str, Any]:
+    """The flat inputs of a problem, as `problem_of` takes them."""
+    b, p, s = problem.block, problem.points, problem.start
+    q: dict[str, Any] = {"mass": b.mass, "inertia": b.inertia, "g": b.g, "names": list(p.names)}
+    q |= {k: getattr(p, k) for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu")}
+    q |= {k: getattr(s, k) for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "t")}
+    q |= {k: getattr(s, k) for k in ("a", "T", "F") if getattr(s, k) is not None}
+    return q | {k: getattr(problem, k) for k in ("step", "duration", "output_rate")}
+
+
+def trajectory_names() -> tuple[str, ...]:
+    """The trajectories of L5, in order."""
+    return tuple(manifest()["trajectories"])
+
+
+@lru_cache
+def trajectory(name: str) -> Trajectory:
+    """One trajectory of L5."""
+    meta = json.loads(read_bytes(f"L5/{name}.json"))
+    problem = problem_of({k: value_of(v) for k, v in meta["problem"].items()})
+    text = gzip.decompress(read_bytes(f"L5/{name}.csv.gz")).decode()
+    header, *rows = csv.reader(io.StringIO(text))
+    table = np.array([[float(c) if c else np.nan for c in row] for row in rows])
+    columns: dict[str, np.ndarray] = {}
+    for key in dict.fromkeys(h.partition("[")[0] for h in header):
+        picked = [i for i, h in enumerate(header) if h.partition("[")[0] == key]
+        columns[key] = table[:, picked[0]] if header[picked[0]] == key else table[:, picked]
+    return Trajectory(meta["id"], meta["title"], problem, meta, columns)

@@ -1,0 +1,65 @@
+"""What a mistake is, and the backend that makes it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance import pieces
+from rockref.conformance.law_backend import RulesBackend
+from rockref.conformance.pieces import Rows, Rules
+from rockref.model.problem import Problem, stack
+
+Plant = Callable[[Rules], Rules]
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One planted mistake.
+
+    id, says : name and one line;  rule : the rule that is wrong.
+    plant : replaces rules;  read : how a whole run misreads its problem, where a mistake in what is derived from the
+    parameters shows in a run only so;  report : what a run makes of its rows;  late : rows that many steps old.
+    """
+
+    id: str
+    rule: str
+    says: str
+    plant: Plant | None = None
+    read: Callable[[Problem], Problem] | None = None
+    report: Callable[[Rows], Rows] | None = None
+    late: int = 0
+
+    def backend(self) -> Mistaken:
+        """A backend that makes this mistake and shows all its pieces."""
+        return Mistaken(self)
+
+
+class Mistaken(RulesBackend):
+    """The law with one mistake."""
+
+    def __init__(self, mistake: Mistake):
+        rules = pieces.law()
+        super().__init__(mistake.plant(rules) if mistake.plant else rules, name=mistake.id)
+        self.mistake = mistake
+
+    def simulate(self, problem: Problem) -> Any:
+        """A run with the mistake in it."""
+        m = self.mistake
+        rows = pieces.simulate(self.rules, m.read(problem) if m.read else problem, self.dtype, m.late)
+        return m.report(rows) if m.report else rows
+
+    def simulate_many(self, problems: list[Problem]) -> list[Any]:
+        """Runs side by side."""
+        m = self.mistake
+        batch = pieces.simulate(self.rules, stack([m.read(p) if m.read else p for p in problems]), self.dtype, m.late)
+        rows = [batch.pick(i) for i in range(len(problems))]
+        return [m.report(r) for r in rows] if m.report else rows
+
+
+def same_shape(a: Any, like: np.ndarray) -> np.ndarray:
+    """`a` broadcast to the shape of `like`."""
+    return np.broadcast_to(a, like.shape)
