@@ -76,13 +76,14 @@ def from_problems(problems: Sequence[Problem]) -> Batch:
     )
 
 
-def run_batch(batch: Batch, workers: int | None = None, full: bool = False):
+def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out: np.ndarray | None = None):
     """Run a batch on `workers` threads (default: all cores).
 
     Returns
     -------
-    states : (B, R, STATE). A run that loses its numbers has NaN from the row after the first bad one on; nothing is
-        raised, since in a search such a candidate is only a bad one.
+    states : (B, R, STATE), `out` where it is given (fresh memory costs as much as short runs). A run that loses its
+        numbers has NaN from the row after the first bad one on; nothing is raised, since in a search such a candidate
+        is only a bad one.
     forces, memories : with `full` also (B, R, n, 3) [N] and (B, R, n, MEMORY).
 
     Raises
@@ -93,7 +94,8 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False):
     batch = checked(batch)
     B, n = batch.P.shape[:2]
     R = batch.wanted.shape[1]
-    states = np.full((B, R, col.STATE), np.nan)
+    states = np.empty((B, R, col.STATE)) if out is None else out
+    states.fill(np.nan)
     kept = B if full else 1
     forces, memories = np.full((kept, R, n, 3), np.nan), np.full((kept, R, n, col.MEMORY), np.nan)
     loop = _loop_with_effects if batch.effects.any() else _loop_law
@@ -140,6 +142,7 @@ def _make_loop(with_effects: bool, source: int):
     def loop(
         first, last, body, centres, props, memory, own_forces, effects, state, h, wanted, full, states, forces, memories
     ):
+        _ = source
         for b in range(first, last):
             k = b if full else 0
             if with_effects:

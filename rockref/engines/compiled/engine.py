@@ -53,12 +53,15 @@ def _one(problem: Problem, keep_going: bool) -> Response:
         pack.body_row(problem), centres, props, memory, first, effects, pack.state_row(problem),
         float(problem.step), wanted, True, states, forces, memories,
     )  # fmt: skip
-    if not np.isfinite(states[written - 1, 15:18]).all() and not keep_going:
+    if not np.isfinite(states[written - 1, :18]).all() and not keep_going:
         good = problem.start
         if written > 1:
             good = pack.final_state(problem, states[written - 2], memories[written - 2], forces[written - 2])
         raise lost(problem, good)
     states[written:], forces[written:] = np.nan, np.nan
+    states[written:, col.COUNT] = states[0, col.COUNT] + (wanted[written:] - wanted[0])
+    states[written:, col.ORIGIN] = states[0, col.ORIGIN]
+    states[written:, col.TIME] = states[0, col.ORIGIN] + states[written:, col.COUNT] * problem.step
     return Response(
         problem=problem,
         t=states[:, col.TIME],

@@ -69,17 +69,24 @@ def _make_begin(with_effects: bool, source: int):
 
     @entered
     def begin(body, centres, props, memory, forces, e, s):
+        _ = source  # held, so that numba's files on disk belong to this very text
+        forces[:, :] = 0.0
         if with_effects:
-            return evaluate_with_effects(
+            first = evaluate_with_effects(
                 body, centres, props, memory, forces, e, s[col.TIME], s[col.Q], s[col.Q_RATE],
                 s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14],
                 s[15], s[16], s[17], 0.0, 0.0, 0.0,
             )  # fmt: skip
-        return evaluate_law(
-            body, centres, props, memory, forces, e, 0.0, 0.0, 0.0,
-            s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14],
-            s[15], s[16], s[17], 0.0, 0.0, 0.0,
-        )  # fmt: skip
+        else:
+            first = evaluate_law(
+                body, centres, props, memory, forces, e, 0.0, 0.0, 0.0,
+                s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14],
+                s[15], s[16], s[17], 0.0, 0.0, 0.0,
+            )  # fmt: skip
+        for i in range(centres.shape[0]):
+            if memory[i, col.ANCHORED] == 0.0:  # only a touching point slides, whatever the start says
+                memory[i, col.SLIDING] = 0.0
+        return first
 
     return begin
 
@@ -96,6 +103,7 @@ def _make_run(with_effects: bool, source: int):
 
         centres : contact points, raised by their radius.  The rest as in `rockref.engines.compiled.batch.Batch`.
         """
+        _ = source
         x0, x1, x2, v0, v1, v2 = state[0], state[1], state[2], state[3], state[4], state[5]
         L0, L1, L2, L3, L4, L5 = state[6], state[7], state[8], state[9], state[10], state[11]
         L6, L7, L8, W0, W1, W2 = state[12], state[13], state[14], state[15], state[16], state[17]
@@ -169,7 +177,7 @@ def _make_run(with_effects: bool, source: int):
                         rows_F[row, i, j] = forces[i, j]
                     for j in range(col.MEMORY):
                         rows_memory[row, i, j] = memory[i, j]
-            if not math.isfinite(W0 + W1 + W2):
+            if not math.isfinite((x0 + x1 + x2) + (v0 + v1 + v2) + (W0 + W1 + W2)):
                 return row + 1
         return wanted.shape[0]
 

@@ -139,7 +139,7 @@ def _put(row, first, *values):
 
 
 def _height(problem: Problem) -> float:
-    return float(half_height(np.asarray(problem.points.P)))
+    return float(half_height(problem.points))
 
 
 def _support(row, e, problem):
@@ -150,6 +150,12 @@ def _support(row, e, problem):
 def _normals(row, e, problem):
     foot_numbers(problem.points, e.id)  # refuses points without a foot
     _put(row, slots.NORMALS, e.x1, e.y1, e.x2, e.y2, e.x3, e.y3, e.x4, e.y4)
+
+
+def _cable(row, e, problem):
+    m = with_memory(problem).start.memory[problem.effects.index(e)]
+    height = _height(problem) if e.height is None else e.height
+    _put(row, slots.CABLE, e.k, e.c, height, m["anchor"][0], m["anchor"][1])
 
 
 def _vibration(row, e, problem):
@@ -169,7 +175,7 @@ FILL = {
     "spin_friction": lambda r, e, p: _put(r, slots.SPIN, e.radius),
     "rolling_resistance": lambda r, e, p: _put(r, slots.ROLLING, e.lever),
     "quadratic_drag": lambda r, e, p: _put(r, slots.DRAG, e.c, _height(p)),
-    "cable_restraint": lambda r, e, p: _put(r, slots.CABLE, e.k, e.c, _height(p) if e.height is None else e.height),
+    "cable_restraint": _cable,
     "lingering_wire_pull": lambda r, e, p: _put(r, slots.WIRE, e.force, e.tau, _height(p)),
     "base_vibration": _vibration,
     "plate_tilt": lambda r, e, p: _put(r, slots.TILT, e.x, e.y),

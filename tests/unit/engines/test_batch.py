@@ -1,0 +1,94 @@
+"""Batches of compiled runs: the rows of single runs, on any number of threads."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("numba")
+
+import rockref
+from rockref.effects.catalogue import EFFECTS
+from rockref.engines.compiled import columns as col
+from rockref.engines.compiled import engine
+from rockref.engines.compiled.batch import from_problems, run_batch
+from rockref.model.errors import InputError
+from tests.property.engines.problems import similar_problem
+
+MODEL = rockref.Model.table_3_1()
+
+
+@pytest.fixture(scope="module")
+def problems():
+    drag, support = EFFECTS["quadratic_drag"](c=0.5), EFFECTS["compliant_support"](frequency=80.0)
+    changes = [{}, {"effects": (drag,)}, {"K_N": 5e7, "effects": (support,)}, {"theta_0": 0.1}]
+    return [MODEL.replace(**change).problem(0.04) for change in changes]
+
+
+def test_rows_are_those_of_single_runs(problems):
+    """Runs with and without effects may stand in one batch; pose, forces and memories are recorded."""
+    states, forces, memories = run_batch(from_problems(problems), full=True)
+    for i, problem in enumerate(problems):
+        r = engine.simulate(problem)
+        np.testing.assert_array_equal(states[i, :, col.W_ : col.W_ + 3], r.W)
+        np.testing.assert_array_equal(states[i, :, col.TIME], r.t)
+        np.testing.assert_array_equal(forces[i], r.F)
+        np.testing.assert_array_equal(memories[i, :, :, col.ANCHORED] != 0, r.anchored)
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3, 7])
+def test_any_number_of_threads(problems, workers):
+    batch = from_problems(problems)
+    np.testing.assert_array_equal(run_batch(batch, workers=workers), run_batch(batch, workers=1))
+
+
+def test_a_batch_can_be_run_twice(problems):
+    """The run does not write into the batch that it is given."""
+    batch = from_problems(problems)
+    before = batch.memory.copy(), batch.state.copy()
+    np.testing.assert_array_equal(run_batch(batch), run_batch(batch))
+    np.testing.assert_array_equal(batch.memory, before[0])
+    np.testing.assert_array_equal(batch.state, before[1])
+
+
+def test_each_run_may_have_its_own_rows(problems):
+    batch = from_problems(problems)
+    own = np.arange(1, 5)[:, None] * np.array([[10, 500]])
+    states = run_batch(replace(batch, wanted=own))
+    for i, steps in enumerate(own):
+        alone = run_batch(replace(from_problems(problems[i : i + 1]), wanted=steps))
+        np.testing.assert_array_equal(states[i], alone[0])
+
+
+def test_a_run_that_loses_its_numbers_spoils_no_other():
+    good, bad = similar_problem(3, 4), similar_problem(4, 4)
+    bad = bad.replace(start=replace(bad.start, W=np.array([np.inf, 0, 0])))
+    states = run_batch(from_problems([bad, good]), workers=1)
+    assert np.isnan(states[0, 1:, col.W_]).all()
+    np.testing.assert_array_equal(states[1, :, col.W_ : col.W_ + 3], engine.simulate(good).W)
+
+
+def test_restart_from_a_recorded_row_with_forces(problems):
+    """A row of a full record, with forces and memories, continues the run bit for bit."""
+    batch = from_problems(problems)
+    states, forces, memories = run_batch(batch, full=True)
+    wanted = batch.wanted[40:] - batch.wanted[40]
+    rest = replace(batch, state=states[:, 40], memory=memories[:, 40], forces=forces[:, 40], wanted=wanted)
+    np.testing.assert_array_equal(run_batch(rest), states[:, 40:])
+
+
+def test_problems_that_do_not_fit_together_are_refused(problems):
+    with pytest.raises(InputError) as error:
+        from_problems([problems[0], problems[1].replace(step=5e-6)])
+    assert error.value.code == "E-STACK" and error.value.where == "step"
+    with pytest.raises(InputError) as error:
+        from_problems([problems[0], rockref.Model.four_points().problem(0.04)])
+    assert error.value.where == "points"
+
+
+@pytest.mark.parametrize("key", ["body", "props", "memory", "effects", "state", "forces"])
+def test_arrays_of_a_wrong_shape_are_refused(problems, key):
+    batch = from_problems(problems)
+    with pytest.raises(InputError) as error:
+        run_batch(replace(batch, **{key: getattr(batch, key)[..., :-1]}))
+    assert error.value.code == "E-SHAPE" and key in error.value.where
