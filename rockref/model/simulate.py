@@ -125,7 +125,8 @@ def simulate(
     """
     check(problem)
     problem = as_arrays(problem, dtype)
-    state = first_evaluation(problem)
+    with np.errstate(all="ignore"):
+        state = first_evaluation(problem)
     inertia = prepared_inertia(problem.block)
     wanted = output_steps(problem)
     t = np.empty(len(wanted))
