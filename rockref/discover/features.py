@@ -141,8 +141,8 @@ class EnvelopeDifference:
     """Envelope of one axis between the first two impacts.
 
     ``width``, model over measured mean half width; ``shape``, the quadratic mean over the arc of the difference of
-    upper and lower line, in measured mean half widths; ``period``, model over measured time between teeth (None where one has
-    fewer than three).
+    upper and lower line, in measured mean half widths; ``period``, model over measured time between teeth (None where
+    one has fewer than three).
     """
 
     axis: str

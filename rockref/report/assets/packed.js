@@ -1,0 +1,37 @@
+"use strict";
+// Shared by curves and player: data elements, 16-bit columns, small elements.
+const rockref = { curves: [], players: [] };
+
+function dataOf(figure) {
+  return JSON.parse(document.getElementById(figure.dataset.source).textContent);
+}
+
+// A packed column: base64 of little-endian 16-bit integers that count `unit`; -32768 is a gap.
+function unpack(column) {
+  const text = atob(column.data);
+  const values = new Array(column.n);
+  for (let i = 0; i < column.n; i++) {
+    let v = text.charCodeAt(2 * i) | (text.charCodeAt(2 * i + 1) << 8);
+    if (v > 32767) v -= 65536;
+    values[i] = v === -32768 ? null : v * column.unit;
+  }
+  return values;
+}
+
+function element(tag, attributes, text) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes || {})) made.setAttribute(name, value);
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+function button(text, label, act) {
+  const made = element("button", { type: "button", "aria-label": label }, text);
+  made.addEventListener("click", act);
+  return made;
+}
+
+function listen() {
+  window.rockref = rockref;
+}
+listen();

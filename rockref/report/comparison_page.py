@@ -1,0 +1,75 @@
+"""The page of `rockref compare`: the story in the order in which a person asks."""
+
+from __future__ import annotations
+
+from rockref.discover.compare import Comparison
+from rockref.report import blocks, tables
+from rockref.report.page import MAX_BYTES, Page
+
+# decided: room for what comes after the curves: energy, shapes, motion, provenance.
+RESERVE = 350_000
+
+
+def comparison_page(c: Comparison, title: str | None = None) -> Page:
+    """Return the page of one comparison."""
+    models = " and ".join(c.names)
+    page = Page(title or f"{c.experiment.name}: {models} beside the measured runs", lead(c))
+    add_comparison(page, c)
+    page.add_section("Where the numbers come from")
+    page.add_provenance(blocks.provenance(c))
+    return page
+
+
+def lead(c: Comparison) -> str:
+    """Return one sentence about the comparison as a whole."""
+    runs = f"{len(c.of('fit'))} fit and {len(c.of('holdout'))} holdout runs"
+    return f"{len(c.names)} model{'s' if len(c.names) > 1 else ''} beside {runs}. No verdict: it shows where they differ."
+
+
+def add_comparison(page: Page, c: Comparison, prefix: str = "") -> None:
+    """Add the sections of one comparison; `prefix` (the experiment's name) tells several on one page apart."""
+    head = f"{prefix}: " if prefix else ""
+    page.add_section(f"{head}What was measured")
+    blocks.add_measured(page, c)
+    page.add_section(f"{head}Where the model fails")
+    blocks.add_failures(page, c)
+    page.add_section(f"{head}Run by run")
+    left_out = add_runs(page, c)
+    if left_out:
+        page.add_text(f"Left out, to keep the page small: curves of run {', '.join(left_out)}.")
+    page.add_section(f"{head}Energy, envelopes, spectra")
+    blocks.add_energy(page, c)
+    blocks.add_shapes(page, c, 0)
+    page.add_section(f"{head}In motion")
+    # decided: after the third main impact the motion of model and block has little to do with one another.
+    times = c.measured[0].features.impacts.times
+    blocks.add_motion(page, c, 0, float(times[2]) + 0.1 if len(times) > 2 else None)
+
+
+def add_runs(page: Page, c: Comparison, room: int | None = None) -> list[str]:
+    """Add the curves of the runs, unlike releases first, while there is room; return the ids of those left out."""
+    limit = MAX_BYTES - RESERVE if room is None else page.size() + room
+    chosen, left_out = [], []
+    seen: set[tuple[float | None, float]] = set()
+    order = sorted(range(len(c.measured)), key=lambda k: (_release(c, k) in seen or seen.add(_release(c, k)) is not None, k))
+    size = page.size()
+    for k in order:
+        drawn = blocks.run_curves(c, k)
+        cost = len(drawn.picture) + sum(len(line["y"]["data"]) for p in drawn.data["panels"] for line in p.get("lines", ()))
+        cost += 40 * sum(len(s["on"]) for p in drawn.data["panels"] for s in p.get("strips", ()))
+        if size + cost > limit:
+            left_out.append(c.measured[k].run.id)
+            continue
+        size += cost
+        chosen.append((k, drawn))
+    for k, drawn in sorted(chosen, key=lambda item: item[0]):
+        page.add_curves(drawn)
+        for model in range(len(c.names)):
+            table = tables.impacts_table(c, model, k)
+            page.add_details(f"Main impacts: {c.names[model]}", table)
+    return left_out
+
+
+def _release(c: Comparison, k: int) -> tuple[float | None, float]:
+    run = c.measured[k].run
+    return run.release_tilt, run.block_turned
