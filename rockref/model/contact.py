@@ -80,7 +80,7 @@ def altered_normal_force(k: Kinematics, points, effects) -> np.ndarray:
 
 
 def open_gap(xi: np.ndarray, F_N: np.ndarray) -> np.ndarray:
-    """Rule N2: no normal force where the point is above the plate, xi < 0. All (..., n). Source: (3.5b)."""
+    """Rule N2: no normal force [N] where the point is above the plate, xi [m] < 0. All (..., n). Source: (3.5b)."""
     return F_N * (xi >= 0)  # (3.5b)
 
 

@@ -77,7 +77,7 @@ def contact_work(problem: Problem, before: State, after: State) -> np.ndarray:
 
 
 class Balance(NamedTuple):
-    """Energy account of a run, a row a step: t (steps+1,) [s]; energies, and work from the start, (steps+1, ...) [J]."""
+    """Energy account of a run, a row a step: t (steps+1,) [s]; energies and work so far (steps+1, ...) [J]."""
 
     t: np.ndarray
     mechanical: np.ndarray

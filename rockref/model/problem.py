@@ -16,7 +16,7 @@ GRAVITY = 9.81
 
 @dataclass(frozen=True)
 class Block:
-    """The rigid body: mass (...) [kg]; inertia about its centre, body axes (..., 3, 3) [kg m2]; gravity g (...) [m/s2]."""
+    """The rigid body: mass (...) [kg]; inertia about its centre, body axes (..., 3, 3) [kg m2]; g (...) [m/s2]."""
 
     mass: np.ndarray
     inertia: np.ndarray

@@ -10,29 +10,34 @@ from rockref.model.errors import InputError, NumericalError
 from rockref.model.integrator import Inertia, first_evaluation, prepared_inertia, step
 from rockref.model.problem import ContactPoints, Problem, State, as_arrays
 from rockref.model.response import Response
+from rockref.model.rotation import hat
 
 RECORDED = ("x", "v", "Lambda", "W", "F", "s", "anchored", "sliding")
 
-#: Largest product of step and contact frequency. The explicit step is stable for omega h < 2 without damping; with the
-#: damping ratio beta the central-difference limit shrinks to 2 (sqrt(1 + beta^2) - beta) (Hughes 2000, ch. 9), and one
-#: foot of the block meets an effective mass below the block's: decided, refuse above 1.
-STABILITY_LIMIT = 1.0
 
+def largest_step(problem: Problem) -> float:
+    """Longest stable step [s], all points touching and sticking at once; the least of a batch; infinite without points.
 
-def contact_frequency(problem: Problem) -> float:
-    """Upper bound of the contact angular frequency [rad/s]: stiffest point against the least effective mass.
-
-    A point at P feels 1/m_eff = 1/m + |P|^2 / J_min (the exact value uses n x P; |P| bounds it).
+    The step of an oscillator x" = -d x' - w^2 x, with the force taken at the predicted velocity, is stable while
+    (w h)^2 / 4 + d h <= 1 (the roots of its amplification matrix; a test finds the same limit numerically). w^2 and d
+    are the largest eigenvalues of M^-1 K and M^-1 C, with every point as stiff as its stiffer direction.
     """
     block, points = problem.block, problem.points
-    J_least = np.min(np.linalg.eigvalsh(np.asarray(block.inertia, float)), axis=-1)
-    lever = np.sqrt(np.sum(np.asarray(points.P, float)[..., :2] ** 2, axis=-1))
-    J_most = np.max(np.linalg.eigvalsh(np.asarray(block.inertia, float)), axis=-1)
-    height = np.max(np.abs(np.asarray(points.P, float)), axis=-1)
-    compliance = 1 / np.asarray(block.mass, float)[..., None] + lever**2 / J_least[..., None]
-    compliance = np.maximum(compliance, 1 / np.asarray(block.mass, float)[..., None] + height**2 / J_most[..., None])
-    K = np.maximum(np.asarray(points.K_N, float), np.asarray(points.K_T, float))
-    return float(np.sqrt(np.max(K * compliance)))
+    if not points.n:
+        return np.inf
+    P = np.asarray(points.P, float)
+    M = np.zeros(P.shape[:-2] + (6, 6))
+    M[..., :3, :3] = np.asarray(block.mass, float)[..., None, None] * np.eye(3)
+    M[..., 3:, 3:] = block.inertia
+    root = np.linalg.inv(np.linalg.cholesky(M))
+    B = np.concatenate([np.broadcast_to(np.eye(3), P.shape + (3,)), -hat(P)], axis=-1)  # velocity of a point from v, W
+
+    def largest_eigenvalue(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        A = np.einsum("...n,...nij,...nik->...jk", np.maximum(a, b).astype(float), B, B)
+        return np.linalg.eigvalsh(root @ A @ root.swapaxes(-1, -2))[..., -1]
+
+    w2, d = largest_eigenvalue(points.K_N, points.K_T), largest_eigenvalue(points.C_N, points.C_T)
+    return float(np.min(2 * (np.sqrt(d * d + w2) - d) / w2))
 
 
 def check(problem: Problem) -> None:
@@ -59,15 +64,14 @@ def check(problem: Problem) -> None:
             f"Use at most {1 / problem.step:g} Hz or a smaller step.",
         )
     check_points(problem.points)
-    if problem.points.n:
-        omega = contact_frequency(problem)
-        if omega * problem.step > STABILITY_LIMIT:
-            raise InputError(
-                "E-STEP",
-                "step",
-                f"{problem.step:g} s is too large for the stiffest contact ({omega:.4g} rad/s)",
-                f"Use a step of at most {STABILITY_LIMIT / omega:.2g} s.",
-            )
+    limit = largest_step(problem)
+    if problem.step > limit:
+        raise InputError(
+            "E-STEP",
+            "step",
+            f"{problem.step:g} s is too large for the stiffest contact",
+            f"Use a step of at most {np.floor(limit * 1e7) / 1e7:.2g} s.",
+        )
 
 
 def check_points(points: ContactPoints) -> None:
@@ -141,7 +145,7 @@ def simulate(
             t[i] = state.t
             for key, column in rows.items():
                 column[i] = getattr(state, key)
-            if not keep_going and not (np.all(np.isfinite(state.W)) and np.all(np.isfinite(state.x))):
+            if not keep_going and np.any(body_lost(state)):
                 raise not_finite(problem, good, inertia)
             if progress is not None and i % max(1, len(wanted) // 200) == 0:
                 progress((i + 1) / len(wanted))
@@ -158,18 +162,28 @@ def time_before_core(problem: Problem, column: np.ndarray) -> np.ndarray:
 def not_finite(problem: Problem, good: State, inertia: Inertia) -> NumericalError:
     """The error that names the step and the contact point at which the numbers were lost, found from a good state."""
     state = good
-    while np.all(np.isfinite(state.W)) and np.all(np.isfinite(state.x)):
+    while not np.any(body_lost(state)) and not np.any(forces_lost(state)):
         state = step(problem, state, inertia)
-    force = np.zeros_like(problem.points.P) if state.F is None else state.F
-    bad = np.argwhere(~np.all(np.isfinite(force), axis=-1))
-    point = problem.points.names[int(bad[0][-1])] if len(bad) else "none of the contact points"
-    of_batch = ""
-    if problem.batch:
-        lost = np.argwhere(~np.all(np.isfinite(state.W), axis=-1) | ~np.all(np.isfinite(state.x), axis=-1))[0]
-        of_batch = f" of block {', '.join(map(str, lost))}"
+    lost = np.argwhere(body_lost(state) | np.any(forces_lost(state), axis=-1))[0]
+    # A lost body takes all its points along; only while it is still there, the points tell where it began.
+    bad = np.flatnonzero(forces_lost(state)[tuple(lost)])
+    where = (
+        problem.points.names[bad[0]] if len(bad) and not body_lost(state)[tuple(lost)] else "none of the contact points"
+    )
+    of_batch = f" of block {', '.join(map(str, lost))}" if problem.batch else ""
     return NumericalError(
         "E-NAN",
         f"step {state.count} (t = {state.t:.6g} s)",
-        f"position or angular velocity{of_batch} is no longer a finite number; first bad contact force: {point}",
+        f"the motion{of_batch} is no longer made of finite numbers; it began at: {where}",
         "Check the start state and the parameters, or use a smaller step.",
     )
+
+
+def body_lost(state: State) -> np.ndarray:
+    """Whether position, rotation or angular velocity is no longer finite, (...)."""
+    return ~np.all(np.isfinite(state.x) & np.isfinite(state.W) & np.all(np.isfinite(state.Lambda), axis=-1), axis=-1)
+
+
+def forces_lost(state: State) -> np.ndarray:
+    """Which contact forces are no longer finite, (..., n)."""
+    return ~np.all(np.isfinite(np.asarray(state.F)), axis=-1)

@@ -1,0 +1,97 @@
+"""Housner's 2-D model against its closed forms."""
+
+import numpy as np
+import pytest
+
+from rockref.model import housner
+from rockref.model.errors import InputError
+
+MASS, B, H, G, J = 54.0, 0.100, 0.688, 9.81, 2.175048
+R, ALPHA = float(np.hypot(B, H) / 2), float(np.arctan2(B, H))
+P = housner.frequency_parameter(MASS, J, R, G)
+
+
+def run(theta_0, duration=1.5, rate=2000.0, **changes):
+    return housner.housner(MASS, B, H, J, G, theta_0, duration, rate, **changes)
+
+
+def test_frequency_parameter_of_a_uniform_block():
+    """I_O = 4/3 m R^2 for a uniform rectangle (no depth): p = sqrt(3 g / (4 R))."""
+    J_plane = MASS * R * R / 3
+    assert housner.frequency_parameter(MASS, J_plane, R, G) == pytest.approx(np.sqrt(3 * G / (4 * R)), rel=1e-14)
+
+
+def test_velocity_ratio_of_a_uniform_block():
+    """Housner (1963), eq. 8: 1 - 3/2 sin^2(alpha)."""
+    assert housner.velocity_ratio(MASS, MASS * R * R / 3, R, ALPHA) == pytest.approx(
+        1 - 1.5 * np.sin(ALPHA) ** 2, rel=1e-14
+    )
+
+
+def exact_quarter_period(theta_0):
+    """Time to the first impact of the full equation, by quadrature of the energy integral."""
+    from scipy.integrate import quad
+
+    # rate^2 / 2 = p^2 (cos(alpha - theta_0 ... )): substitution theta = theta_0 - s^2 takes out the root at the start.
+    def integrand(s):
+        theta = theta_0 - s * s
+        drop = np.cos(ALPHA - theta_0) - np.cos(ALPHA - theta)
+        return 2 * s / np.sqrt(2 * P * P * drop)
+
+    return quad(integrand, 0, np.sqrt(theta_0), epsabs=1e-12, epsrel=1e-12, limit=200)[0]
+
+
+@pytest.mark.parametrize("theta_0", [0.02, 0.1170])
+def test_first_impact_against_the_energy_integral(theta_0):
+    # RK4 at 1e-4 s: (p h)^4 = 5e-14; the quadrature asks 1e-12
+    assert run(theta_0).impacts[0] == pytest.approx(exact_quarter_period(theta_0), abs=1e-10)
+
+
+def test_first_impact_of_a_small_tilt_is_housners_formula():
+    """cosh(p t) = alpha / (alpha - theta_0) is linear in the angles: relative error about alpha^2 / 6."""
+    for theta_0 in (0.01, 0.05, 0.1170):
+        assert housner.first_impact(theta_0, ALPHA, P) == pytest.approx(exact_quarter_period(theta_0), rel=ALPHA**2 / 6)
+    # and it is the limit for slender blocks
+    slender = 1e-3
+    t = housner.first_impact(0.5 * slender, slender, P)
+    assert np.cosh(P * t) == pytest.approx(2, rel=1e-14)
+
+
+def test_angular_velocity_ratio_at_the_impacts():
+    r = run(0.1170, rate=1e5)
+    ratio = housner.velocity_ratio(MASS, J, R, ALPHA)
+    for impact in r.impacts:
+        i = np.searchsorted(r.t, impact)
+        # between the samples the rate changes by p^2 sin(alpha) h = 3e-5 of itself
+        assert r.rate[i] / r.rate[i - 1] == pytest.approx(ratio, rel=1e-4)
+
+
+def test_between_impacts_the_energy_is_kept():
+    r = run(0.1170)
+    side = np.sign(r.theta)
+    energy = r.rate**2 / 2 + P * P * np.cos(ALPHA - np.abs(r.theta))
+    arcs = np.split(energy[side != 0], np.flatnonzero(np.diff(side[side != 0])) + 1)
+    assert len(arcs) == 1 + len(r.impacts)
+    # RK4 at 1e-4 s
+    assert all(np.ptp(arc) < 1e-9 for arc in arcs)
+
+
+def test_signs_and_rows():
+    r = run(0.1170, duration=0.6, rate=1000.0)
+    assert len(r.t) == 601
+    assert r.theta[0] == -0.1170
+    assert r.rate[0] == 0
+    assert r.rate[200] > 0
+    assert np.all(np.diff(r.impacts) > 0)
+
+
+def test_impacts_come_closer_together():
+    r = run(0.1170, duration=4.0, rate=100.0)
+    assert np.all(np.diff(r.impacts, 2) < 0)
+
+
+@pytest.mark.parametrize("theta_0", [0.0, -0.1, ALPHA, 1.0, np.nan])
+def test_a_tilt_that_overturns_is_refused(theta_0):
+    with pytest.raises(InputError) as refused:
+        run(theta_0)
+    assert (refused.value.code, refused.value.where) == ("E-TILT", "theta_0")

@@ -1,0 +1,80 @@
+"""Problems, batches, and the order of their memory."""
+
+import numpy as np
+import pytest
+
+import rockref
+from rockref.model import problem as p
+from rockref.model.errors import InputError
+
+MODEL = rockref.Model.table_3_1()
+
+
+def test_state_at_rest():
+    s = p.State.at_rest(np.zeros(3), np.eye(3), 8)
+    assert s.s.shape == (8, 2)
+    assert not s.anchored.any()
+    assert not s.sliding.any()
+    assert np.array_equal(s.v, np.zeros(3))
+    assert s.a is s.T is s.F is None
+    moving = p.State.at_rest(np.zeros((5, 3), np.float32), np.eye(3), 4, v=[1, 2, 3], W=[4, 5, 6])
+    assert moving.s.shape == (5, 4, 2)
+    assert moving.s.dtype == np.float32
+    assert np.array_equal(moving.W, [4, 5, 6])
+
+
+def test_complete_state_is_the_state():
+    s = p.State.at_rest(np.zeros(3), np.eye(3), 8)
+    same = p.complete_state(**{name: getattr(s, name) for name in s.__dataclass_fields__})
+    assert vars(same) == vars(s)
+    with pytest.raises(AttributeError):
+        same.t = 1.0
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
+def test_as_arrays_converts_everything_and_keeps_flags(dtype):
+    q = p.as_arrays(MODEL.problem(), dtype)
+    for thing, names in ((q.block, p.ARRAYS_OF_BLOCK), (q.points, p.ARRAYS_OF_POINTS), (q.start, p.ARRAYS_OF_STATE)):
+        for name in names:
+            a = getattr(thing, name)
+            if a is not None:
+                assert a.dtype == (bool if name in ("anchored", "sliding") else dtype), name
+
+
+def test_as_arrays_copies():
+    original = MODEL.problem()
+    p.as_arrays(original).start.x[2] = 99
+    assert original.start.x[2] != 99
+
+
+def test_stack_puts_the_batch_fastest():
+    q = p.as_arrays(p.stack([MODEL.replace(mu_ext=0.2 + 0.01 * i).problem() for i in range(5)]))
+    assert q.batch == (5,)
+    assert q.points.P.shape == (5, 8, 3)
+    assert q.points.P.strides[0] == q.points.P.itemsize
+    assert np.array_equal(q.points.mu[:, 0], 0.2 + 0.01 * np.arange(5))
+
+
+def test_one_value_is_broadcast_to_the_batch():
+    one, many = MODEL.problem(), p.stack([MODEL.problem()] * 3)
+    q = p.as_arrays(p.replace(one, start=many.start))
+    assert q.block.inertia.shape == (3, 3, 3)
+    assert q.points.K_N.shape == (3, 8)
+
+
+@pytest.mark.parametrize("key, value", [("step", 2e-5), ("duration", 9.0), ("output_rate", 7.0)])
+def test_problems_that_differ_in_what_a_batch_shares(key, value):
+    with pytest.raises(InputError) as refused:
+        p.stack([MODEL.problem(), MODEL.problem(**{key: value})])
+    assert (refused.value.code, refused.value.where) == ("E-STACK", key)
+
+
+def test_round_and_point_feet_do_not_share_a_batch():
+    with pytest.raises(InputError) as refused:
+        p.stack([MODEL.problem(), MODEL.replace(foot_radius=1e-3).problem()])
+    assert (refused.value.code, refused.value.where) == ("E-STACK", "radius")
+
+
+def test_replace():
+    assert MODEL.problem().replace(duration=7.0).duration == 7.0
+    assert MODEL.problem().batch == ()

@@ -1,0 +1,131 @@
+"""The release posture: touching, in equilibrium, leaning the right way."""
+
+import numpy as np
+import pytest
+
+import rockref
+from rockref.model import release, rotation
+from rockref.model.contact import point_kinematics
+from rockref.model.errors import InputError
+from tests import physics
+
+MODEL = rockref.Model.table_3_1()
+HALF_WEIGHT = 54 * 9.81 / 2
+
+
+def penetrations(model, **kwargs):
+    block, points = model.body()
+    state = release.release_posture(block, points, **kwargs)
+    k = point_kinematics(state.x, state.Lambda, state.v, state.W, points.P, points.radius)
+    return state, k.xi
+
+
+@pytest.mark.parametrize("theta_0, pivots", [(0.001, [4, 5]), (0.05, [0, 1]), (0.1170, [0, 1]), (0.14, [0, 1])])
+@pytest.mark.parametrize("radius", [0.0, 0.001])
+def test_both_pivots_carry_half_the_weight(theta_0, pivots, radius):
+    state, xi = penetrations(MODEL.replace(foot_radius=radius), theta_0=theta_0)
+    # heights of 0.35 m are rounded at 5e-17, some ten times
+    assert xi[pivots] == pytest.approx([HALF_WEIGHT / 6e7] * 2, abs=1e-15)
+    assert np.all(np.delete(xi, pivots) < 0)
+    assert np.array_equal(state.v, np.zeros(3))
+    assert np.array_equal(state.W, np.zeros(3))
+    assert not state.anchored.any()
+
+
+def test_the_block_leans_to_plus_y_and_swings_with_positive_crv():
+    state, _ = penetrations(MODEL, theta_0=0.1170)
+    top = rotation.apply(state.Lambda, np.array([0, 0, 0.344]))
+    # the block is turned by -theta_0 about x: its top goes to +y
+    assert top[1] == pytest.approx(0.344 * np.sin(0.1170), rel=1e-6)
+    run = rockref.simulate(MODEL, duration=0.01, output_rate=1000, engine="numpy")
+    assert run.W[-1, 0] > 0
+    assert run.tilt[0] == pytest.approx(-0.1170, abs=1e-7)
+
+
+def test_tilt_is_the_angle_to_the_vertical():
+    """The roll that makes both pivots touch is of second order: 0.03 mm over 100 mm."""
+    state, _ = penetrations(MODEL, theta_0=0.1170)
+    assert np.arccos(state.Lambda[2, 2]) == pytest.approx(0.1170, abs=(0.03e-3 / 0.1) ** 2 / 0.1170)
+
+
+def test_small_roll_levels_the_unequal_feet():
+    state, _ = penetrations(MODEL, theta_0=0.1170)
+    # point 2 is 0.030 mm higher than point 1 on a base of 100 mm
+    assert abs(state.Lambda[2, 0]) == pytest.approx(0.030e-3 / 0.1 * np.cos(0.1170), rel=1e-6)
+
+
+def test_lower_neighbours_take_over_at_small_tilts():
+    """Below some tilt the internal points are lower than the raised corners."""
+    _, points = MODEL.body()
+    assert release.pivot_points(points, 0.1170, 1) == (0, 1)
+    assert release.pivot_points(points, 1e-4, 1) == (4, 5)
+    assert release.pivot_points(points, 0.1170, -1) == (3, 2)
+
+
+def test_turned_block_leans_on_corners_three_and_four_to_the_same_side():
+    state, xi = penetrations(MODEL, theta_0=0.1170, turned=True)
+    assert list(np.flatnonzero(xi >= 0)) == [2, 3]
+    assert rotation.apply(state.Lambda, np.array([0, 0, 0.344]))[1] > 0.04
+    run = rockref.simulate(MODEL, duration=0.01, output_rate=1000, turned=True, engine="numpy")
+    assert run.W[-1, 0] < 0
+
+
+def test_turned_block_of_equal_feet_is_the_mirror_of_itself():
+    four = rockref.Model.four_points()
+    _, plain = penetrations(four, theta_0=0.1)
+    _, turned = penetrations(four, theta_0=0.1, turned=True)
+    assert turned[[2, 3, 0, 1]] == pytest.approx(plain, abs=1e-16)
+
+
+@pytest.mark.parametrize("out_of_plane", [1e-6, -1e-6])
+def test_oblique_wire_shares_the_weight_as_the_springs_do(out_of_plane):
+    _, xi = penetrations(MODEL, theta_0=0.1170, out_of_plane=out_of_plane)
+    # 0.1 m apart: 1e-7 m of difference, within the 4.4e-6 m of penetration
+    assert np.sum(xi[:2]) * 6e7 == pytest.approx(2 * HALF_WEIGHT, rel=1e-9)
+    assert xi[0] - xi[1] == pytest.approx(out_of_plane * 0.1 * np.cos(0.1170), rel=1e-4)
+
+
+@pytest.mark.parametrize("out_of_plane, carrier", [(1e-3, 0), (-1e-3, 1)])
+def test_very_oblique_wire_puts_all_on_one_point(out_of_plane, carrier):
+    _, xi = penetrations(MODEL, theta_0=0.1170, out_of_plane=out_of_plane)
+    assert xi[carrier] * 6e7 == pytest.approx(2 * HALF_WEIGHT, rel=1e-9)
+    assert xi[1 - carrier] < 0
+
+
+def test_unequal_stiffness_sinks_unequally():
+    q = {k: np.array(v) for k, v in zip(("K_N", "K_T", "C_N", "C_T", "mu_0", "mu"), np.ones((6, 8)), strict=True)}
+    q["K_N"] = np.array([6e7, 3e7] + [6e7] * 6)
+    _, xi = penetrations(MODEL.replace(properties=q), theta_0=0.1170)
+    assert xi[:2] == pytest.approx([HALF_WEIGHT / 6e7, HALF_WEIGHT / 3e7], rel=1e-9)
+
+
+def test_tipping_angle():
+    block, points = MODEL.body()
+    assert release.tipping_angle(block, points) == pytest.approx(np.arctan2(0.05, 0.344), rel=1e-12)
+
+
+@pytest.mark.parametrize("theta_0", [0.0, -0.1, 0.1444, 0.2, np.nan, np.inf])
+def test_tilt_out_of_range(theta_0):
+    block, points = MODEL.body()
+    with pytest.raises(InputError) as refused:
+        release.release_posture(block, points, theta_0)
+    assert (refused.value.code, refused.value.where) == ("E-TILT", "theta_0")
+    assert "0.1443" in refused.value.what
+
+
+def test_without_a_point_on_either_side_there_is_no_posture():
+    points = physics.points([[0.05, 0.05, -0.344], [0.05, -0.05, -0.344]])
+    with pytest.raises(InputError) as refused:
+        release.release_posture(physics.block(), points, 0.1)
+    assert refused.value.code == "E-RELEASE"
+    assert "x < 0" in refused.value.what
+
+
+def test_settled_height_balances_the_weight():
+    z = release.settled_height(-0.35, -0.35001, 6e7, 3e7, 500.0)
+    assert 6e7 * -(z - 0.35) + 3e7 * -(z - 0.35001) == pytest.approx(500.0, rel=1e-7)
+    # one point lifted clear of the plate: the other carries all
+    z = release.settled_height(-0.35, -0.36, 6e7, 3e7, 500.0)
+    assert 3e7 * -(z - 0.36) == pytest.approx(500.0, rel=1e-7)
+    z = release.settled_height(-0.36, -0.35, 6e7, 3e7, 500.0)
+    assert 6e7 * -(z - 0.36) == pytest.approx(500.0, rel=1e-7)

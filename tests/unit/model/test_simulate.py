@@ -1,0 +1,161 @@
+"""The loop: which rows it records, what it refuses, what it says when the numbers are lost."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rockref
+from rockref.model import simulate as loop
+from rockref.model.errors import InputError, NumericalError
+from rockref.model.problem import stack
+from tests import physics
+
+MODEL = rockref.Model.table_3_1()
+
+
+def code_of(call):
+    with pytest.raises((InputError, NumericalError)) as refused:
+        call()
+    return refused.value.code, refused.value.where
+
+
+class TestRows:
+    def test_a_row_every_fifty_steps_at_2_khz(self):
+        steps = loop.output_steps(MODEL.problem(duration=0.01))
+        assert np.array_equal(steps, np.arange(0, 1001, 50))
+
+    def test_rates_that_do_not_divide_take_the_nearest_step(self):
+        steps = loop.output_steps(MODEL.problem(duration=0.001, output_rate=30000.0))
+        # 3.33 steps apart
+        assert np.array_equal(steps[:5], [0, 3, 7, 10, 13])
+
+    def test_the_last_row_is_not_beyond_the_duration(self):
+        assert loop.output_steps(MODEL.problem(duration=0.00999, output_rate=100.0))[-1] == 0
+        assert loop.output_steps(MODEL.problem(duration=0.01, output_rate=100.0))[-1] == 1000
+
+    def test_every_step_at_the_rate_of_the_steps(self):
+        assert np.array_equal(loop.output_steps(MODEL.problem(duration=1e-4, output_rate=1e5)), np.arange(11))
+
+    def test_shapes_and_times(self):
+        r = loop.simulate(MODEL.problem(duration=0.005, output_rate=1000.0))
+        assert r.t == pytest.approx([0, 0.001, 0.002, 0.003, 0.004, 0.005], abs=1e-17)
+        assert r.F.shape == (6, 8, 3)
+        assert r.s.shape == (6, 8, 2)
+        assert r.Lambda.shape == (6, 3, 3)
+        b = loop.simulate(stack([MODEL.problem(duration=0.002, output_rate=1000.0)] * 3))
+        assert b.F.shape == (3, 3, 8, 3)
+        assert b.anchored.shape == (3, 3, 8)
+        assert b.t.shape == (3,)
+
+    def test_progress_comes_to_its_end(self):
+        seen = []
+        loop.simulate(MODEL.problem(duration=0.01), progress=seen.append)
+        assert seen[-1] == 1
+        assert seen == sorted(seen)
+
+
+class TestRefusals:
+    @pytest.mark.parametrize("key", ["step", "duration", "output_rate"])
+    @pytest.mark.parametrize("value", [0.0, -1.0, np.nan, np.inf])
+    def test_times_that_are_none(self, key, value):
+        assert code_of(lambda: loop.simulate(replace(MODEL.problem(), **{key: value}))) == ("E-RANGE", key)
+
+    def test_shorter_than_a_step(self):
+        assert code_of(lambda: loop.simulate(MODEL.problem(duration=1e-6)))[0] == "E-DURATION"
+
+    def test_more_rows_than_steps(self):
+        assert code_of(lambda: loop.simulate(MODEL.problem(output_rate=2e5))) == ("E-RATE", "output_rate")
+
+    @pytest.mark.parametrize(
+        "key, value", [("K_N", -1.0), ("K_T", 0.0), ("K_N", np.nan), ("C_N", -1e-9), ("C_T", np.inf), ("mu", -0.1)]
+    )
+    def test_point_properties_out_of_range_name_the_point(self, key, value):
+        problem = MODEL.problem()
+        values = getattr(problem.points, key).copy()
+        values[5] = value
+        assert code_of(lambda: loop.check_points(replace(problem.points, **{key: values}))) == (
+            "E-RANGE",
+            f"{key} of point 2int",
+        )
+
+    def test_negative_foot_radius(self):
+        assert code_of(lambda: loop.check_points(physics.points([0, 0, 0], radius=-1e-3)))[0] == "E-RANGE"
+
+    def test_dynamic_friction_above_static(self):
+        assert code_of(lambda: loop.check_points(physics.points([0, 0, 0], mu_0=0.2, mu=0.3))) == ("E-RANGE", "mu_0")
+
+    def test_a_step_too_large_for_the_stiffest_contact_names_one_that_will_do(self):
+        with pytest.raises(InputError) as refused:
+            loop.simulate(MODEL.problem(step=5e-4, output_rate=2000.0))
+        assert (refused.value.code, refused.value.where) == ("E-STEP", "step")
+        allowed = float(refused.value.cure.split(" at most ")[1].split()[0])
+        loop.check(MODEL.problem(step=allowed * 0.99))
+
+
+class TestLargestStep:
+    @pytest.mark.parametrize("C_T", [0.0, 1e3, 2e4, 2e5])
+    def test_is_where_a_damped_spring_begins_to_grow(self, C_T, monkeypatch):
+        """A mass held by the tangential spring, friction out of reach: linear, so it grows or it does not."""
+
+        def grows(factor):
+            foot = dict(K_T=5e7, K_N=1e5, C_N=0.0, C_T=C_T, mu_0=1e9)
+            limit = loop.largest_step(physics.mass_on_a_foot(**foot))
+            problem = physics.mass_on_a_foot(z=physics.resting(K_N=1e5), v=(1e-3, 0, 0), step=factor * limit, **foot)
+            monkeypatch.setattr(loop, "check", lambda problem: None)
+            r = loop.simulate(replace(problem, duration=2000 * problem.step))
+            return np.max(np.abs(r.v[-100:, 0])) > 1e-3
+
+        assert grows(1.01)
+        assert not grows(0.99)
+
+    def test_of_the_block_is_below_that_of_its_points_one_by_one(self):
+        problem = MODEL.problem()
+        alone = [replace(problem, points=physics.points(P)) for P in problem.points.P]
+        assert loop.largest_step(problem) < min(map(loop.largest_step, alone))
+
+    def test_of_a_batch_is_the_least(self):
+        soft, stiff = MODEL.replace(K_N=1e7).problem(), MODEL.problem()
+        assert loop.largest_step(stack([soft, stiff])) == pytest.approx(loop.largest_step(stiff), rel=1e-12)
+
+    def test_without_points_any_step_will_do(self):
+        assert loop.largest_step(physics.flying((1, 2, 3), (0, 0, 1), 1e-3, 0.1)) == np.inf
+
+
+class TestLostNumbers:
+    def test_nan_in_the_start_is_found_at_its_point(self):
+        problem = MODEL.problem(duration=0.01)
+        start = replace(problem.start, s=np.full((8, 2), np.nan), anchored=np.arange(8) == 1)
+        with pytest.raises(NumericalError) as lost:
+            loop.simulate(replace(problem, start=start))
+        assert lost.value.code == "E-NAN"
+        assert lost.value.where.startswith("step 0 ")
+        assert "2ext" in lost.value.what
+
+    def test_nan_at_a_later_step(self):
+        """A spring that meets a NaN at t = 3 ms."""
+
+        class Breaks(physics.Pull):
+            def body_wrench(self, problem, c, x, Lambda, v, W, m):
+                force = np.zeros_like(x)
+                force[..., 2] = np.nan if c.t >= 0.003 else 0
+                return force, np.zeros_like(x)
+
+        problem = replace(MODEL.problem(duration=0.01), effects=(Breaks(force=1.0),))
+        with pytest.raises(NumericalError) as lost:
+            loop.simulate(problem)
+        # the acceleration is lost at step 300, the position at the next
+        assert lost.value.where == "step 301 (t = 0.00301 s)"
+        assert "none of the contact points" in lost.value.what
+
+    def test_of_a_batch_the_block_is_named(self):
+        problem = stack([MODEL.problem(duration=0.002)] * 3)
+        v = problem.start.v.copy()
+        v[1, 0] = np.nan
+        problem = replace(problem, start=replace(problem.start, v=v))
+        with pytest.raises(NumericalError) as lost:
+            loop.simulate(problem)
+        assert "block 1" in lost.value.what
+        kept = loop.simulate(problem, keep_going=True)
+        assert np.all(np.isfinite(kept.W[[0, 2]]))
+        assert not np.any(np.isfinite(kept.W[1, -1]))
