@@ -145,9 +145,19 @@ class Comparison:
         square = np.mean([self.measured[k].noise ** 2 for k in self.of(use)], axis=0)
         return float(np.sqrt(np.mean(square) if axis is None else square[axis]))
 
+    def holds_to_second_impact(self) -> bool:
+        """Return whether every model keeps within the band of every run up to its second main impact."""
+        for results in self.results:
+            for m, r in zip(self.measured, results, strict=True):
+                times = m.features.impacts.times
+                end = float(times[1]) if len(times) > 1 else float("inf")
+                if r.overturned or (r.leaves_band is not None and r.leaves_band.time < end):
+                    return False
+        return True
+
     def to_dict(self) -> dict[str, Any]:
         """Return everything as plain JSON values; the keys are documented in ``docs/reference/compare.md``."""
-        from rockref.discover.record import to_dict
+        from rockref.discover.comparison_record import to_dict
 
         return to_dict(self)
 

@@ -128,22 +128,31 @@ def leak(c: Comparison, model: int) -> list[Finding]:
     pairs = list(zip(c.measured, c.results[model], strict=True))
     slopes = np.array([m.features.leak.slopes - r.features.leak.slopes for m, r in pairs])
     offsets = np.array([m.features.leak.offsets - r.features.leak.offsets for m, r in pairs])
-    errors = np.array([m.features.leak.errors for m, _ in pairs])
-    found = []
+    errors = np.array([m.features.leak.errors for m, _ in pairs]).max(axis=0) / math.sqrt(len(pairs))
+    leaks, shifts, values = [], [], {}
     for k, axis in enumerate(AXES[1:]):
-        mean, error = float(slopes[:, k].mean()), float(errors[:, k].max() / math.sqrt(len(pairs)))
-        one_sided = bool(np.all(np.sign(slopes[:, k]) == np.sign(mean)))
-        if one_sided and abs(mean) > max(LEAST_LEAK, LEAK_ERRORS * error):
-            text = (
-                f"In the first swing {100 * abs(mean):.1f} % of the main rate shows about the {axis} axis "
-                f"({math.degrees(abs(mean)):.1f} degrees); in the model it does not."
-            )
-            found += finding(c, model, "leak", text, axis=axis, slope=mean, error=error)
-        offset = float(offsets[:, k].mean())
-        if bool(np.all(np.sign(offsets[:, k]) == np.sign(offset))) and abs(offset) > LEAST_OFFSET:
-            text = f"In the first swing the rate about the {axis} axis is offset by {DEGREES * offset:+.2f} deg/s."
-            found += finding(c, model, "offset", text, axis=axis, offset=offset)
+        slope, offset = _common(slopes[:, k]), _common(offsets[:, k])
+        if abs(slope) > max(LEAST_LEAK, LEAK_ERRORS * float(errors[k])):
+            leaks.append(f"{100 * abs(slope):.1f} % about the {axis} axis ({math.degrees(abs(slope)):.1f} degrees)")
+            values[f"slope_{axis}"] = slope
+        if abs(offset) > LEAST_OFFSET:
+            shifts.append(f"{DEGREES * offset:+.2f} deg/s about the {axis} axis")
+            values[f"offset_{axis}"] = offset
+    found = []
+    if leaks:
+        text = (
+            f"In the first swing of every run the main rate shows with {' and '.join(leaks)}; in the model it does not."
+        )
+        found += finding(c, model, "leak", text, **{k: v for k, v in values.items() if k.startswith("slope")})
+    if shifts:
+        text = f"In the first swing of every run the measured rates are offset by {' and '.join(shifts)}."
+        found += finding(c, model, "offset", text, **{k: v for k, v in values.items() if k.startswith("offset")})
     return found
+
+
+def _common(values: np.ndarray) -> float:
+    """Return the mean of values (runs,) that all have one sign; else zero."""
+    return float(values.mean()) if np.all(values > 0.0) or np.all(values < 0.0) else 0.0
 
 
 def envelope(c: Comparison, model: int) -> list[Finding]:

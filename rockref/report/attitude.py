@@ -11,7 +11,7 @@ TOUCHING = 1e-5
 
 
 def integrated(Lambda_0: np.ndarray, t: np.ndarray, crv: np.ndarray) -> np.ndarray:
-    """Return the rotations (N, 3, 3), body to plate, that rates crv (N, 3) rad/s at t (N,) s lead to from Lambda_0 (3, 3).
+    """Return the rotations (N, 3, 3), body to plate, to which rates crv (N, 3) rad/s at t (N,) s lead from Lambda_0.
 
     Each interval turns by the mean of the rates at its ends.
     """
@@ -24,7 +24,7 @@ def integrated(Lambda_0: np.ndarray, t: np.ndarray, crv: np.ndarray) -> np.ndarr
 
 
 def angles(Lambda: np.ndarray) -> np.ndarray:
-    """Return tilt about X, roll about Y and turn about Z, (N, 3) rad, with Lambda (N, 3, 3) = Rx(tilt) Ry(roll) Rz(turn)."""
+    """Return tilt, roll and turn, (N, 3) rad, with Lambda (N, 3, 3) = Rx(tilt) Ry(roll) Rz(turn)."""
     tilt = np.arctan2(-Lambda[:, 1, 2], Lambda[:, 2, 2])
     roll = np.arcsin(np.clip(Lambda[:, 0, 2], -1.0, 1.0))
     turn = np.unwrap(np.arctan2(-Lambda[:, 0, 1], Lambda[:, 0, 0]))
@@ -32,6 +32,6 @@ def angles(Lambda: np.ndarray) -> np.ndarray:
 
 
 def lowest_points(Lambda: np.ndarray, P: np.ndarray) -> np.ndarray:
-    """Return which of the points P (n, 3) m, body axes, lie within 10 um of the lowest one, (N, n) bool, by attitude."""
+    """Return which of the points P (n, 3) m, body axes, lie within 10 um of the lowest, (N, n) bool, by attitude."""
     heights = Lambda[:, 2, :] @ P.T
     return heights <= heights.min(axis=1, keepdims=True) + TOUCHING

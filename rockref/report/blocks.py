@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from rockref.discover.compare import Comparison, RunComparison
+from rockref.discover.features import Features
 from rockref.discover.sentences import findings
-from rockref.discover.stretches import AXES, STRETCH_WORDS, STRETCHES
+from rockref.discover.stretches import AXES, STRETCH_WORDS, STRETCHES, stretch_masks
 from rockref.engines import machine
 from rockref.measure.impacts import Impacts
 from rockref.model.channel import DEGREES
@@ -30,8 +31,9 @@ def add_measured(page: Page, c: Comparison) -> None:
     e = c.experiment
     runs = f"{len(c.of('fit'))} fit runs, {len(c.of('holdout'))} holdout runs"
     page.add_text(
-        f"{e.name}: a block of {e.mass:g} kg, {1e3 * e.width:g} mm wide and {1e3 * e.height:g} mm high, released {len(c.measured)} "
-        f"times ({runs}). The gyroscope's noise floor, from the quiet stretches, is {DEGREES * c.noise():.3f} deg/s."
+        f"{e.name}: a block of {e.mass:g} kg, {1e3 * e.width:g} mm wide and {1e3 * e.height:g} mm high, released "
+        f"{len(c.measured)} times ({runs}). The gyroscope's noise floor, from the quiet stretches, is "
+        f"{DEGREES * c.noise():.3f} deg/s."
     )
     page.add_table(tables.runs_table(c))
     if e.notices:
@@ -44,7 +46,7 @@ def add_failures(page: Page, c: Comparison) -> None:
     together = [f.text for f in found if f.model is None]
     if together:
         page.add_sentences(together, "Side by side")
-    for k, name in enumerate(c.names):
+    for name in c.names:
         page.add_sentences([f.text for f in found if f.model == name], name)
     add_error_figure(page, c)
     for k in range(len(c.names)):
@@ -125,7 +127,7 @@ def run_curves(c: Comparison, k: int, end: float | None = None) -> Curves:
         panels,
         title=f"Run {tables.run_name(c, k)}",
         sentence=(
-            f"Body rates about the three axes in run {tables.run_name(c, k)}; the models are aligned with its first main "
+            f"Body rates about the three axes in run {tables.run_name(c, k)}; models are aligned with its first main "
             "impact. Below, a line for every contact point of the model while it touches. Red: main impacts of the run."
         ),
         marks=[float(v) for v in impacts.times],
@@ -174,8 +176,6 @@ def named_views(impacts: Impacts, end: float) -> list[tuple[str, float, float]]:
 
 def extremes_table(c: Comparison, k: int) -> Table:
     """The numbers of a set of curves: smallest, largest and quadratic mean by stretch."""
-    from rockref.discover.stretches import stretch_masks
-
     m = c.measured[k]
     assert m.run.t is not None and m.run.crv is not None
     series = [("measured", m.run.crv), *((n, c.results[i][k].modelled) for i, n in enumerate(c.names))]
@@ -198,7 +198,10 @@ def add_energy(page: Page, c: Comparison) -> None:
     if count < 2:
         return
     panels = []
-    for label, name, length in (("loss at impact (mJ)", "impact_loss", count), ("loss in the arc after (mJ)", "free_loss", count - 1)):
+    for label, name, length in (
+        ("loss at impact (mJ)", "impact_loss", count),
+        ("loss in the arc after (mJ)", "free_loss", count - 1),
+    ):
         x = np.arange(1.0, length + 1.0)
         mean, scatter = _by_number([getattr(m.features.ledger, name) for m in c.measured], length)
         lines = [Line("measured", x, mean, style.INK)]
@@ -217,14 +220,15 @@ def add_energy(page: Page, c: Comparison) -> None:
     )
     keys = key([(line.name, line.colour, line.dash) for line in panels[0].lines])
     sentence = (
-        "Energy of the rocking lost at each main impact and in each free arc, means over the runs; the band is the standard "
-        "deviation between the measured runs. The split between impact and arc scatters with the clatter; their sum does not."
+        "Energy of the rocking lost at each main impact and in each free arc, means over the runs; the band is the "
+        "standard deviation between the measured runs. The split between impact and arc scatters with the clatter, "
+        "their sum does not."
     )
     page.add_figure(svg, sentence, tables.energy_table(c), "Energy lost, impact by impact", keys)
 
 
 def _by_number(values: Sequence[np.ndarray], length: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return mean and standard deviation (length,) mJ over runs of what each lists by number; NaN where fewer than two."""
+    """Return mean and standard deviation (length,) mJ over runs of what each lists by number; NaN where unknown."""
     stack = np.full((len(values), length), np.nan)
     for row, listed in zip(stack, values, strict=True):
         n = min(len(listed), length)
@@ -241,7 +245,7 @@ def add_shapes(page: Page, c: Comparison, k: int) -> None:
     measured = c.measured[k].features
     if measured.envelope is None or measured.spectrum is None:
         return
-    seen = [("measured", measured, style.INK, ())]
+    seen: list[tuple[str, Features, str, tuple[int, ...]]] = [("measured", measured, style.INK, ())]
     for i, name in enumerate(c.names):
         seen.append((name, c.results[i][k].features, style.colour(i), style.dash(i)))
     envelopes, spectra = [], []
@@ -250,7 +254,9 @@ def add_shapes(page: Page, c: Comparison, k: int) -> None:
         for name, f, colour, dash in seen:
             if f.envelope is not None:
                 share = np.linspace(0.0, 1.0, len(f.envelope.t))
-                lines += [Line(name, share, DEGREES * y[row], colour, dash) for y in (f.envelope.upper, f.envelope.lower)]
+                lines += [
+                    Line(name, share, DEGREES * y[row], colour, dash) for y in (f.envelope.upper, f.envelope.lower)
+                ]
         envelopes.append(Panel(f"{axis} (deg/s)", lines, height=120.0))
         lines = [
             Line(name, f.spectrum.frequencies, DEGREES * f.spectrum.amplitudes[row + 1], colour, dash)
@@ -270,10 +276,14 @@ def _peaks(c: Comparison, k: int) -> Table:
     rows = []
     for i, name in enumerate(c.names):
         for s in c.results[i][k].spectra:
-            peaks = [tables.number(v, 2) for peak in (s.peak_measured, s.peak_model) for v in (peak[0], DEGREES * peak[1])]
+            peaks = [
+                tables.number(v, 2) for peak in (s.peak_measured, s.peak_model) for v in (peak[0], DEGREES * peak[1])
+            ]
             rows.append([name, s.axis, *peaks, tables.number(s.distance, 2)])
     columns = ("model", "axis", "measured peak (Hz)", "(deg/s)", "model peak (Hz)", "(deg/s)", "distance")
-    return Table("Largest lines of the spectra", columns, rows, "Distance: size of the difference over the measured size.")
+    return Table(
+        "Largest lines of the spectra", columns, rows, "Distance: size of the difference over the measured size."
+    )
 
 
 def add_motion(page: Page, c: Comparison, k: int, until: float | None = None) -> None:

@@ -23,18 +23,23 @@ def comparison_page(c: Comparison, title: str | None = None) -> Page:
 def lead(c: Comparison) -> str:
     """Return one sentence about the comparison as a whole."""
     runs = f"{len(c.of('fit'))} fit and {len(c.of('holdout'))} holdout runs"
-    return f"{len(c.names)} model{'s' if len(c.names) > 1 else ''} beside {runs}. No verdict: it shows where they differ."
+    return (
+        f"{len(c.names)} model{'s' if len(c.names) > 1 else ''} beside {runs}. No verdict: it shows where they differ."
+    )
 
 
-def add_comparison(page: Page, c: Comparison, prefix: str = "") -> None:
-    """Add the sections of one comparison; `prefix` (the experiment's name) tells several on one page apart."""
+def add_comparison(page: Page, c: Comparison, prefix: str = "", room: int | None = None) -> None:
+    """Add the sections of one comparison; `prefix` (the experiment's name) tells several on one page apart.
+
+    `room` in bytes is for the curves of its runs; without it they may fill the page.
+    """
     head = f"{prefix}: " if prefix else ""
     page.add_section(f"{head}What was measured")
     blocks.add_measured(page, c)
     page.add_section(f"{head}Where the model fails")
     blocks.add_failures(page, c)
     page.add_section(f"{head}Run by run")
-    left_out = add_runs(page, c)
+    left_out = add_runs(page, c, room)
     if left_out:
         page.add_text(f"Left out, to keep the page small: curves of run {', '.join(left_out)}.")
     page.add_section(f"{head}Energy, envelopes, spectra")
@@ -49,13 +54,16 @@ def add_comparison(page: Page, c: Comparison, prefix: str = "") -> None:
 def add_runs(page: Page, c: Comparison, room: int | None = None) -> list[str]:
     """Add the curves of the runs, unlike releases first, while there is room; return the ids of those left out."""
     limit = MAX_BYTES - RESERVE if room is None else page.size() + room
-    chosen, left_out = [], []
-    seen: set[tuple[float | None, float]] = set()
-    order = sorted(range(len(c.measured)), key=lambda k: (_release(c, k) in seen or seen.add(_release(c, k)) is not None, k))
+    chosen, left_out = [], list[str]()
+    releases = [(m.run.release_tilt, m.run.block_turned) for m in c.measured]
+    # The first of each release comes before its repeats.
+    order = sorted(range(len(releases)), key=lambda k: (releases.index(releases[k]) != k, k))
     size = page.size()
     for k in order:
         drawn = blocks.run_curves(c, k)
-        cost = len(drawn.picture) + sum(len(line["y"]["data"]) for p in drawn.data["panels"] for line in p.get("lines", ()))
+        cost = len(drawn.picture) + sum(
+            len(line["y"]["data"]) for p in drawn.data["panels"] for line in p.get("lines", ())
+        )
         cost += 40 * sum(len(s["on"]) for p in drawn.data["panels"] for s in p.get("strips", ()))
         if size + cost > limit:
             left_out.append(c.measured[k].run.id)
@@ -68,8 +76,3 @@ def add_runs(page: Page, c: Comparison, room: int | None = None) -> list[str]:
             table = tables.impacts_table(c, model, k)
             page.add_details(f"Main impacts: {c.names[model]}", table)
     return left_out
-
-
-def _release(c: Comparison, k: int) -> tuple[float | None, float]:
-    run = c.measured[k].run
-    return run.release_tilt, run.block_turned

@@ -18,7 +18,7 @@ TOLERANCE = 0.6
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """A curve: ``name``, ``x`` and ``y`` (N,), ``colour``, ``dash`` in pixels, ``width`` in pixels. NaN leaves a gap."""
+    """A curve: ``name``, ``x`` and ``y`` (N,), ``colour``, ``dash`` and ``width`` in pixels. NaN leaves a gap."""
 
     name: str
     x: np.ndarray
@@ -98,7 +98,8 @@ def _panel(panel: Panel, across: _Scale, top: float, inner: float, marks: Sequen
     bottom = top + panel.height
     parts = [f'<rect x="{LEFT:g}" y="{top:g}" width="{inner:g}" height="{panel.height:g}" class="frame"/>']
     parts += [f'<path class="grid" d="M{across(v):.1f} {top:g}V{bottom:g}"/>' for v in grid]
-    parts.append(f'<text class="label" transform="translate(13 {0.5 * (top + bottom):.0f}) rotate(-90)">{escape(panel.label)}</text>')
+    place = f"translate(13 {0.5 * (top + bottom):.0f}) rotate(-90)"
+    parts.append(f'<text class="label" transform="{place}">{escape(panel.label)}</text>')
     if panel.strips:
         parts.append(_strips(panel, across, top))
     else:
@@ -127,7 +128,9 @@ def _strips(panel: Panel, across: _Scale, top: float) -> str:
         parts.append(_text(LEFT - 5.0, y + 3.5, name, "end"))
         inside = [(max(a, across.low), min(b, across.high)) for a, b in intervals if b > across.low and a < across.high]
         # Contacts closer than half a pixel are drawn as one.
-        moves = "".join(f"M{across(a):.1f} {y:.1f}H{max(across(b), across(a) + 0.4):.1f}" for a, b in _merged(inside, across))
+        moves = "".join(
+            f"M{across(a):.1f} {y:.1f}H{max(across(b), across(a) + 0.4):.1f}" for a, b in _merged(inside, across)
+        )
         parts.append(f'<path d="{moves}" stroke="{panel.colour}" stroke-width="{0.55 * step:.1f}"/>')
     return "".join(parts)
 
@@ -220,7 +223,9 @@ def _limits(panel: Panel) -> tuple[float, float]:
         values = np.concatenate([values, panel.band[1], panel.band[2]])
     if panel.log:
         values = values[values > 0.0]
-        return float(10 ** math.floor(math.log10(values.min()))), float(10 ** math.ceil(math.log10(values.max() * 1.05)))
+        return float(10 ** math.floor(math.log10(values.min()))), float(
+            10 ** math.ceil(math.log10(values.max() * 1.05))
+        )
     low, high = float(values.min()), float(values.max())
     margin = 0.06 * (high - low) or 1.0
     return low - margin, high + margin
@@ -251,6 +256,7 @@ def key(entries: Sequence[tuple[str, str, tuple[int, ...]]]) -> str:
     items = []
     for name, colour, dash in entries:
         dashes = f' stroke-dasharray="{" ".join(map(str, dash))}"' if dash else ""
-        sample = f'<svg viewBox="0 0 30 8" aria-hidden="true"><path d="M1 4h28" stroke="{colour}" stroke-width="2"{dashes}/></svg>'
+        path = f'<path d="M1 4h28" stroke="{colour}" stroke-width="2"{dashes}/>'
+        sample = f'<svg viewBox="0 0 30 8" aria-hidden="true">{path}</svg>'
         items.append(f'<span class="key">{sample}{escape(name)}</span>')
     return f'<p class="keys">{"".join(items)}</p>'

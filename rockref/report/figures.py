@@ -6,7 +6,6 @@ The three body rates of a whole run with the contact indices below, and zooms be
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -114,7 +113,9 @@ def _rates(ax: Any, c: Comparison, k: int, axis: int, start: float, end: float, 
     if axis == 0:
         line = housner_line(c, k, float(run.t[-1]))
         keep = (line.x >= start - 0.01) & (line.x <= end + 0.01)
-        ax.plot(line.x[keep], line.y[keep], color=style.GREY, lw=0.8, dashes=_dashes(style.HOUSNER_DASH), label="Housner")
+        ax.plot(
+            line.x[keep], line.y[keep], color=style.GREY, lw=0.8, dashes=_dashes(style.HOUSNER_DASH), label="Housner"
+        )
     mark_impacts(ax, c.measured[k].features.impacts.times, start, end)
     if labelled:
         ax.set_ylabel(f"{AXES[axis]}\n(deg/s)", fontsize=8)
@@ -130,13 +131,15 @@ def contact_plot(ax: Any, c: Comparison, k: int, model: int, labelled: bool = Tr
         spans = [(a, b - a) for a, b in intervals]
         ax.broken_barh(spans, (len(strips) - row - 0.75, 0.5), color=style.colour(model), lw=0)
     ax.set_ylim(0, len(strips))
-    ax.set_yticks([len(strips) - row - 0.5 for row in range(len(strips))], [name for name, _ in strips] if labelled else [])
+    ax.set_yticks(
+        [len(strips) - row - 0.5 for row in range(len(strips))], [name for name, _ in strips] if labelled else []
+    )
     ax.tick_params(labelsize=7)
     t = _times(c, k)
     mark_impacts(ax, c.measured[k].features.impacts.times, float(t[0]), float(t[-1]))
 
 
-def mark_impacts(ax: Any, times: Sequence[float], start: float, end: float) -> None:
+def mark_impacts(ax: Any, times: np.ndarray, start: float, end: float) -> None:
     """Draw a red line at every main impact between start and end, s."""
     for time in times:
         if start <= time <= end:

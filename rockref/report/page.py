@@ -27,8 +27,10 @@ MAX_BYTES = 2_000_000
 
 @dataclass(frozen=True)
 class Table:
-    """A table of texts: ``caption``, ``columns`` (texts), ``rows`` (texts, the first of a row heads it); ``note`` below;
-    ``prose`` for words, which are set left and may break, where numbers are set right."""
+    """A table of texts: ``caption``, ``columns``, ``rows`` (the first text of a row heads it); ``note`` below it.
+
+    ``prose`` is for words, which are set left and may break; numbers are set right.
+    """
 
     caption: str
     columns: Sequence[str]
@@ -58,7 +60,7 @@ class Page:
         self._data: dict[str, Any] = {}
 
     def add_section(self, title: str, text: str | Sequence[str] = ()) -> Section:
-        """Begin a section with paragraphs of text; what is added next belongs to it. Returns it (its anchor for links)."""
+        """Begin a section with paragraphs of text and return it; what is added next belongs to it."""
         base = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "section"
         taken = {s.anchor for s in self.sections}
         anchor = base if base not in taken else f"{base}-{len(taken) + 1}"

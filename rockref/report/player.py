@@ -51,8 +51,9 @@ def player(m: MeasuredRun, results: Sequence[tuple[str, RunComparison]], until: 
     }
     names = " and ".join(["measured", *(name for name, _ in results)])
     sentence = (
-        f"Run {run.id} in motion, {names} side by side. Out-of-plane angles are exaggerated. A filled foot touches the plate; "
-        "for the measured block, whose feet nobody saw, it is the lowest by the attitude integrated from the gyroscope."
+        f"Run {run.id} in motion, {names} side by side. Out-of-plane angles are exaggerated. A filled foot touches the "
+        "plate; for the measured block, whose feet nobody saw, a ring marks the lowest by the attitude integrated from "
+        "the gyroscope."
     )
     return Player(f"Run {run.id} in motion", sentence, data)
 

@@ -44,7 +44,16 @@ def runs_table(c: Comparison) -> Table:
         )
     return Table(
         f"Runs of {c.experiment.name}",
-        ("run", "tilt (rad)", "turned (deg)", "1st main impact (s)", "2nd (s)", "main impacts", "noise X / Y / Z (deg/s)", "repeats"),
+        (
+            "run",
+            "tilt (rad)",
+            "turned (deg)",
+            "1st main impact (s)",
+            "2nd (s)",
+            "main impacts",
+            "noise X / Y / Z (deg/s)",
+            "repeats",
+        ),
         rows,
         "Repeats: whether runs with the same release give the run-to-run spread, or those of another release lend it.",
     )
@@ -69,7 +78,7 @@ def errors_table(c: Comparison, model: int) -> Table:
             rows.append(row)
     note = (
         "Quadratic means over the runs, after the release tilt was moved within its uncertainty to meet the first main "
-        "impact. / noise: 1 is a perfect model. / spread: in standard deviations between repeated runs, which differ by 1.4."
+        "impact. / noise: 1 is a perfect model. / spread: standard deviations between repeats, which differ by 1.4."
     )
     return Table(f"Error of {c.names[model]}", columns, rows, note)
 
@@ -98,11 +107,18 @@ def departures_table(c: Comparison, model: int) -> Table:
                 "overturned" if r.overturned else "",
             ]
         )
-    columns = (
-        "run", "tilt moved by (mrad)", "1st impact (ms)", "1st to 2nd (ms)", "leaves the band (s)", "axis", "points touching", "",
-    )  # fmt: skip
+    columns = [
+        "run",
+        "tilt moved by (mrad)",
+        "1st impact (ms)",
+        "1st to 2nd (ms)",
+        "leaves the band (s)",
+        "axis",
+        "points touching",
+        "",
+    ]
     note = (
-        "1st impact: model minus measured at the stated tilt. 1st to 2nd: model minus measured after the tilt was moved. "
+        "1st impact: model minus measured at the stated tilt. 1st to 2nd: the same after the tilt was moved. "
         "Band: three times what noise and another run would differ by, over 50 ms."
     )
     return Table(f"Run by run: {c.names[model]}", columns, rows, note)
@@ -122,7 +138,14 @@ def impacts_table(c: Comparison, model: int, k: int) -> Table:
         ]
         for p in r.impacts
     ]
-    columns = ("main impact", "measured (s)", "model (s)", "aligned error (ms)", "measured loss (mJ)", "model loss (mJ)")
+    columns = (
+        "main impact",
+        "measured (s)",
+        "model (s)",
+        "aligned error (ms)",
+        "measured loss (mJ)",
+        "model loss (mJ)",
+    )
     return Table(f"Main impacts of run {run_name(c, k)}: {c.names[model]}", columns, rows)
 
 

@@ -1,0 +1,38 @@
+"""Models and effects as they are named on the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rockref.api import Model
+
+NAMED = ("table_3_1", "four_points")
+
+
+def named_model(text: str) -> Model:
+    """Return Table 3.1 on eight or four points by name, or the model in a file. Raises InputError (E-FILE, ...)."""
+    from rockref.api import Model
+
+    if text in NAMED:
+        return getattr(Model, text)()
+    return Model.load(text)
+
+
+def labels(texts: Sequence[str]) -> list[str]:
+    """Return a short name for each model: the file's without its ending; what is twice keeps its path."""
+    short = [text if text in NAMED else Path(text).stem for text in texts]
+    return [name if short.count(name) == 1 else text for name, text in zip(short, texts, strict=True)]
+
+
+def with_effects(model: Model, texts: Sequence[str]) -> Model:
+    """Return the model with effects added, written as ``id:key=value,key=value``; an effect that it has is replaced."""
+    from rockref.effects.catalogue import in_step_order, parse
+
+    if not texts:
+        return model
+    added = [parse(text) for text in texts]
+    kept = [effect for effect in model.effects if effect.id not in {new.id for new in added}]
+    return model.replace(effects=in_step_order([*kept, *added]))

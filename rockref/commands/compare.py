@@ -1,0 +1,70 @@
+"""`rockref compare`: models beside measured runs."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``compare`` to `app`."""
+    app.command("compare")(compare)
+
+
+def compare(
+    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    model: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--model", "-m", help="table_3_1, four_points or a model.toml; may be repeated. Default: baseline."
+        ),
+    ] = None,
+    report: Annotated[
+        Path | None, typer.Option("--report", help="Folder for the page and the figures; made if it is not there.")
+    ] = None,
+    engine: Annotated[str, typer.Option(help="auto, numpy (the law itself) or numba (compiled).")] = "auto",
+    check: Annotated[
+        bool, typer.Option("--check", help="End with 1 if a model leaves the band before the second main impact.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+) -> None:
+    """Show how far models are from measured runs, from when on, and with which feet on the plate.
+
+    Reads fit and holdout runs alike and says which is which: it judges nothing. Exit code 0, or 2 if the input cannot
+    be used; with --check, 1 if a model leaves the band of noise and run-to-run spread before the second main impact.
+
+    \b
+    Example:
+      rockref compare data/experiments/mystery-01
+      rockref compare data/experiments/mystery-01 --model table_3_1 --model mine.toml --report report
+      rockref compare data/experiments/mystery-01 --json > comparison.json
+    """
+    from rockref.commands._models import labels, named_model
+    from rockref.commands._progress import progress
+    from rockref.discover.compare import baseline_model
+    from rockref.discover.compare import compare as run_comparison
+    from rockref.measure import load_experiment
+    from rockref.report.output import made_folder, write_report
+
+    loaded = load_experiment(experiment)
+    models = [named_model(text) for text in model] if model else [baseline_model(loaded)]
+    names = labels(model) if model else [f"baseline ({loaded.baseline})"]
+    folder = made_folder(report) if report is not None else None
+    with progress("simulating the runs") as ahead:
+        comparison = run_comparison(loaded, models, names, engine=engine, progress=ahead)
+    written = write_report(comparison, folder) if folder is not None else []
+    for notice in loaded.notices:
+        typer.echo(f"rockref: {notice}", err=True)
+    if as_json:
+        typer.echo(json.dumps(comparison.to_dict() | {"written": [str(path) for path in written]}, indent=1))
+    else:
+        from rich.console import Console
+
+        from rockref.report.text import print_comparison
+
+        print_comparison(Console(), comparison)
+        for path in written:
+            typer.echo(f"wrote {path}")
+    if check and not comparison.holds_to_second_impact():
+        raise typer.Exit(1)

@@ -1,0 +1,39 @@
+"""`rockref demo`: the block rocks, measured runs beside it, and where the model fails."""
+
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``demo`` to `app`."""
+    app.command("demo")(demo)
+
+
+def demo(
+    out: Annotated[Path, typer.Option("--out", help="Folder for the page and the figures.")] = Path("demo_out"),
+    data: Annotated[Path | None, typer.Option("--data", help="Folder of the shipped experiments.")] = None,
+    engine: Annotated[str, typer.Option(help="auto, numpy (the law itself, minutes) or numba (compiled).")] = "auto",
+) -> None:
+    """Simulate the block of Table 3.1, compare it with two shipped experiments, and write one page about it.
+
+    Takes about a minute, the first time with compiling the engine. Prints the lines that matter and where the page is.
+
+    \b
+    Example:
+      rockref demo
+      rockref demo --out somewhere
+    """
+    from rockref.report.demo import find_experiments, tell
+    from rockref.report.output import made_folder
+
+    began = time.monotonic()
+    folder = find_experiments(data)
+    made_folder(out)
+    story = tell(folder, out, engine, lambda text: typer.echo(f"... {text}", err=True))
+    for line in story.lines:
+        typer.echo(f"- {line}")
+    typer.echo(f"\nThe page: {story.written[0].resolve()}")
+    typer.echo(f"{len(story.written) - 1} figures beside it; {time.monotonic() - began:.0f} s.")
