@@ -111,7 +111,7 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
     workers = workers or os.cpu_count() or 1
     edges = np.linspace(0, B, min(B, workers * PIECES) + 1).astype(int)
     pieces = list(zip(edges[:-1], edges[1:], strict=True))
-    if workers == 1:
+    if workers == 1 or len(pieces) == 1:
         for bounds in pieces:
             piece(bounds)
     else:

