@@ -56,7 +56,7 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """Vector product of three-vectors, (..., 3); the smaller of the two is broadcast over the other."""
     a_x, a_y, a_z = components(a)
     b_x, b_y, b_z = components(b)
-    c = np.empty_like(a if a.size >= b.size else b)
+    c = np.empty_like(a if a.size >= b.size > 0 else b)
     c[..., 0] = a_y * b_z - a_z * b_y
     c[..., 1] = a_z * b_x - a_x * b_z
     c[..., 2] = a_x * b_y - a_y * b_x

@@ -163,7 +163,11 @@ def _make_run(with_effects: bool, source: int):
                 a0, a1, a2 = b0, b1, b2
                 mx, my, mz = JW0 + half * T0, JW1 + half * T1, JW2 + half * T2
                 px, py, pz = _turned(mx, my, mz, E0, E1, E2, E3, E4, E5, E6, E7, E8)
-                W0, W1, W2 = _times(body, col.J_INVERSE, px + half * N0, py + half * N1, pz + half * N2)  # I5
+                gain0, gain1, gain2 = _times(
+                    body, col.J_INVERSE,
+                    (px + half * N0) - JW0, (py + half * N1) - JW1, (pz + half * N2) - JW2,
+                )  # fmt: skip
+                W0, W1, W2 = W0 + gain0, W1 + gain1, W2 + gain2  # I5
                 T0, T1, T2 = N0, N1, N2
             done = wanted[row]
             pose = (x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, a0, a1, a2, T0, T1, T2)

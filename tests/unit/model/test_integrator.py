@@ -56,6 +56,17 @@ class TestRules:
         # x of the old axes is -y of the new ones
         assert new == pytest.approx([0, -0.25 + 0.5, 0], abs=1e-16)
 
+    def test_rates_gain_what_the_momentum_gains(self):
+        J = np.array([2.0, 0.5, 4.0])
+        W = integrator.update_rates(np.array([1.0, 2, 3]), np.array([2.0, 1, 12]), np.array([4.0, 2, 8]), 1 / J)
+        assert np.array_equal(W, [2, 4, 2])
+
+    def test_rates_that_do_not_change_keep_their_bits(self):
+        """1/J J W is not W for every J: in each step the same digit would be lost."""
+        J, W = np.random.default_rng(0).uniform(0.05, 5, size=(2, 100, 3))
+        assert not np.array_equal(1 / J * (J * W), W)
+        assert np.array_equal(integrator.update_rates(W, J * W, J * W, 1 / J), W)
+
     def test_euler_acceleration(self):
         """W x J W of a spinning disc that is tilted: J diag(1, 1, 2), W = (1, 0, 3) gives (0, -3, 0) x -1."""
         J = np.array([1.0, 1, 2])
@@ -74,7 +85,7 @@ class TestInertia:
 
         monkeypatch.setattr(integrator, "prepared_inertia", full)
         slow = after(problem, 200)
-        # the cofactors of a diagonal matrix round once more than 1/J: one part in 1e16 a step
+        # the cofactors of a diagonal matrix round once more than 1/J: one part in 1e16 of each increment
         assert np.max(np.abs(fast.W - slow.W)) < 1e-13
         assert fast.x == pytest.approx(slow.x, rel=1e-14)
 
