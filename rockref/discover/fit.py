@@ -28,6 +28,10 @@ RATE_ERROR = 9e-4
 ATTITUDE_ERROR, ATTITUDE_GROWTH = 2.5e-5, 4e-5
 
 
+#: Mean loss above which a window's corrections are improved by themselves before each joint step (1 is noise).
+ROUGH = 1.3
+
+
 @dataclass(frozen=True)
 class Parameter:
     """One number to be found. z = 0 is its centre, z = +-1 one prior standard deviation away.
@@ -241,12 +245,16 @@ class Fit:
             lam *= 10
         return point, lam
 
-    def run(self, point: Point, iterations: int, rng: np.random.Generator, lam: float = 1e-2, tolerance: float = 2.0) -> Point:
+    def run(
+        self, point: Point, iterations: int, rng: np.random.Generator, lam: float = 1e-2, tolerance: float = 2.0
+    ) -> Point:
         """Iterate: states, kicks, joint step; until the objective falls by less than `tolerance`."""
         for i in range(iterations):
             before = point.objective
-            point = self.relax_states(point, 1)
-            point = self.kick(point, rng, 2)
+            rough = np.flatnonzero((2 * point.loss / self.series.count > ROUGH) & ~self.series.first)
+            if len(rough):
+                point = self.relax_states(point, 1, rough)
+                point = self.kick(point, rng, 1)
             point, lam = self.step(point, lam)
             mean = 2 * point.loss / self.series.count
             self.log(
@@ -286,7 +294,19 @@ def baseline_parameters(model: Model, runs: int, tilt_uncertainty: float) -> tup
     p = model.parameters
     names = ["K_N", "K_T", "beta_ext", "mu_ext"]
     if model.points == "eight_points":
-        names = ["K_N", "K_T", "beta_int", "beta_ext", "mu_int", "mu_ext", "delta_long_1", "delta_long_2", "delta_long_3", "delta_long_4", "delta_diag"]
+        names = [
+            "K_N",
+            "K_T",
+            "beta_int",
+            "beta_ext",
+            "mu_int",
+            "mu_ext",
+            "delta_long_1",
+            "delta_long_2",
+            "delta_long_3",
+            "delta_long_4",
+            "delta_diag",
+        ]
     centre = {n: getattr(p, n) for n in names if not n.startswith("delta_long_")}
     centre |= {f"delta_long_{i + 1}": p.delta_long[i] for i in range(4)}
     shared = [Parameter(n, set_parameter(n), centre[n], 0.08 if n == "delta_diag" else 0.15, log=True) for n in names]

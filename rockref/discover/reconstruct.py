@@ -102,12 +102,12 @@ def _skew(r):
 
 
 @numba.njit(cache=True)
-def corner_starts(Lambda, W, corrections, body, P, props, upright, state, memory, loads):
+def corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, loads):
     """Start states of B windows on the corner that carries the block, quasi-statically.
 
     Lambda : (B, 3, 3), W : (B, 3) reconstructed attitude and rates; corrections : (B, 5) tilt and roll [rad, body axes],
-    rates [rad/s]. body (B, BODY), P (B, n, 3), props (B, n, PROPS) as in the compiled step; upright : (B, 3, 3) the
-    orientation of the standing block, which places the corner on the plate; loads : (B, 3) further acceleration that
+    rates [rad/s]. body (B, BODY), P (B, n, 3), props (B, n, PROPS) as in the compiled step; upright : (B, 3, 3)
+    orientation and place : (B, 3) position of the standing block, which place the corner on the plate [m]; loads : (B, 3) further acceleration that
     acts like gravity [m/s2]. Fills state (B, STATE) and memory (B, n, MEMORY).
 
     The lowest point is the pivot. The block turns rigidly about it, which gives velocity and acceleration of the
@@ -146,7 +146,7 @@ def corner_starts(Lambda, W, corrections, body, P, props, upright, state, memory
         xi = max(F[2], 0.0) / K_N
         size, limit = np.sqrt(F[0] ** 2 + F[1] ** 2), mu * max(F[2], 0.0)
         scale = 1.0 if size <= limit or size == 0 else limit / size
-        foot = upright[b] @ P[b, pivot]
+        foot = upright[b] @ P[b, pivot] + place[b]
         v = R @ omega  # the pivot is at rest: v = -omega x r = r x omega
         x0, y0 = foot[0], foot[1]
         state[b, :] = 0.0
@@ -162,3 +162,12 @@ def corner_starts(Lambda, W, corrections, body, P, props, upright, state, memory
             memory[b, pivot, 1] = y0 + scale * F[1] / K_T
             memory[b, pivot, 2] = 1.0
             memory[b, pivot, 3] = 0.0 if scale == 1.0 else 1.0
+
+
+def standing_place(P, upright, x, Lambda):
+    """Where the block stands when it comes upright on the point that carries it at release, (3,) [m], z = 0."""
+    r = P @ Lambda.T
+    pivot = int(np.argmin(r[:, 2]))
+    place = x + r[pivot] - upright @ P[pivot]
+    place[2] = 0.0
+    return place

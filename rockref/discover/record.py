@@ -1,156 +1,87 @@
-"""A comparison as plain JSON values; the keys carry the units and are documented in docs/reference/compare.md."""
+"""From the rows of the compiled step to the records of a gyroscope, for many windows at once; compiled."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from functools import lru_cache
 
+import numba
 import numpy as np
 
-from rockref.discover.band import Departure
-from rockref.discover.features import Features, Losses
-from rockref.discover.stretches import AXES, STRETCHES, StretchError
-from rockref.model.channel import DEGREES
+from rockref.measure.gyroscope import DAMPING, natural_frequency
 
-if TYPE_CHECKING:
-    from rockref.discover.compare import Comparison, MeasuredRun, RunComparison
-
-SCHEMA = "rockref.compare/1"
+#: What stands for a rate that is no number [rad/s]: far outside every record, so that the window counts as lost.
+LOST = 1e3
 
 
-def to_dict(comparison: Comparison) -> dict[str, Any]:
-    """Return the whole comparison: JSON numbers, null where something is not known."""
-    from rockref.discover.sentences import findings
+@lru_cache(maxsize=256)
+def filter_coefficients(step: float, bandwidth: float) -> tuple[float, float, float, float, float]:
+    """b0, b1, b2, a1, a2 of the second-order low-pass of `rockref.measure.gyroscope.low_pass` (first-order hold)."""
+    from scipy.signal import cont2discrete
 
-    c, e = comparison, comparison.experiment
-    return plain(
-        {
-            "schema": SCHEMA,
-            "experiment": {
-                "name": e.name,
-                "sha256": e.digest,
-                "runs": {use: [m.run.id for m in c.measured if m.run.use == use] for use in ("fit", "holdout")},
-                "notices": [str(notice) for notice in e.notices],
-            },
-            "noise_floor_deg_s": {axis: DEGREES * c.noise(k) for k, axis in enumerate(AXES)},
-            "measured": [_measured(m) for m in c.measured],
-            "models": [_model(c, k) for k in range(len(c.names))],
-            "sentences": [{"kind": f.kind, "model": f.model, "text": f.text, "values": f.values} for f in findings(c)],
-            "engine": c.engine,
-            "step_s": c.step,
-            "seconds": round(c.seconds, 3),
-        }
-    )
+    omega = natural_frequency(bandwidth)
+    b, a, _ = cont2discrete(([omega**2], [1.0, 2 * DAMPING * omega, omega**2]), step, method="foh")
+    b = np.squeeze(b)
+    return float(b[0]), float(b[1]), float(b[2]), float(a[1]), float(a[2])
 
 
-def _measured(m: MeasuredRun) -> dict[str, Any]:
-    spread = m.repeats
-    return {
-        "run": m.run.id,
-        "use": m.run.use,
-        "release_tilt_rad": m.run.release_tilt,
-        "block_turned_deg": None if m.run.block_turned is None else math.degrees(m.run.block_turned),
-        "noise_deg_s": _by_axis(m.noise * DEGREES),
-        "main_impacts_s": m.features.impacts.times,
-        "onset_before_first_impact_s": _lead(m.features),
-        "spread": None if spread is None else "borrowed" if m.borrowed else "own",
-        "runs_agree_until_s": None if spread is None else _by_axis(m.first_impact + spread.alike_until),
-    }
+@numba.njit(cache=True, error_model="numpy")
+def _filter(x, n, b0, b1, b2, a1, a2, x1, x2, y1, y2):
+    for k in range(n):
+        x0 = x[k]
+        y0 = b0 * x0 + b1 * x1 + b2 * x2 - a1 * y1 - a2 * y2
+        x[k] = y0
+        x2, x1, y2, y1 = x1, x0, y1, y0
+    return x1, x2, y1, y2
 
 
-def _by_axis(values: np.ndarray) -> dict[str, float]:
-    return dict(zip(AXES, values.tolist(), strict=True))
+@numba.njit(cache=True, error_model="numpy", nogil=True)
+def _records(states, A, fast, slow, has_slow, follows, length, M, per, start, dt, bias, drift, limit, out):
+    R = states.shape[1]
+    x = np.empty(R)
+    memory = np.zeros((3, 4))
+    for b in range(states.shape[0]):
+        n = min(length[b] * per, R)
+        for j in range(3):
+            for k in range(n):
+                w = A[j, 0] * states[b, k, 15] + A[j, 1] * states[b, k, 16] + A[j, 2] * states[b, k, 17]
+                x[k] = w if abs(w) < LOST else LOST
+            _filter(x, n, fast[0], fast[1], fast[2], fast[3], fast[4], x[0], x[0], x[0], x[0])
+            if has_slow:
+                if not follows[b]:
+                    memory[j, :] = x[0]
+                m0, m1, m2, m3 = _filter(
+                    x,
+                    n,
+                    slow[0],
+                    slow[1],
+                    slow[2],
+                    slow[3],
+                    slow[4],
+                    memory[j, 0],
+                    memory[j, 1],
+                    memory[j, 2],
+                    memory[j, 3],
+                )
+                memory[j, 0], memory[j, 1], memory[j, 2], memory[j, 3] = m0, m1, m2, m3
+            for k in range(length[b]):
+                t = start[b] + k * dt
+                y = x[k * per] + bias[j] + drift[j] * t
+                out[b, k, j] = min(max(y, -limit), limit)
+            for k in range(length[b], M):
+                out[b, k, j] = 0.0
 
 
-def _model(c: Comparison, k: int) -> dict[str, Any]:
-    uses = [use for use in ("fit", "holdout") if c.of(use)]
-    return {
-        "name": c.names[k],
-        "effects": {effect.id: effect.values() for effect in c.models[k].active_effects()},
-        "error_deg_s": {
-            use: {s: {axis: DEGREES * c.rms(k, s, axis, use) for axis in AXES} for s in STRETCHES} for use in uses
-        },
-        "runs": [_run(r, c.measured[i]) for i, r in enumerate(c.results[k])],
-    }
+def records(states, matrix, fast, slow, follows, length, M, per, start, dt, bias, drift, limit) -> np.ndarray:
+    """What the gyroscope shows of B windows, (B, M, 3) [rad/s].
 
-
-def _run(r: RunComparison, m: MeasuredRun) -> dict[str, Any]:
-    return {
-        "run": r.run,
-        "use": m.run.use,
-        "overturned": r.overturned,
-        "tilt_offset_rad": r.tilt_offset,
-        "shift_s": r.shift,
-        "leaves_band": None if r.leaves_band is None else _departure(r.leaves_band),
-        "errors": [_error(e) for e in r.errors],
-        "impacts": [
-            {
-                "number": p.number,
-                "measured_s": p.measured,
-                "model_s": p.model,
-                "error_s": p.error,
-                "aligned_error_s": p.aligned_error,
-                "loss_measured_J": p.loss_measured,
-                "loss_model_J": p.loss_model,
-            }
-            for p in r.impacts
-        ],
-        "loss_shares": {"measured": _losses(r.losses_measured), "model": _losses(r.losses_model)},
-        "onset_before_first_impact_s": _lead(r.features),
-        "envelopes": [asdict(e) for e in r.envelopes],
-        "spectra": [
-            {
-                "axis": s.axis,
-                "distance": s.distance,
-                "peak_measured": {"frequency_hz": s.peak_measured[0], "amplitude_deg_s": DEGREES * s.peak_measured[1]},
-                "peak_model": {"frequency_hz": s.peak_model[0], "amplitude_deg_s": DEGREES * s.peak_model[1]},
-            }
-            for s in r.spectra
-        ],
-    }
-
-
-def _error(e: StretchError) -> dict[str, Any]:
-    return {
-        "stretch": e.stretch,
-        "axis": e.axis,
-        "rms_deg_s": DEGREES * e.rms,
-        "rms_on_clock_deg_s": DEGREES * e.on_clock,
-        "in_noise": e.in_noise,
-        "in_spread": e.in_spread,
-        "measured_over_model": e.ratio,
-        "correlation": e.correlation,
-    }
-
-
-def _departure(d: Departure) -> dict[str, Any]:
-    return {
-        "time_s": d.time,
-        "after_impact_s": d.after_impact,
-        "axis": d.axis,
-        "error_deg_s": DEGREES * d.error,
-        "limit_deg_s": DEGREES * d.limit,
-        "points": [{"name": name, "share": share} for name, share in d.points],
-    }
-
-
-def _losses(x: Losses) -> dict[str, Any]:
-    return {"impact": x.impact, "free": x.free, "cycle": x.cycle, "impacts": x.count}
-
-
-def _lead(f: Features) -> float | None:
-    return float(f.impacts.times[0] - f.onset) if len(f.impacts) else None
-
-
-def plain(value: Any) -> Any:
-    """Return `value` with arrays as lists, NumPy numbers as Python's, and what is not finite as None."""
-    if isinstance(value, dict):
-        return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [plain(v) for v in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+    states (B, R, STATE) with `per` rows a sample; matrix (3, 3) scale and misalignment; fast, slow : coefficients of the
+    gyroscope's filter and of a further one (or None), which runs on over windows that follow their predecessor;
+    length (B,) samples; start (B,) [s] and dt [s] on the device's clock; bias, drift, limit as in `Sensor`.
+    """
+    out = np.empty((states.shape[0], M, 3))
+    has_slow = slow is not None
+    _records(
+        states, matrix, np.array(fast), np.array(slow if has_slow else fast), has_slow, follows, length, M, per,
+        start, dt, np.asarray(bias, float), np.asarray(drift, float), float(limit), out,
+    )  # fmt: skip
+    return out

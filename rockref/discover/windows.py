@@ -12,16 +12,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.reconstruct import attitudes, corner_starts, local_rates, roughness, undo_low_pass
-from rockref.engines.compiled import kernel, pack
+from rockref.discover.reconstruct import attitudes, corner_starts, local_rates, roughness, standing_place, undo_low_pass
+from rockref.discover.record import filter_coefficients, records
+from rockref.engines.compiled import columns as col
+from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
 from rockref.measure.experiment import Experiment
-from rockref.measure.gyroscope import low_pass
-from rockref.model.problem import as_arrays
 
-#: Step inside windows [s]; decided: 32 steps a millisecond; halving it changes the residual by less than a hundredth
+#: Step inside windows [s]; decided: 16 steps a millisecond; halving it changes the residual by less than a hundredth
 #: of the noise (the gate measures it again on every experiment).
-STEP = 1e-3 / 32
+STEP = 1e-3 / 16
 #: Samples after a restart that do not count: the filter of the gyroscope settles (300 Hz: 0.75 ms).
 SETTLE = 4
 #: Corrections of a window's start: tilt, roll [rad], three rates [rad/s].
@@ -136,7 +136,9 @@ class Series:
         self.measured = np.zeros((self.B, self.M, 3))
         for b in range(self.B):
             self.measured[b, : self.length[b]] = self.runs[self.run_of[b]].crv[self.start[b] : self.stop[b]]
+        self._weight = self.valid[:, :, None] / self.sigma
         self._rates: dict = {}
+        self._rows = np.empty((0, col.STATE))
 
     def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
         """True rates of run i and the smoothed ones; kept for the sensors that were seen last."""
@@ -154,29 +156,32 @@ class Series:
         """Windows `which` as one batch. models: one a run; tilt (runs,) [rad]; corrections (len(which), STATES)."""
         B, run_of = len(which), self.run_of[which]
         n = models[0].body()[1].n
-        body, P = np.empty((B, kernel.BODY)), np.empty((B, n, 3))
-        props, memory = np.empty((B, n, kernel.PROPS)), np.empty((B, n, kernel.MEMORY))
-        effects, state = np.empty((B, pack.slots.SLOTS)), np.empty((B, kernel.STATE))
-        Lambda, W, upright = np.empty((B, 3, 3)), np.empty((B, 3)), np.empty((B, 3, 3))
+        body, P = np.empty((B, col.BODY)), np.empty((B, n, 3))
+        props, memory = np.empty((B, n, col.PROPS)), np.empty((B, n, col.MEMORY))
+        effects, state = np.empty((B, slots.SLOTS)), np.empty((B, col.STATE))
+        Lambda, W, upright, place = np.empty((B, 3, 3)), np.empty((B, 3)), np.empty((B, 3, 3)), np.empty((B, 3))
         firsts = []
         for i in np.unique(run_of):
             turned = bool(self.runs[i].block_turned)
-            problem = models[i].problem(duration=1.0, theta_0=tilt[i], turned=turned)
-            problem = pack.with_memory(as_arrays(problem, np.float64))
-            at = run_of == i
+            problem = pack.with_memory(models[i].problem(duration=1.0, theta_0=tilt[i], turned=turned))
+            at = np.flatnonzero(run_of == i)
             body[at], P[at], props[at] = pack.body_row(problem), problem.points.P, pack.props_rows(problem)
             effects[at] = pack.effects_row(problem)
             w, smooth = self.rates(i, sensor)
             L = attitudes(np.ascontiguousarray(problem.start.Lambda), w, sensor.clock / self.rate)
             Lambda[at], W[at] = L[self.start[which[at]]], smooth[self.start[which[at]]]
-            upright[at] = np.diag([-1.0, -1.0, 1.0]) if turned else np.eye(3)
-            firsts.append((np.flatnonzero(at & self.first[which]), problem))
-        corner_starts(Lambda, W, corrections, body, P, props, upright, state, memory, np.zeros((B, 3)))
-        state[:, kernel.TIME] = state[:, kernel.ORIGIN] = self.time[which] * sensor.clock
+            standing = np.diag([-1.0, -1.0, 1.0]) if turned else np.eye(3)
+            own = problem.start
+            upright[at], place[at] = standing, standing_place(problem.points.P, standing, own.x, own.Lambda)
+            firsts.append((at[self.first[which[at]]], problem))
+        corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, np.zeros((B, 3)))
+        state[:, col.TIME] = state[:, col.ORIGIN] = self.time[which] * sensor.clock
         for where, problem in firsts:
             state[where], memory[where] = pack.state_row(problem), pack.memory_rows(problem.start)
         per_sample = int(round(1 / self.rate / (STEP / self.refine)))
-        rows = np.arange(int(self.length[which].max()) * self.ROWS_PER_SAMPLE + 1) * (per_sample // self.ROWS_PER_SAMPLE)
+        rows = np.arange(int(self.length[which].max()) * self.ROWS_PER_SAMPLE + 1) * (
+            per_sample // self.ROWS_PER_SAMPLE
+        )
         wanted = np.minimum(rows[None, :], self.length[which, None] * per_sample).astype(np.int64)
         h = sensor.clock / self.rate / per_sample
         return Batch(body, P, props, memory, effects, state, h, wanted)
@@ -185,39 +190,33 @@ class Series:
         """Modelled records at the samples of the windows `which` (default all), (len(which), M, 3) [rad/s]."""
         which = np.arange(self.B) if which is None else np.asarray(which)
         s = sensor_of(models[0])
-        states = run_batch(self.batch(models, tilt, corrections, which, s), self.workers)
-        w = states[:, :-1, 15:18] @ s.matrix().T
-        np.nan_to_num(w, copy=False, nan=1e3, posinf=1e3, neginf=-1e3)
+        batch = self.batch(models, tilt, corrections, which, s)
+        states = run_batch(batch, self.workers, out=self._buffer(len(which), batch.wanted.shape[1]))
         step = 1 / self.rate / self.ROWS_PER_SAMPLE
-        w = low_pass(w, step, self.bandwidth)
+        follows = np.zeros(len(which), bool)
+        slow = None
         if np.isfinite(s.bandwidth):
-            w = self._chained(w, step, s.bandwidth, which)
-        out = np.zeros((len(which), self.M, 3))
-        w = w[:, :: self.ROWS_PER_SAMPLE]
-        t = self.time[which, None] + np.arange(w.shape[1])[None, :] / self.rate
-        w = w + s.bias + s.drift * t[:, :, None]
-        out[:, : w.shape[1]] = np.clip(w, -s.range, s.range) if np.isfinite(s.range) else w
-        return out
+            slow = filter_coefficients(step, s.bandwidth)
+            same_run = self.run_of[which[:-1]] == self.run_of[which[1:]]
+            follows[1:] = (self.stop[which[:-1]] == self.start[which[1:]]) & same_run
+        return records(
+            states, s.matrix(), filter_coefficients(step, self.bandwidth), slow, follows, self.length[which], self.M,
+            self.ROWS_PER_SAMPLE, self.time[which], 1 / self.rate, s.bias, s.drift, s.range,
+        )  # fmt: skip
 
-    def _chained(self, w: np.ndarray, step: float, bandwidth: float, which: np.ndarray) -> np.ndarray:
-        """A slow filter, which remembers the window before: windows that follow each other are filtered as one."""
-        out = np.empty_like(w)
-        length = self.length[which] * self.ROWS_PER_SAMPLE
-        follows = np.concatenate([[False], (self.stop[which[:-1]] == self.start[which[1:]]) & (self.run_of[which[:-1]] == self.run_of[which[1:]])])
-        groups = np.split(np.arange(len(which)), np.flatnonzero(~follows)[1:])
-        for group in groups:
-            joined = low_pass(np.concatenate([w[b, : length[b]] for b in group]), step, bandwidth)
-            edges = np.concatenate([[0], np.cumsum(length[group])])
-            for k, b in enumerate(group):
-                out[b, : length[b]] = joined[edges[k] : edges[k + 1]]
-                out[b, length[b] :] = 0
-        return out
+    def _buffer(self, B: int, R: int) -> np.ndarray:
+        """Memory for the rows of a batch, kept from call to call (fresh pages cost as much as the simulation)."""
+        if B * R > len(self._rows):
+            self._rows = np.empty((B * R, col.STATE))
+        return self._rows[: B * R].reshape(B, R, col.STATE)
 
     def residual(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None) -> np.ndarray:
         """(measured - modelled) / sigma, (len(which), M, 3); zero where a sample does not count."""
         which = np.arange(self.B) if which is None else np.asarray(which)
-        r = (self.measured[which] - self.simulate(models, tilt, corrections, which)) / self.sigma
-        return np.where(self.valid[which, :, None], r, 0.0)
+        r = self.simulate(models, tilt, corrections, which)
+        np.subtract(self.measured[which], r, out=r)
+        r *= self._weight[which]
+        return r
 
 
 def series(

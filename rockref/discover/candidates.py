@@ -1,0 +1,159 @@
+"""What may be missing: every effect of the catalogue as numbers that a fit can move."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+
+from rockref.api import Model
+from rockref.discover.fit import Parameter
+from rockref.effects import catalogue
+from rockref.effects.base import Effect
+
+#: Parameters that shape an effect but do not bring it in: they are found on a logarithmic scale about their typical
+#: value. name -> spread (decided: a factor of about two).
+SHAPES = {
+    ("adhesion", "range"): 0.5,
+    ("hertzian_contact", "reference"): 0.5,
+    ("stribeck_friction", "velocity"): 0.7,
+    ("lingering_wire_pull", "tau"): 0.5,
+    ("compliant_support", "mass"): 0.7,
+    ("compliant_support", "ratio"): 0.7,
+}
+#: Parameters that are kept at their typical value, since no record can tell them from another one.
+FIXED = {("load_dependent_friction", "reference"), ("cable_restraint", "height"), ("base_vibration", "phase")}
+#: Positive factors: found on a logarithmic scale about the value at which they are absent. effect -> spread.
+FACTORS = {
+    "uneven_foot_stiffness": 0.4,
+    "uneven_foot_damping": 0.4,
+    "uneven_foot_friction": 0.3,
+    "stribeck_friction": 0.4,
+}
+#: Prior standard deviation in typical sizes; decided: what is five times the typical size is not expected.
+PRIOR = 3.0
+#: Where the search starts in typical sizes for effects that the law at their absence does not see change.
+FINITE_START = 0.5
+
+
+def current(model: Model, kind: type[Effect]) -> Effect:
+    """The effect of this kind in a model, or a new one with its shape parameters typical and its switches absent."""
+    for effect in model.effects:
+        if effect.id == kind.id:
+            return effect
+    shape = {k: q.typical for k, q in kind.quantities.items() if (kind.id, k) in SHAPES}
+    return kind(**shape)
+
+
+def with_effect(model: Model, effect: Effect) -> Model:
+    """The model with this effect in place of the one of the same kind."""
+    kept = [e for e in model.effects if e.id != effect.id]
+    return replace(model, effects=catalogue.in_step_order([*kept, effect]))
+
+
+def setter(kind: type[Effect], key: str):
+    """Sets one parameter of an effect in a model; an effect that is absent and stays so is not even made."""
+
+    def set_value(model: Model, value: float) -> Model:
+        there = any(e.id == kind.id for e in model.effects)
+        if not there and ((kind.id, key) in SHAPES or value == kind.quantities[key].absent):
+            return model
+        return with_effect(model, replace(current(model, kind), **{key: value}))
+
+    return set_value
+
+
+def parameters_of(kind: type[Effect], runs: int, frequency: float | None = None) -> tuple[Parameter, ...]:
+    """The free parameters of an effect; z = 0 is its absence, z = 1 its typical size (shapes: typical at z = 0)."""
+    if kind.id == "base_vibration":
+        return vibration_parameters(kind, runs, frequency)
+    found = []
+    switches = [k for k in kind.quantities if (kind.id, k) not in SHAPES and (kind.id, k) not in FIXED]
+    shapes = [k for k in kind.quantities if (kind.id, k) in SHAPES]
+    for key in [*switches, *shapes]:
+        q = kind.quantities[key]
+        name = f"{kind.id}.{key}"
+        common = {"unit": q.unit, "step": 0.05}
+        if key in shapes:
+            spread = SHAPES[kind.id, key]
+            found.append(Parameter(name, setter(kind, key), q.typical, spread, log=True, prior=1.0, **common))
+        elif kind.id in FACTORS:
+            found.append(Parameter(name, setter(kind, key), 1.0, FACTORS[kind.id], log=True, prior=PRIOR, **common))
+        elif kind.id == "compliant_support":
+            found.append(Parameter(name, support_setter(kind), 0.0, 1.0, low=0.0, prior=PRIOR, **common))
+        elif kind.id == "gyro_bandwidth":
+            found.append(Parameter(name, inverse_setter(kind, key), 0.0, 1 / q.typical, low=0.0, prior=PRIOR, **common))
+        elif kind.id == "gyro_saturation":
+            found.append(Parameter(name, inverse_setter(kind, key), 0.0, 1 / q.typical, low=0.0, prior=PRIOR, **common))
+        else:
+            size = abs(q.typical - q.absent)
+            low = q.absent if q.sign == "+" else max(q.least, -float("inf"))
+            found.append(
+                Parameter(name, setter(kind, key), q.absent, size, prior=PRIOR, low=low, high=q.most, **common)
+            )
+    return tuple(found)
+
+
+def inverse_setter(kind: type[Effect], key: str):
+    """For parameters that are absent at infinity: found as their inverse."""
+    direct = setter(kind, key)
+    return lambda model, value: direct(model, 1 / value if value > 0 else float("inf"))
+
+
+def vibration_parameters(kind: type[Effect], runs: int, frequency: float | None = None) -> tuple[Parameter, ...]:
+    """Frequency and direction of a base vibration, and for each run its cosine and sine amplitude (its own phase)."""
+    q = kind.quantities
+    size = q["amplitude"].typical
+
+    def component(real: bool):
+        def set_value(model: Model, value: float) -> Model:
+            there = any(e.id == kind.id for e in model.effects)
+            if not there and value == 0:
+                return model
+            e = current(model, kind)
+            c, s = e.amplitude * math.cos(e.phase), e.amplitude * math.sin(e.phase)
+            c, s = (value, s) if real else (c, value)
+            return with_effect(model, replace(e, amplitude=math.hypot(c, s), phase=math.atan2(s, c)))
+
+        return set_value
+
+    def shape(key: str):
+        def set_value(model: Model, value: float) -> Model:
+            return with_effect(model, replace(current(model, kind), **{key: value}))
+
+        return set_value
+
+    found = [
+        Parameter(f"{kind.id}.frequency", shape("frequency"), frequency or q["frequency"].typical, 0.02, log=True,
+                  step=0.05, prior=10.0, unit="Hz"),
+        Parameter(f"{kind.id}.direction", shape("direction"), 0.0, 0.5, prior=3.0, unit="rad", step=0.05),
+    ]  # fmt: skip
+    for i in range(runs):
+        for part, real in (("cosine", True), ("sine", False)):
+            name = f"{kind.id}.{part}[{i}]"
+            found.append(Parameter(name, component(real), 0.0, size, run=i, prior=PRIOR, unit="m/s2", step=0.1))
+    return tuple(found)
+
+
+def support_setter(kind: type[Effect]):
+    """A support is absent when it is rigid: found as its compliance against that of the typical frequency."""
+    typical, direct = kind.quantities["frequency"].typical, setter(kind, "frequency")
+    return lambda model, value: direct(model, typical / value**0.5 if value > 1e-3 else 0.0)
+
+
+def value_of(parameter: Parameter, z: float) -> float:
+    """The effect's own number at z (an inverse is turned back)."""
+    v = parameter.value(z)
+    if parameter.name == "compliant_support.frequency":
+        return catalogue.EFFECTS["compliant_support"].quantities["frequency"].typical / v**0.5 if v > 1e-3 else 0.0
+    if parameter.name.split(".")[0] in ("gyro_bandwidth", "gyro_saturation"):
+        return 1 / v if v > 0 else float("inf")
+    return v
+
+
+def kinds(baseline: str, leave_out: Iterable[str] = ()) -> tuple[type[Effect], ...]:
+    """The candidates for an experiment; foot defects only where the baseline has none."""
+    left = set(leave_out)
+    if baseline == "eight_points":
+        left.add("foot_defects")
+    return tuple(kind for kind in catalogue.IN_STEP_ORDER if kind.id not in left)

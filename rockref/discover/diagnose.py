@@ -1,0 +1,269 @@
+"""Which effect is missing: every candidate refitted under the same budget, confirmed on held-out runs, and a verdict."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover import verdict as rules
+from rockref.discover.candidates import SHAPES, kinds, value_of
+from rockref.discover.evidence import HeldOut, clipped_gain, held_out, rms_deg_s
+from rockref.discover.fit import Fit, Point
+from rockref.discover.presearch import suspects
+from rockref.discover.search import Setup, Trial, baseline, screen
+from rockref.discover.signature import signature
+from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
+
+#: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
+REFITTED, ITERATIONS = 6, 3
+#: Further iterations of a winner before it is built on.
+POLISH = 3
+
+
+@dataclass
+class Diagnosis:
+    """The result: `to_dict()` is what `rockref diagnose --json` prints."""
+
+    experiment: Experiment
+    verdict: str
+    effects: tuple[str, ...]
+    ranking: list[dict[str, Any]]
+    amplitudes: dict[str, dict[str, Any]]
+    error: dict[str, Any]
+    separating_experiment: str
+    signature: dict[str, Any]
+    gates: dict[str, Any]
+    sentence: str
+    seconds: float
+    model: Model
+    detection_limits: dict[str, float] = field(default_factory=dict)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers and words."""
+        from rockref.discover.provenance import versions
+
+        return {
+            "experiment": self.experiment.name,
+            "verdict": self.verdict,
+            "effects": list(self.effects),
+            "sentence": self.sentence,
+            "ranking": self.ranking,
+            "amplitudes": self.amplitudes,
+            "error": self.error,
+            "separating_experiment": self.separating_experiment,
+            "signature": self.signature,
+            "detection_limits": self.detection_limits,
+            "gates": self.gates,
+            "seconds": round(self.seconds, 1),
+            "versions": versions(self.experiment),
+        }
+
+
+@dataclass
+class Family:
+    """A fitted model family: which effects, the fit and where it stands."""
+
+    effects: tuple[str, ...]
+    fit: Fit
+    point: Point
+
+
+def baseline_model(experiment: Experiment, model: Model | None = None) -> Model:
+    """The model that the experimenter starts from, with the block of the experiment."""
+    base = model or (Model.table_3_1() if experiment.baseline == "eight_points" else Model.four_points())
+    return base.replace(mass=experiment.mass, width=experiment.width, depth=experiment.width, height=experiment.height)
+
+
+def refit(trial: Trial, iterations: int, seed: int) -> Family:
+    """Go on from a trial with the same budget that the baseline gets."""
+    rng = np.random.default_rng(seed)
+    return Family(trial.effects, trial.fit, trial.fit.run(trial.point, iterations, rng))
+
+
+def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
+    """Value, 90 % interval and unit of each parameter of the family's effects."""
+    fit, point = family.fit, family.point
+    H, _, _ = fit.normal_equations(point)
+    covariance = np.linalg.inv(H + np.diag(1 / fit.prior**2))
+    found = {}
+    for i, p in enumerate(fit.parameters):
+        if "." not in p.name:
+            continue
+        half = 1.645 * rules.INTERVAL * float(np.sqrt(max(covariance[i, i], 0.0)))
+        ends = sorted((value_of(p, point.z[i] - half), value_of(p, point.z[i] + half)))
+        found[p.name] = {
+            "value": value_of(p, point.z[i]), "low": ends[0], "high": ends[1], "unit": p.unit,
+            "in_typical_sizes": float(point.z[i]),
+        }  # fmt: skip
+    return found
+
+
+def size_of(family: Family, effect: str | None = None) -> float:
+    """Largest switch of an effect (by default the last one) in typical sizes; what only shapes it does not count."""
+    effect = effect or family.effects[-1]
+    z = [
+        abs(zi)
+        for p, zi in zip(family.fit.parameters, family.point.z, strict=True)
+        if p.name.startswith(effect + ".")
+        and tuple(p.name.split(".")) not in SHAPES
+        and p.name not in ("base_vibration.frequency", "base_vibration.direction")
+    ]
+    return float(max(z, default=0.0))
+
+
+def diagnose(
+    path: str | Path,
+    model: Model | None = None,
+    seed: int = 0,
+    workers: int | None = None,
+    end: float = 3.0,
+    progress: Callable[[str], None] | None = None,
+) -> Diagnosis:
+    """Learn which effect is missing from an experiment's fit runs, and prove it on its held-out runs.
+
+    Parameters
+    ----------
+    path : experiment folder; model : starts from it in place of the nominal baseline; seed : of the random restarts
+    workers : threads; end : seconds used of each run; progress : called with a line at every stage.
+
+    Raises
+    ------
+    InputError
+        where the experiment cannot be used.
+    """
+    begun = time.perf_counter()
+    say = progress or (lambda line: None)
+    experiment = load_experiment(path, uses=(FIT,))
+    setup = Setup(experiment, experiment.fit_runs(), baseline_model(experiment, model), end, seed, workers, say)
+    setup, sets, seen = suspects(setup)
+    families = []
+    for effects in sets:
+        hopeless = not effects and len(sets) > 1
+        z = np.zeros(len(setup.parameters(effects)))
+        z[: len(seen["z"])] = 0 if hopeless else np.clip(seen["z"], -2, 2)
+        fit, point = baseline(setup, effects, z, iterations=(4, 2) if hopeless else (6, 5))
+        families.append(Family(effects, fit, point))
+    null = families[0]
+    start = min(families, key=mean_loss)
+    if mean_loss(null) < 1.15 * mean_loss(start):
+        start = null
+    looks = []
+    while len(start.effects) < rules.MOST_EFFECTS:
+        look = look_further(setup, experiment, start, seed, say)
+        looks.append(look)
+        if not look.order or not rules.is_detected(look.gains[look.order[0].effects[-1]], size_of(look.order[0])):
+            break
+        start = look.order[0]
+        if len(start.effects) < rules.MOST_EFFECTS:
+            start = replace(start, point=start.fit.run(start.point, POLISH, np.random.default_rng(seed + 2)))
+    held = load_experiment(path, uses=(FIT, HOLDOUT))
+    return conclude(setup, held, null, start, looks, seen, begun)
+
+
+def mean_loss(family: Family) -> float:
+    """Mean over the windows of the loss; 1 is noise."""
+    return float(np.mean(2 * family.point.loss / family.fit.series.count))
+
+
+@dataclass
+class Look:
+    """Candidates on top of a family: the family refitted, the candidates by gain, their gains, all that were screened."""
+
+    kept: Family
+    order: list[Family]
+    gains: dict[str, float]
+    trials: list[Trial]
+
+
+def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int, say) -> Look:
+    """Screen all candidates on top of a family, refit the best, and the family itself with the same budget."""
+    candidates = kinds(experiment.baseline, (*start.effects, "base_vibration", "gyro_saturation"))
+    trials = screen(start.fit, start.point, candidates, setup, start.effects)
+    kept = refit(Trial(start.effects, 0.0, 0.0, start.fit, start.point), ITERATIONS, seed + 1)
+    refitted = [refit(t, ITERATIONS, seed + 1) for t in trials[:REFITTED]]
+    gains = {f.effects[-1]: gain_over(kept, f) for f in refitted}
+    order = sorted(refitted, key=lambda f: -gains[f.effects[-1]])
+    for f in order:
+        id = f.effects[-1]
+        say(f"  {id}: gain {gains[id]:.0f}, size {size_of(f):.2f}")
+    return Look(kept, order, gains, trials)
+
+
+def gain_over(kept: Family, other: Family) -> float:
+    """What a family gains over another one on the same windows, priors included."""
+    gain = clipped_gain(kept.point.loss, other.point.loss, kept.fit.series.count)
+    return gain - (other.point.penalty - kept.point.penalty)
+
+
+def conclude(
+    setup: Setup, experiment: Experiment, null: Family, final: Family, looks: list[Look], seen: dict, begun: float
+) -> Diagnosis:
+    """Held-out runs, verdict, sizes, errors and the story's other parts, from the fits."""
+    plain = held_out(setup, null.fit, null.point, experiment, null.effects)
+    with_effect = (
+        plain
+        if final is null or not final.effects
+        else held_out(setup, final.fit, final.point, experiment, final.effects)
+    )
+    look = (
+        looks[-2]
+        if len(looks) > 1 and looks[-1].kept.effects != () and final.effects == looks[-1].kept.effects
+        else looks[-1]
+    )
+    facts = rules.Facts(
+        effects=final.effects,
+        sizes={e: size_of(final, e) for e in final.effects},
+        gains=look.gains,
+        bad=float(np.mean(2 * final.point.loss / final.fit.series.count > 1.5)),
+        median=float(np.median(2 * final.point.loss / final.fit.series.count)),
+        held_gain=held_gains(plain, with_effect),
+        held_floor=float(np.median(2 * plain.loss / plain.count)),
+        at_start=() if not looks or looks[0].kept.effects == () else looks[0].kept.effects,
+    )
+    decision = rules.decide(facts)
+    kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
+    card = signature(null.fit, null.point, final.fit, final.point)
+    total = {id: max(g, 0.0) for id, g in look.gains.items()}
+    noise = float(np.degrees(setup.experiment.gyro.noise))
+    shown = final if kept else null
+    return Diagnosis(
+        experiment=experiment,
+        verdict=decision.verdict,
+        effects=decision.effects,
+        ranking=rules.ranking(look.gains, facts),
+        amplitudes=amplitudes(final) if kept else {},
+        error={
+            "unit": "deg/s RMS",
+            "stretch": f"windows of 50 to 90 ms over the first {setup.end:g} s of each run, each restarted from the "
+            "reconstructed state; the worst tenth of the windows left out",
+            "noise_floor": noise,
+            "baseline": {"fit": rms_deg_s(null.fit, null.point), "holdout": plain.rms},
+            "with_effect": {
+                "fit": rms_deg_s(shown.fit, shown.point),
+                "holdout": with_effect.rms if kept else plain.rms,
+            },
+        },
+        separating_experiment=rules.separating(decision, total),
+        signature=card,
+        gates=rules.gates(facts, decision),
+        sentence=decision.sentence,
+        seconds=time.perf_counter() - begun,
+        model=shown.fit.models(shown.point.z)[0][0],
+    )
+
+
+def held_gains(plain: HeldOut, other: HeldOut) -> list[float]:
+    """Gain on each held-out run, per thousand samples of one axis; the windows may be cut differently."""
+    found = []
+    for i in np.unique(plain.run_of):
+        a, b = plain.run_of == i, other.run_of == i
+        worse = np.minimum(2 * plain.loss[a] / plain.count[a], 3.0)
+        better = np.minimum(2 * other.loss[b] / other.count[b], 3.0)
+        found.append(float(np.mean(worse) - np.mean(better)))
+    return found

@@ -1,0 +1,101 @@
+"""What must be known before the runs can be cut into windows: a sensor that misleads the reconstruction, a base that shakes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rockref.discover.fit import Fit, Point
+from rockref.discover.search import Setup, release_windows
+
+#: Sensor effects that spoil the reconstructed state, so that every window misfits whatever the physics.
+MISLEADING = ("gyro_misalignment", "gyro_scale", "gyro_drift", "gyro_bandwidth", "clock_error", "gyro_saturation")
+#: Mean loss of the release windows (1 is noise) above which something strong is at work; decided on the control's 0.9.
+STRONG = 1.35
+#: Share of the excess loss that an effect must explain to be taken along from the start.
+EXPLAINED = 0.6
+#: A tone stands out when its power exceeds this many times the median of the scan (decided on records without one).
+TONE = 12.0
+
+
+def excess(fit: Fit, point: Point) -> float:
+    """Loss of the release windows beyond noise."""
+    return max(point.objective - 0.5 * float(fit.series.count.sum()), 0.0)
+
+
+def release_fit(setup: Setup, effects: tuple[str, ...] = (), iterations: int = 6) -> tuple[Fit, Point]:
+    """Fit of the release windows, where nothing is restarted."""
+    fit = setup.fit(release_windows(setup), effects)
+    point = fit.begin()
+    lam = 1e-2
+    for _ in range(iterations):
+        before = point.objective
+        point, lam = fit.step(point, lam)
+        if before - point.objective < 1.0:
+            break
+    return fit, point
+
+
+def tone(setup: Setup, fit: Fit, point: Point, low: float = 2.0, high: float = 60.0) -> tuple[float, float]:
+    """Frequency [Hz] of the strongest tone in the residuals of the release, and its power against the median one."""
+    r = fit.residual(point.z, point.corrections)
+    frequencies = np.arange(low, high, 0.1)
+    power = np.zeros(len(frequencies))
+    for b in range(r.shape[0]):
+        n = int(fit.series.length[b])
+        t = np.arange(n) / fit.series.rate
+        X = np.stack([((t - t.mean()) / t[-1]) ** k for k in range(6)], axis=1)
+        y = r[b, :n] - X @ np.linalg.lstsq(X, r[b, :n], rcond=None)[0]
+        for k, f in enumerate(frequencies):
+            A = np.stack([np.cos(2 * np.pi * f * t), np.sin(2 * np.pi * f * t)], axis=1)
+            A = A - X @ np.linalg.lstsq(X, A, rcond=None)[0]
+            coefficient = np.linalg.lstsq(A, y, rcond=None)[0]
+            power[k] += np.sum((A @ coefficient) ** 2)
+    best = int(np.argmax(power))
+    return float(frequencies[best]), float(power[best] / max(np.median(power), 6.0 * r.shape[0]))
+
+
+def flat_tops(setup: Setup) -> float | None:
+    """Rate [rad/s] at which the records are clipped on both sides or in two runs, or None."""
+    limits = []
+    for run in setup.runs:
+        x = np.abs(run.crv)
+        top = x.max()
+        resolution = setup.experiment.gyro.resolution
+        near = np.sum(np.any(x > top - 0.6 * resolution, axis=1))
+        if near >= 12:
+            limits.append(top)
+    if len(limits) < max(2, len(setup.runs) // 2) or np.ptp(limits) > 2 * setup.experiment.gyro.resolution:
+        return None
+    return float(np.median(limits))
+
+
+def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
+    """Sets of effects with which the whole search is to be made, the plain baseline always among them.
+
+    Returns the setup (with the frequency of a tone), the sets, and what was seen at release (for the report).
+    """
+    fit, point = release_fit(setup)
+    seen = {"loss": float(np.mean(2 * point.loss / fit.series.count)), "z": point.z}
+    sets: list[tuple[str, ...]] = [()]
+    frequency, strength = tone(setup, fit, point)
+    seen |= {"tone_hz": frequency, "tone_strength": strength}
+    if strength > TONE:
+        setup = replace(setup, frequency=frequency)
+        sets.append(("base_vibration",))
+    if (limit := flat_tops(setup)) is not None:
+        seen["flat_top"] = limit
+        sets.append(("gyro_saturation",))
+    if seen["loss"] > STRONG:
+        whole = excess(fit, point)
+        ranked = []
+        for id in MISLEADING[:5]:
+            other, trial = release_fit(setup, (id,))
+            share = 1 - excess(other, trial) / max(whole, 1e-9)
+            ranked.append((share, id))
+            setup.log(f"  release: {id} explains {share:.2f}")
+        ranked.sort(reverse=True)
+        seen["release_shares"] = {id: share for share, id in ranked}
+        sets += [(id,) for share, id in ranked[:2] if share > EXPLAINED]
+    return setup, sets, seen

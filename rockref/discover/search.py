@@ -1,0 +1,139 @@
+"""From nominal parameters to the best fit of a model family, in stages of growing windows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover.candidates import parameters_of
+from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters
+from rockref.discover.windows import STATES, Cut, Series, sensor_of, series
+from rockref.effects import catalogue
+from rockref.measure.experiment import Experiment
+from rockref.measure.impacts import main_impacts
+
+#: Stages: window lengths [s] and most iterations; decided: short windows pull the parameters near, longer ones weigh
+#: what accumulates (drag, cable, eccentricity).
+SHORT, MIDDLE = (0.025, 0.05), (0.05, 0.09)
+#: Seconds of each run that the first stage looks at.
+FIRST_STAGE = 1.6
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What all fits of an experiment share: experiment, runs, baseline model, seconds used of each run, seed."""
+
+    experiment: Experiment
+    runs: tuple
+    base: Model
+    end: float = 3.0
+    seed: int = 0
+    workers: int | None = None
+    log: Callable[[str], None] = lambda line: None
+    frequency: float | None = None  # of a base vibration, from the scan
+
+    def parameters(self, effects: tuple[str, ...] = ()) -> tuple[Parameter, ...]:
+        """Baseline, tilts, and those of the effects."""
+        own = baseline_parameters(self.base, len(self.runs), self.experiment.tilt_uncertainty)
+        extra = [p for e in effects for p in parameters_of(catalogue.find(e), len(self.runs), self.frequency)]
+        return (*own, *extra)
+
+    def fit(self, windows: Series, effects: tuple[str, ...] = ()) -> Fit:
+        """A fit of the baseline with these effects over windows."""
+        return Fit(windows, self.base, self.parameters(effects), log=self.log)
+
+
+def release_windows(setup: Setup) -> Series:
+    """One window a run, from release to shortly before the first impact: nothing is restarted, nothing is chaotic."""
+    cuts = []
+    for run in setup.runs:
+        impact = float(main_impacts(run.t, run.crv).times[0])
+        cuts.append(Cut(np.array([0]), np.array([int((impact - 0.03) * setup.experiment.gyro.sample_rate)])))
+    return Series(setup.experiment, setup.runs, cuts, workers=setup.workers)
+
+
+def windows(setup: Setup, lengths: tuple[float, float], model: Model | None = None) -> Series:
+    """Windows of all runs, cut on the records with the sensor of `model` undone."""
+    sensor = sensor_of(model) if model is not None else None
+    return series(setup.experiment, setup.runs, *lengths, setup.end, sensor=sensor, workers=setup.workers)
+
+
+def moved(point: Point, fit: Fit) -> Point:
+    """The same parameters on other windows: corrections begin at zero."""
+    z = np.zeros(len(fit.parameters))
+    z[: len(point.z)] = point.z
+    return fit.point(z, np.zeros((fit.series.B, STATES)))[0]
+
+
+def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None = None, iterations=(8, 6)):
+    """Fit the baseline with effects through the stages: (Fit, Point) on the windows of the last one."""
+    rng = np.random.default_rng(setup.seed)
+    parameters = setup.parameters(effects)
+    z = np.zeros(len(parameters)) if z is None else z
+    fit = point = None
+    for lengths, end, most in zip((SHORT, MIDDLE), (min(setup.end, FIRST_STAGE), setup.end), iterations, strict=True):
+        start = Fit(release_windows(setup), setup.base, parameters)
+        model = start.models(z)[0][0]
+        fit = setup.fit(windows(replace(setup, end=end), lengths, model), effects)
+        point = fit.point(z, np.zeros((fit.series.B, STATES)))[0]
+        setup.log(
+            f"{' + '.join(effects) or 'baseline'}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s, {point.objective:.0f}"
+        )
+        point = fit.relax_states(point, 2)
+        point = fit.run(point, most, rng)
+        z = point.z
+    return fit, point
+
+
+#: Size, in typical sizes, at which a candidate's derivative is taken: large enough for laws that do not show at zero.
+PROBE = 0.2
+
+
+@dataclass
+class Trial:
+    """One candidate tried from the baseline: predicted gain of one Gauss-Newton step, the gain found, the point."""
+
+    effects: tuple[str, ...]
+    predicted: float
+    gain: float
+    fit: Fit
+    point: Point
+
+
+def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...] = ()) -> list[Trial]:
+    """Every candidate by one Gauss-Newton step of everything (nuisances, corrections, candidate) from the fit's point."""
+    z, c = point.z, point.corrections
+    r = fit.residual(z, c)
+    Js, Jg, w = fit.state_jacobian(z, c, r), fit.parameter_jacobian(z, c, r), fit.weights(r)
+    trials = []
+    for kind in kinds:
+        if kind.id in effects:
+            continue
+        wide = setup.fit(fit.series, (*effects, kind.id))
+        G, own = len(z), len(wide.parameters) - len(z)
+        wide.parameters = tuple(
+            replace(p, step=PROBE) if p.name.startswith(kind.id + ".") else p for p in wide.parameters
+        )
+        z0 = np.concatenate([z, np.zeros(own)])
+        Jc = wide.parameter_jacobian(z0, c, r, only=range(G, G + own))
+        H, g, (H_ss, H_sg, g_s, _) = wide.reduced(r, Js, np.concatenate([Jg, Jc], axis=1), w, c, z0)
+        H = H + np.diag(1 / wide.prior**2) + 1e-4 * np.diag(np.diag(H))
+        g = g + z0 / wide.prior**2
+        dz = np.clip(-np.linalg.solve(H, g), -3, 3)
+        best = Trial((*effects, kind.id), float(-(g @ dz) / 2), -np.inf, wide, point)
+        for share in (1.0, 0.4):
+            dc = -np.linalg.solve(H_ss, (g_s + H_sg @ (share * dz))[..., None])[..., 0]
+            dc = np.clip(dc, -4 * wide.state_prior, 4 * wide.state_prior)
+            dc[fit.series.first] = 0
+            trial, _ = wide.point(z0 + share * dz, c + dc)
+            kept, _ = wide.point(z0 + share * dz, c)
+            swap = kept.loss < trial.loss
+            trial.corrections[swap], trial.loss[swap] = kept.corrections[swap], kept.loss[swap]
+            gain = point.objective - trial.objective
+            if gain > best.gain:
+                best = replace(best, gain=gain, point=trial)
+        trials.append(best)
+    return sorted(trials, key=lambda t: -t.gain)

@@ -1,0 +1,122 @@
+"""The rules by which a verdict is reached: fixed before any experiment is opened, thresholds calibrated on controls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from rockref.effects import catalogue
+
+#: At most so many effects are looked for.
+MOST_EFFECTS = 2
+#: Gain (log-likelihood units, windows clipped) above which an effect is there; calibrated on controls.
+DETECTED = 150.0
+#: Size, in typical sizes, below which an effect is not named: on controls gains come with sizes of 1 to 10 %.
+LEAST_SIZE = 0.15
+#: Rivals whose gain is above this share of the best one are not told apart from it.
+RIVAL = 0.80
+#: Share of windows that stay structured above which nothing of the catalogue explains the runs.
+UNEXPLAINED = 0.25
+#: Factor on the linear standard deviation of an amplitude; calibrated so that 90 % intervals cover 90 %.
+INTERVAL = 2.0
+#: Held-out mean loss must fall by this much to prove an effect; below it the held-out runs were at their floor before.
+HELD_OUT = 0.01
+
+
+@dataclass
+class Facts:
+    """What the fits say: effects kept, their sizes, gains of the rivals in the last look, how much stays unexplained."""
+
+    effects: tuple[str, ...]
+    sizes: dict[str, float]
+    gains: dict[str, float]
+    bad: float
+    median: float
+    held_gain: list[float]
+    held_floor: float
+    at_start: tuple[str, ...] = ()
+
+
+@dataclass
+class Decision:
+    """Verdict, effects (class members or the pair), and the sentence."""
+
+    verdict: str
+    effects: tuple[str, ...]
+    sentence: str
+    reasons: list[str] = field(default_factory=list)
+
+
+def is_detected(gain: float, size: float) -> bool:
+    """Whether an effect is there: enough gain, and not a trifle of it."""
+    return gain > DETECTED and size > LEAST_SIZE
+
+
+def decide(facts: Facts) -> Decision:
+    """The verdict from the facts, in the order of the rules."""
+    if facts.bad > UNEXPLAINED:
+        near = ", ".join(facts.effects) or max(facts.gains, key=lambda k: facts.gains[k], default="none")
+        return Decision(
+            "something_else", (),
+            f"Something moves the block that is not in the catalogue: {facts.bad:.0%} of the windows stay structured "
+            f"after the best fit (nearest candidate: {near}).",
+        )  # fmt: skip
+    if not facts.effects:
+        return Decision("none", (), "No effect is missing that these runs could show.")
+    if len(facts.effects) == 2:
+        return Decision("pair", facts.effects, f"Two effects are missing: {' and '.join(facts.effects)}.")
+    name = facts.effects[0]
+    best = facts.gains.get(name, np.inf)
+    rivals = tuple(id for id, g in facts.gains.items() if id != name and g > RIVAL * best)
+    if rivals:
+        members = (name, *sorted(rivals, key=lambda id: -facts.gains[id]))[:3]
+        return Decision(
+            "class", members, f"One of these is missing, and these runs cannot say which: {', '.join(members)}."
+        )
+    proof = np.mean(facts.held_gain) if facts.held_gain else 0.0
+    if proof < -HELD_OUT:
+        return Decision("none", (), f"{name} helps on the fitted runs and harms on the held-out ones: not accepted.")
+    if proof < HELD_OUT:
+        return Decision(
+            "indicated", (name,), f"{name} is indicated by the fitted runs; the held-out runs show nothing of it."
+        )
+    return Decision("named", (name,), f"{name} is missing: the error falls on fitted and held-out runs.")
+
+
+def ranking(gains: dict[str, float], facts: Facts) -> list[dict[str, Any]]:
+    """Candidates by gain, with the gain as a number of standard deviations and a weight."""
+    all_gains = dict(gains)
+    for e in facts.effects:
+        all_gains.setdefault(e, max([*gains.values(), DETECTED]) * 1.5)
+    order = sorted(all_gains, key=lambda id: -all_gains[id])
+    top = all_gains[order[0]] if order else 0.0
+    raw = {id: np.exp((all_gains[id] - top) / (0.1 * max(top, DETECTED))) for id in order}
+    total = sum(raw.values()) or 1.0
+    return [
+        {
+            "effect": id,
+            "gain": round(all_gains[id], 1),
+            "z": round(float(np.sqrt(2 * max(all_gains[id], 0.0))), 2),
+            "weight": round(float(raw[id] / total), 4),
+        }
+        for id in order
+    ]
+
+
+def separating(decision: Decision, gains: dict[str, float]) -> str:
+    """The experiment that would tell the members of a class apart, or confirm the named effect."""
+    if not decision.effects:
+        return ""
+    return catalogue.EFFECTS[decision.effects[0]].experiment
+
+
+def gates(facts: Facts, decision: Decision) -> dict[str, Any]:
+    """What was checked before the verdict."""
+    return {
+        "windows_structured": round(facts.bad, 3),
+        "median_loss": round(facts.median, 3),
+        "held_out_gain": [round(g, 4) for g in facts.held_gain],
+        "passed": decision.verdict not in ("not_trustworthy",),
+    }
