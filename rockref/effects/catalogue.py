@@ -90,7 +90,7 @@ def find(id: str, where: str = "effect") -> type[Effect]:
     """The effect of this id. Raises InputError (E-EFFECT) that suggests the nearest name."""
     if id in EFFECTS:
         return EFFECTS[id]
-    near = difflib.get_close_matches(id, EFFECTS, 1)
+    near = difflib.get_close_matches(id.lower(), EFFECTS, 1)
     cure = f"Did you mean {near[0]!r}?" if near else "`rockref effects` lists them."
     raise InputError("E-EFFECT", where, f"there is no effect {id!r}", cure)
 
@@ -99,7 +99,7 @@ def make(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
     """An effect with some parameters given by name. Raises InputError (E-KEY, E-TYPE, E-RANGE)."""
     for name in given:
         if name not in kind.quantities:
-            near = difflib.get_close_matches(name, kind.quantities, 1)
+            near = difflib.get_close_matches(name.lower(), kind.quantities, 1)
             cure = f"Did you mean {near[0]!r}?" if near else f"It has {', '.join(kind.quantities) or 'none'}."
             raise InputError("E-KEY", where, f"{kind.id} has no parameter {name!r}", cure)
     plain = {k: float(v) if isinstance(v, int) and not isinstance(v, bool) else v for k, v in given.items()}

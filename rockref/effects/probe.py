@@ -16,6 +16,9 @@ from rockref.model.parameters import BLOCK, Parameters, point_properties
 from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, State, as_arrays, stack
 from rockref.model.release import release_posture
 
+#: What authors of effects most often forget.
+AXES = "Leading axes are runs side by side: index from the end, as in x[..., 2], and it serves one run and many."
+
 
 def sample_problem() -> Problem:
     """The block of the source at release, a little turning, with no effects: one run."""
@@ -95,13 +98,14 @@ def probe_step(effect: Effect, spec: str, problem: Problem, m: dict[str, Any]) -
 def call(effect: Effect, spec: str, hook: str, *arguments):
     """Call a hook; an exception inside it becomes an InputError that names its line."""
     try:
-        return getattr(effect, hook)(*arguments)
+        with np.errstate(all="ignore"):
+            return getattr(effect, hook)(*arguments)
     except InputError:
         raise
     except Exception as e:
         line = traceback.extract_tb(e.__traceback__)[-1]
         what = f"{hook} fails: {type(e).__name__}: {e}"
-        raise InputError("E-EFFECT", f"{spec} ({line.filename}, line {line.lineno})", what, "Mend the line.") from e
+        raise InputError("E-EFFECT", f"{spec} (line {line.lineno} of {line.filename})", what, AXES) from e
 
 
 def pair(effect: Effect, spec: str, hook: str, given):
@@ -115,7 +119,7 @@ def numbers(spec: str, hook: str, key: str, a, shape: tuple[int, ...]) -> None:
     """Refuse a result of the wrong shape, or with a number that is not finite."""
     if np.shape(a) != shape:
         what = f"{key} has shape {np.shape(a)}, the law's has {shape}"
-        raise wrong(spec, hook, what, "Leading axes are runs side by side; index from the end, as in x[..., 2].")
+        raise wrong(spec, hook, what, AXES)
     if not np.all(np.isfinite(np.asarray(a, float))):
         raise wrong(
             spec, hook, f"{key} holds a number that is not finite", "Look for 0/0, roots and powers of negatives."

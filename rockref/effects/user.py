@@ -86,8 +86,6 @@ def check_class(kind: type[Effect], spec: str) -> None:
 
     if not is_dataclass(kind) or "__dataclass_params__" not in vars(kind):
         raise refuse("is not a dataclass", "Write @dataclass(frozen=True) above the class.")
-    if not vars(kind)["__dataclass_params__"].frozen:
-        raise refuse("is not frozen", "Write @dataclass(frozen=True) above the class.")
     if not kind.id.isidentifier() or kind.id == "none":
         raise refuse(f"has the id {kind.id!r}", 'Write id = "my_effect", a name of letters, digits and underscores.')
     names = [f.name for f in fields(kind)]

@@ -24,9 +24,7 @@ class CableRestraint(Effect):
         "height": Quantity("m", None, 0.0, 0.5, None, "any", "of the attachment, above the centre of mass"),
     }
     switches = ("k", "c")
-    sentence = (
-        "The cable to the sensor is slack at release; then it pulls the top back to where it was, and damps it."
-    )
+    sentence = "The cable to the sensor is slack at release; then it pulls the top back to where it was, and damps it."
     equation = r"F_{xy} = -k\,(p_{xy} - p_{xy}(0)) - c\,\dot p_{xy},\quad p = x + \Lambda\,(0,0,z_c)"
     source = "Linear spring and damper, as in any textbook of vibrations; no source needed"
     confounder = "quadratic_drag"

@@ -40,7 +40,8 @@ class QuadraticDrag(Effect):
     def body_wrench(self, problem, c, x, Lambda, v, W, m):
         if self.is_absent():
             return None
-        r = Lambda[..., None, :, 2] * (half_height(problem.points)[..., None, None] * CENTRES)
+        centres = half_height(problem.points)[..., None, None] * CENTRES.astype(x.dtype)
+        r = Lambda[..., None, :, 2] * centres
         v_k = v[..., None, :] + cross(apply(Lambda, W)[..., None, :], r)
         speed = np.sqrt(dot(v_k, v_k))
         F = -self.c / SLICES * speed[..., None] * v_k

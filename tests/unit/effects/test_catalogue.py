@@ -1,0 +1,179 @@
+"""The catalogue: ids, what each effect says of itself, effects from words and tables."""
+
+import inspect
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rockref.effects
+from rockref import InputError, Model
+from rockref.effects import catalogue
+from rockref.effects.base import HOOKS, Effect, Quantity, limits
+from rockref.effects.catalogue import EFFECTS, NONE, QUESTIONS
+from rockref.effects.user import check_class
+
+TABLE = {
+    "contact": "hertzian_contact hunt_crossley_contact hysteretic_contact adhesion uneven_foot_stiffness "
+    "uneven_foot_damping",
+    "friction": "stribeck_friction viscous_friction load_dependent_friction spin_friction rolling_resistance "
+    "uneven_foot_friction",
+    "shape": "foot_defects rounded_feet uneven_contact_normals mass_eccentricity inertia_deviation dimension_deviation",
+    "loads": "quadratic_drag cable_restraint lingering_wire_pull base_vibration plate_tilt",
+    "support": "compliant_support",
+    "release": "release_velocity",
+    "sensor": "gyro_misalignment gyro_scale gyro_drift gyro_bandwidth gyro_saturation clock_error",
+}
+EVERY = list(EFFECTS.values())
+FOLDER = Path(rockref.effects.__file__).parent
+
+
+def test_the_ids_are_those_that_files_and_verdicts_know():
+    """They are fixed: a saved model or verdict names them."""
+    assert {q: {e.id for e in answers} - {"none"} for q, answers in QUESTIONS.items()} == {
+        q: set(ids.split()) for q, ids in TABLE.items()
+    }
+
+
+def test_a_folder_per_question_a_file_per_answer():
+    for question, ids in TABLE.items():
+        for id in [*ids.split(), "none"]:
+            assert (FOLDER / question / f"{id}.py").is_file(), f"{question}/{id}"
+        assert QUESTIONS[question][0] is NONE[question]
+        assert NONE[question].question == question and NONE[question].sentence and NONE[question].equation
+
+
+@pytest.mark.parametrize("kind", EVERY, ids=lambda kind: kind.id)
+def test_every_effect_says_what_a_reader_needs(kind):
+    check_class(kind, kind.id)
+    assert inspect.getfile(kind) == str(FOLDER / kind.question / f"{kind.id}.py")
+    assert 40 < len(kind.sentence) < 140 and kind.sentence.endswith(".")
+    assert len(kind.equation) > 5 and len(kind.experiment) > 30 and len(kind.source) > 20
+    for doi in re.findall(r"doi:\s*(\S+)", kind.source):
+        assert re.match(r"10\.\d{4}/\S+[\w)]", doi.rstrip(",;"))
+    assert kind.confounder in EFFECTS and kind.confounder != kind.id
+    for quantity in kind.quantities.values():
+        assert quantity.unit in {
+            "1", "m", "N", "N/m", "N s/m", "N s2/m2", "s", "s/m", "m/s", "m/s2", "kg", "Hz", "rad", "rad/s", "rad/s2",
+        }  # fmt: skip
+        assert quantity.meaning and quantity.sign in ("+", "any")
+        assert quantity.least <= quantity.low < quantity.high <= quantity.most
+        assert quantity.typical is None or quantity.low <= quantity.typical <= quantity.high
+
+
+@pytest.mark.parametrize("kind", EVERY, ids=lambda kind: kind.id)
+def test_defaults_are_absent_and_typical_is_not(kind):
+    absent, typical = kind(), kind.typical()
+    assert absent.is_absent() and not typical.is_absent()
+    assert absent.values() == {name: quantity.absent for name, quantity in kind.quantities.items()}
+    absent.check("here")
+    typical.check("here")
+    for name in kind.switches or kind.quantities:
+        alone = kind(**{name: kind.quantities[name].typical})
+        assert not alone.is_absent(), name
+    for name in set(kind.quantities) - set(kind.switches or kind.quantities):
+        if kind.quantities[name].typical is not None:
+            assert kind(**{name: kind.quantities[name].typical}).is_absent(), name
+
+
+def test_effects_are_short():
+    """Ten to sixty lines of code each: text, numbers and one term."""
+    for question, ids in TABLE.items():
+        for id in ids.split():
+            lines = (FOLDER / question / f"{id}.py").read_text(encoding="utf-8").splitlines()
+            assert 10 < len([line for line in lines if line.strip()]) < 100, id
+
+
+def test_parse_reads_words():
+    assert catalogue.parse("quadratic_drag:c=0.4") == EFFECTS["quadratic_drag"](0.4)
+    assert catalogue.parse("gyro_scale:x=1.02,y=0.98") == EFFECTS["gyro_scale"](1.02, 0.98, 1.0)
+    assert catalogue.parse(" gyro_scale : x = 1.02 , y=0.98 ") == EFFECTS["gyro_scale"](1.02, 0.98, 1.0)
+    assert catalogue.parse("quadratic_drag") == EFFECTS["quadratic_drag"].typical()
+
+
+@pytest.mark.parametrize(
+    "text, code, said",
+    [
+        ("quadratic_drg:c=1", "E-EFFECT", "Did you mean 'quadratic_drag'"),
+        ("wind", "E-EFFECT", "rockref effects"),
+        ("gyro_scale:X=1", "E-KEY", "Did you mean 'x'"),
+        ("gyro_scale:factor=1", "E-KEY", "It has x, y, z"),
+        ("quadratic_drag:c=-1", "E-RANGE", "of at least 0 N s2/m2; plausible is 0.02 to 10 N s2/m2"),
+        ("quadratic_drag:c=nan", "E-TYPE", "in N s2/m2"),
+        ("quadratic_drag:c=inf", "E-RANGE", "plausible"),
+        ("adhesion:force=1,range=0", "E-RANGE", "above 0"),
+        ("quadratic_drag:c=much", "E-TYPE", "'much' is no number"),
+        ("quadratic_drag:0.4", "E-TYPE", "'0.4' is no parameter"),
+        ("", "E-EFFECT", "there is no effect ''"),
+    ],
+)
+def test_parse_says_what_is_wrong(text, code, said):
+    with pytest.raises(InputError) as found:
+        catalogue.parse(text)
+    assert found.value.code == code
+    assert said in str(found.value)
+
+
+@pytest.mark.parametrize(
+    "table, code, said",
+    [
+        ({"quadratic_drga": {"c": 1.0}}, "E-EFFECT", "model.toml: [effects.quadratic_drga]"),
+        ({"quadratic_drag": 0.4}, "E-TYPE", "Write [effects.quadratic_drag]"),
+        ({"quadratic_drag": {"c": "0.4"}}, "E-TYPE", "is '0.4'"),
+        ({"quadratic_drag": {"c": True}}, "E-TYPE", "is True"),
+        ({"quadratic_drag": {"c": [0.4]}}, "E-TYPE", "is [0.4]"),
+        ({"quadratic_drag": {"cc": 0.4}}, "E-KEY", "Did you mean 'c'"),
+        ([], "E-TYPE", "is not a table"),
+    ],
+)
+def test_from_table_says_what_is_wrong(table, code, said):
+    with pytest.raises(InputError) as found:
+        catalogue.from_table("model.toml", table)
+    assert found.value.code == code
+    assert said in str(found.value)
+
+
+def test_effects_stand_in_step_order_however_given():
+    mixed = [EFFECTS[i].typical() for i in ("clock_error", "gyro_scale", "hysteretic_contact", "hertzian_contact")]
+    ordered = catalogue.in_step_order(mixed)
+    assert [e.id for e in ordered] == ["hertzian_contact", "hysteretic_contact", "gyro_scale", "clock_error"]
+    model = Model.table_3_1().replace(effects=tuple(mixed))
+    assert model.active_effects() == ordered
+    with pytest.raises(InputError, match="given twice"):
+        catalogue.in_step_order([*mixed, EFFECTS["gyro_scale"]()])
+
+
+def test_model_file_keeps_every_effect(tmp_path):
+    """Infinity (no bandwidth limit), None (the top) and every number come back as they were."""
+    for effects in (
+        tuple(kind.typical() for kind in EVERY if kind.id != "foot_defects"),
+        tuple(kind() for kind in EVERY),
+        (EFFECTS["cable_restraint"](k=0.1, height=0.2), EFFECTS["gyro_bandwidth"](1 / 3)),
+    ):
+        Model.table_3_1().replace(effects=effects).save(tmp_path / "model.toml")
+        back = Model.load(tmp_path / "model.toml").effects
+        assert {e.id: e for e in back} == {e.id: e for e in effects}
+
+
+def test_numpy_numbers_are_numbers():
+    effect = EFFECTS["quadratic_drag"](np.float64(0.3))
+    effect.check("here")
+    assert catalogue.to_table([effect]) == {"quadratic_drag": {"c": 0.3}}
+
+
+def test_limits_in_words():
+    assert limits(Quantity("m", 0.0, 1.0, 2.0, 1.5)) == "a number that is finite; plausible is 1 to 2 m"
+    assert limits(Quantity("1", 0.0, 1.0, 2.0, 1.5, least=0.0, most=3.0)) == (
+        "a number of at least 0 and of at most 3; plausible is 1 to 2"
+    )
+
+
+def test_hooks_are_the_methods_of_the_base():
+    methods = {n for n, f in vars(Effect).items() if inspect.isfunction(f)} - {"values", "is_absent", "check"}
+    methods = {m for m in methods if not m.startswith("__")}
+    assert methods == set(HOOKS)
+    for name, arguments in HOOKS.items():
+        assert tuple(inspect.signature(getattr(Effect, name)).parameters)[1:] == arguments
+    assert not fields(Effect)

@@ -1,0 +1,170 @@
+"""What each effect takes is never negative, and what it stores comes back."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rockref.effects.catalogue import EFFECTS
+from rockref.effects.contact.adhesion import Adhesion
+from rockref.effects.contact.hertzian_contact import HertzianContact
+from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
+from rockref.effects.contact.hysteretic_contact import HystereticContact
+from rockref.effects.friction.rolling_resistance import ARM, RollingResistance
+from rockref.effects.friction.spin_friction import SpinFriction
+from rockref.effects.loads.cable_restraint import CableRestraint
+from rockref.effects.loads.plate_tilt import PlateTilt
+from rockref.effects.support.compliant_support import CompliantSupport
+from rockref.model.contact import Kinematics
+from rockref.model.integrator import Contact, evaluate_contact
+from rockref.model.problem import Problem
+from tests.unit.effects.bodies import body, points_at, puck, walk
+
+LEVER = 2e-3
+K, C, MU, LOAD = 5e7, 100.0, 0.3, 200.0
+
+
+def still_contact(turn) -> Contact:
+    """One point that carries LOAD, while the body turns by `turn`."""
+    zero = np.zeros((1, 3))
+    k = Kinematics(zero, zero, zero, np.array([1e-6]), np.zeros(1), np.zeros((1, 2)))
+    F = np.array([[0.0, 0.0, LOAD]])
+    yes, no = np.array([True]), np.array([False])
+    return Contact(0.0, k, yes, no, np.zeros((1, 2)), np.array([LOAD]), F, turn)
+
+
+def turned_through(effect, rates, h):
+    """Moments (N, 3) against an upright body that is turned at these rates (N, 3)."""
+    problem = body(points_at([(0, 0, 0)], K_N=K, K_T=K, C_N=C, C_T=C, mu=MU), [effect])
+    m = effect.start(problem)
+    moments = []
+    for W in rates:
+        _, moment = effect.body_wrench(problem, still_contact(W * h), np.zeros(3), np.eye(3), np.zeros(3), W, m)
+        moments.append(moment)
+    return np.array(moments)
+
+
+@pytest.mark.parametrize(
+    "effect, axis, limit, stiffness",
+    [
+        (SpinFriction(LEVER), 2, LEVER * MU * LOAD, K * LEVER**2),
+        (RollingResistance(LEVER), 0, LEVER * LOAD, K * LEVER * ARM),
+        (RollingResistance(LEVER), 1, LEVER * LOAD, K * LEVER * ARM),
+    ],
+)
+def test_a_turn_to_and_fro_costs_the_limit_times_its_way(effect, axis, limit, stiffness):
+    """Turned through 2 A in each direction, slowly: loss 4 A limit less 4 limit^2/stiffness a cycle, for the spring."""
+    h, amplitude, omega = 5e-4, 0.02, 2 * math.pi
+    t = np.arange(4001) * h
+    rates = np.zeros((len(t), 3))
+    rates[:, axis] = amplitude * omega * np.cos(omega * t)
+    moments = turned_through(effect, rates, h)
+    assert np.abs(moments).max() <= limit * (1 + 1e-12)
+    power = np.sum(moments * rates, axis=1)
+    cycle = -np.sum(power[2001:]) * h
+    held = limit / stiffness
+    # The damper C takes part only while the spring turns over: held/amplitude of the cycle.
+    assert cycle == pytest.approx(4 * limit * (amplitude - held), rel=1e-2)
+
+
+@pytest.mark.parametrize("effect", [SpinFriction(LEVER), RollingResistance(LEVER)])
+def test_resistance_never_drives(effect):
+    """Whatever the way: work done against it, less what its spring holds, never falls."""
+    rng = np.random.default_rng(7)
+    h = 1e-4
+    rates = np.cumsum(rng.normal(size=(1500, 3)), axis=0) * 0.02
+    name = "yaw" if isinstance(effect, SpinFriction) else "roll"
+    stiffness = K * LEVER**2 if name == "yaw" else K * LEVER * ARM
+    problem = body(points_at([(0, 0, 0)], K_N=K, K_T=K, C_N=C, C_T=C, mu=MU), [effect])
+    m, taken, stored_before = effect.start(problem), [], 0.0
+    for W in rates:
+        _, moment = effect.body_wrench(problem, still_contact(W * h), np.zeros(3), np.eye(3), np.zeros(3), W, m)
+        stored = stiffness * np.sum(m[name] ** 2) / 2
+        taken.append(-np.dot(moment, W) * h - (stored - stored_before))
+        stored_before = stored
+    # One step's force acts over the whole step: the error is stiffness (W h)^2/2 a step.
+    bound = stiffness * (np.abs(rates).max() * h) ** 2
+    assert min(taken) > -bound
+    assert sum(taken) > 0
+
+
+@pytest.mark.parametrize("name", ["viscous_friction", "quadratic_drag", "cable_restraint"])
+def test_dampers_take_power_from_every_motion(name):
+    """F v + M omega <= 0 at random poses and speeds."""
+    effect = EFFECTS["cable_restraint"](0.0, 1.0) if name == "cable_restraint" else EFFECTS[name].typical()
+    rng = np.random.default_rng(3)
+    for _ in range(50):
+        v, W = rng.normal(size=3), rng.normal(size=3)
+        problem = puck([effect], v=v, W=W)
+        s = problem.start
+        c = evaluate_contact(problem.replace(effects=()), s, s.x, s.Lambda, s.v, s.W, np.zeros(3), 0.0, ())
+        m = effect.start(problem)
+        load = effect.point_wrench(problem, c, m) or effect.body_wrench(problem, c, s.x, s.Lambda, s.v, s.W, m)
+        assert np.dot(load[0], s.v) + np.dot(load[1], s.W) < 0
+
+
+def drop(effects, K_N=1e6, h=5e-6, **kwargs):
+    """Energy of a ball that falls onto the plate from a fifth of a millimetre [J], and its height; two bounces."""
+    problem = body(points_at([(0, 0, -1e-3)], K_N=K_N), effects, x=(0, 0, 1.2e-3), h=h, **kwargs)
+    return np.array([(s.v @ s.v / 2 + 9.81 * s.x[2], s.x[2]) for s in walk(problem, 3600)])
+
+
+def in_the_air(rows, above=1e-3 + 2.1e-5):
+    return rows[rows[:, 1] > above, 0]
+
+
+@pytest.mark.parametrize("effect", [HertzianContact(1.5, 2e-5), Adhesion(20.0, 2e-5)])
+def test_conservative_contacts_give_everything_back(effect):
+    energies = in_the_air(drop([effect]))
+    # Steps of 5e-6 s: second order in the contact's frequency, which the pull's kink brings to first at its ends.
+    assert np.ptp(energies) < 5e-3 * (energies[0] - 9.81e-3)
+
+
+@pytest.mark.parametrize("effect", [HystereticContact(0.3), HuntCrossleyContact(2.0)])
+def test_dissipative_contacts_only_take(effect):
+    energies = in_the_air(drop([effect]))
+    # In the air nothing changes but by rounding; each contact takes.
+    assert np.all(np.diff(energies) < 1e-12)
+    assert energies[-1] - 9.81e-3 < 0.95 * (energies[0] - 9.81e-3)
+
+
+def test_cable_spring_and_tilted_gravity_conserve():
+    """Kinetic energy, weight along the turned gravity, and k d^2/2 of the cable's end."""
+    k, slope, mass = 300.0, (0.02, -0.03), 1.0
+    problem = body(
+        points_at([(0.1, 0.1, -0.5)]), [CableRestraint(k, 0.0), PlateTilt(*slope)],
+        x=(0, 0, 10), v=(0.3, 0.1, 0), W=(0.5, -0.4, 0.2), J=(0.2, 0.3, 0.1), h=1e-4,
+    )  # fmt: skip
+    g = 9.81 * np.array([*slope, -1 + (slope[0] ** 2 + slope[1] ** 2) / 2])
+    total = []
+    for s in walk(problem, 2000):
+        end = s.x + s.Lambda[:, 2] * 0.5
+        stretch = (end - [0, 0, 10.5])[:2]
+        turning = np.dot(s.W, [0.2, 0.3, 0.1] * s.W) / 2
+        total.append(mass * s.v @ s.v / 2 + turning - mass * g @ s.x + k * stretch @ stretch / 2)
+    # Second order in the step of 1e-4 s against a swing of 0.1 s, of some joules moved.
+    assert np.ptp(total) < 1e-5 * abs(total[0])
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.1])
+def test_the_support_keeps_or_takes(ratio):
+    """Block, contact springs, plate and its spring, about the loaded balance: constant, or falling by the damper."""
+    mass, plate, frequency, K_N = 2.0, 3.0, 40.0, 1e6
+    problem: Problem = puck([CompliantSupport(plate, frequency, ratio)], mass=mass, K_N=K_N, h=4e-6)
+    problem = problem.replace(start=problem.start.at_rest(problem.start.x, np.eye(3), 4, [0, 0, -5e-3]))
+    k = (2 * math.pi * frequency) ** 2 * plate
+    sink = mass * 9.81 / k
+    total = []
+    for s in walk(problem, 2000):
+        q, q_rate = (float(s.memory[0][key]) for key in ("q", "q_rate"))
+        xi = q + 1e-6 - s.x[2]
+        block = mass * s.v[2] ** 2 / 2 + mass * 9.81 * s.x[2]
+        total.append(block + 4 * K_N * xi * abs(xi) / 2 + plate * q_rate**2 / 2 + k * (q - sink) ** 2 / 2)
+    moved = mass * 5e-3**2 / 2
+    change = (np.array(total) - total[0]) / moved
+    if ratio == 0:
+        # The plate is one step late: K_N h a step as a negative damper, 2 % over the run.
+        assert np.abs(change).max() < 3e-2
+    else:
+        assert change[-1] < -0.1
+        assert np.all(np.diff(change[::100]) < 2e-3)

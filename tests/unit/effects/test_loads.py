@@ -1,0 +1,172 @@
+"""Loads, support and release, each against a closed form."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rockref.effects.loads.attachment import half_height
+from rockref.effects.loads.base_vibration import BaseVibration
+from rockref.effects.loads.cable_restraint import CableRestraint
+from rockref.effects.loads.lingering_wire_pull import LingeringWirePull
+from rockref.effects.loads.plate_tilt import PlateTilt
+from rockref.effects.loads.quadratic_drag import QuadraticDrag
+from rockref.effects.probe import sample_problem
+from rockref.effects.release.release_velocity import ReleaseVelocity
+from rockref.effects.support.compliant_support import CompliantSupport
+from rockref.model.integrator import evaluate_contact
+from rockref.model.rotation import apply, apply_to_points, cross, exponential
+from tests.unit.effects.bodies import H, body, last, points_at, puck, walk
+
+FAR = 10.0  # height of a body that touches nothing
+
+
+def flying(effect, **kwargs):
+    """A block of one metre in the air."""
+    return body(points_at([(0.1, 0.1, -0.5), (-0.1, -0.1, -0.5)]), [effect], x=(0, 0, FAR), **kwargs)
+
+
+def load_on(effect, problem, **changes):
+    """Force and moment that an effect adds at the start of a problem."""
+    s = problem.start
+    c = evaluate_contact(problem.replace(effects=()), s, s.x, s.Lambda, s.v, s.W, np.zeros(3), s.t, ())
+    return effect.body_wrench(problem, c, s.x, s.Lambda, s.v, s.W, effect.start(problem))
+
+
+def test_falling_block_reaches_terminal_velocity():
+    """v = v_t tanh(g t/v_t), v_t = sqrt(m g/c)."""
+    c, mass = 60.0, 1.0
+    terminal = math.sqrt(mass * 9.81 / c)
+    problem = flying(QuadraticDrag(c), mass=mass, h=1e-4)
+    speeds = [-s.v[2] for s in walk(problem, 1500)]
+    for i in (200, 600, 1500):
+        # Second order in the step: (g h/v_t)^2 = 6e-6.
+        assert speeds[i] == pytest.approx(terminal * math.tanh(9.81 * i * 1e-4 / terminal), rel=1e-4)
+    assert speeds[1500] > 0.99 * terminal
+
+
+def test_drag_on_a_block_that_turns_about_its_base():
+    """The integral of c/h (w z)^2 z over the height is c w^2 h^3/4; sixteen slices miss it by 1/(2*16^2)."""
+    w, c = 0.7, 0.4
+    problem = flying(QuadraticDrag(c), W=(w, 0, 0), v=(0, -w * 0.5, 0))
+    force, moment = load_on(QuadraticDrag(c), problem)
+    about_base = moment[0] + (0.5 * -force[1])
+    assert about_base == pytest.approx(-c * w**2 / 4 * (1 - 1 / (2 * 16**2)), rel=1e-12)
+
+
+def test_cable_swings_a_free_body():
+    """A damped oscillator about where the body was at the start."""
+    k, c, mass, speed = 400.0, 4.0, 1.0, 0.1
+    problem = flying(CableRestraint(k, c, 0.0), mass=mass, g=0.0, v=(0, speed, 0), h=1e-4)
+    problem = problem.replace(
+        start=problem.start.at_rest(problem.start.x + [0.3, 0.2, 0], np.eye(3), 2, problem.start.v)
+    )
+    delta = c / 2 / mass
+    omega = math.sqrt(k / mass - delta**2)
+    t = 1000 * 1e-4
+    state = last(problem, 1000)
+    # Second order in the step: (omega h)^2 = 4e-6 over two radians.
+    expected = 0.2 + speed / omega * math.exp(-delta * t) * math.sin(omega * t)
+    assert state.x[1] == pytest.approx(expected, abs=1e-5 * speed / omega)
+    assert state.x[0] == 0.3
+
+
+def test_cable_holds_the_top_unless_told_otherwise():
+    problem = sample_problem()
+    tilted = problem.start.Lambda
+    top = CableRestraint(1.0)
+    assert top.attachment(problem, tilted) == pytest.approx(tilted[:, 2] * 0.344)
+    assert CableRestraint(1.0, height=0.1).attachment(problem, tilted) == pytest.approx(tilted[:, 2] * 0.1)
+    force, moment = load_on(CableRestraint(5.0, 0.0), problem)
+    assert np.all(force == 0) and np.all(moment == 0)  # slack at release
+    force, moment = load_on(CableRestraint(0.0, 2.0), problem)
+    r = top.attachment(problem, tilted)
+    velocity = cross(apply(tilted, problem.start.W), r)
+    assert force == pytest.approx([-2 * velocity[0], -2 * velocity[1], 0])
+    assert moment == pytest.approx(np.cross(r, force))
+
+
+def test_wire_gives_its_impulse():
+    """The integral of F exp(-t/tau)/m, and its moment about a body that has hardly turned."""
+    force, tau, J = 3.0, 0.02, 50.0
+    state = last(flying(LingeringWirePull(force, tau), g=0.0, J=(J, J, J), mass=2.0, h=1e-4), 400)
+    impulse = force * tau * (1 - math.exp(-0.04 / tau))
+    # Trapezoidal in time: (h/tau)^2/12 = 2e-6.
+    assert state.v[1] == pytest.approx(impulse / 2.0, rel=3e-6)
+    assert state.W[0] == pytest.approx(-0.5 * impulse / J, rel=1e-5)
+
+
+@pytest.mark.parametrize("direction", [0.0, math.pi / 2, 1.0])
+def test_vibrating_base_moves_a_free_body(direction):
+    """dv/dt = -A cos(2 pi f t + phase), along (sin d, cos d)."""
+    A, f, phase = 0.5, 30.0, 0.7
+    h, steps = 1e-4, 250
+    state = last(flying(BaseVibration(A, f, direction, phase), g=0.0, h=h), steps)
+    omega = 2 * math.pi * f
+    speed = -A / omega * (math.sin(omega * steps * h + phase) - math.sin(phase))
+    expected = [speed * math.sin(direction), speed * math.cos(direction), 0]
+    # Trapezoidal in time: (omega h)^2/12 = 3e-5 of A/omega, at either end.
+    assert state.v == pytest.approx(expected, abs=6e-5 * A / omega)
+
+
+def test_tilted_plate_is_tilted_gravity():
+    """The weight in the plate's axes is m g (sin, sin, -cos) to third order in the angles."""
+    x, y = 3e-3, -2e-3
+    force, moment = load_on(PlateTilt(x, y), flying(PlateTilt(x, y), mass=2.0))
+    whole = force + [0, 0, -2.0 * 9.81]
+    tilt = np.hypot(x, y)
+    exact = 2.0 * 9.81 * np.array([math.sin(tilt) * x / tilt, math.sin(tilt) * y / tilt, -math.cos(tilt)])
+    # The first terms dropped are tilt^3/6 = 8e-9 sideways and tilt^4/24 = 7e-12 along e_z, of the weight.
+    assert whole == pytest.approx(exact, abs=2.0 * 9.81 * tilt**3 / 6)
+    assert np.all(moment == 0)
+
+
+def test_puck_slides_on_a_plate_steeper_than_friction():
+    steep = last(puck([PlateTilt(0.1, 0.0)], mu=0.06, K_T=1e6, K_N=1e6, C_T=500.0, C_N=500.0), 1000)
+    held = last(puck([PlateTilt(0.05, 0.0)], mu=0.06, K_T=1e6, K_N=1e6, C_T=500.0, C_N=500.0), 1000)
+    # Before it slides the spring gives way by mu m g/(4 K_T) = 1.5e-7 m, in 0.5 ms of 10 ms.
+    assert steep.v[0] == pytest.approx(9.81 * (0.1 - 0.06 * (1 - 0.1**2 / 2)) * 1000 * H, rel=4e-2)
+    assert abs(held.v[0]) < 1e-5
+
+
+def support_run(frequency, mass, plate_mass, ratio, steps, push=0.0):
+    effect = CompliantSupport(plate_mass, frequency, ratio)
+    problem = puck([effect], mass=mass, K_N=1e7, C_N=2e3, h=2e-5)
+    problem = problem.replace(start=problem.start.at_rest(problem.start.x, np.eye(3), 4, [0, 0, -push]))
+    return [(s.x[2], float(s.memory[0]["q"])) for s in walk(problem, steps)]
+
+
+def test_loaded_support_swings_with_the_block_on_it():
+    """f = sqrt(k/(M + m))/2 pi: the contact is a hundred times stiffer than the plate's spring."""
+    frequency, mass, plate_mass = 30.0, 2.0, 3.0
+    q = np.array([b for _, b in support_run(frequency, mass, plate_mass, 0.0, 4500, push=0.01)])
+    crossings = np.flatnonzero((q[1:] >= 0) & (q[:-1] < 0))
+    period = (crossings[-1] - crossings[0]) * 2e-5 / (len(crossings) - 1)
+    loaded = frequency * math.sqrt(plate_mass / (plate_mass + mass))
+    # The contact's own softness lowers it by k/(2 * 4 K_N) * share = 1e-3.
+    assert 1 / period == pytest.approx(loaded, rel=2e-3)
+
+
+def test_support_starts_in_balance():
+    """The release posture stays: q counts from the sinking under the block's weight."""
+    rows = np.array(support_run(30.0, 2.0, 3.0, 0.03, 500))
+    # The weight is carried to rounding: 1e-15 of 20 N over 5 ms.
+    assert np.abs(rows[:, 1]).max() < 1e-15
+    assert np.ptp(rows[:, 0]) < 1e-15
+
+
+def test_release_velocity_turns_about_the_pivots():
+    problem = sample_problem()
+    at_rest = problem.start.at_rest(problem.start.x, problem.start.Lambda, 8)
+    effect = ReleaseVelocity(0.03, -0.02, 0.05)
+    state = effect.release(problem.block, problem.points, at_rest)
+    r = apply_to_points(state.Lambda, problem.points.P)
+    velocities = state.v + np.cross(apply(state.Lambda, state.W), r)
+    # 1ext and 2ext carry the block: their middle rests.
+    assert (velocities[0] + velocities[1]) / 2 == pytest.approx([0, 0, 0], abs=1e-17)
+    assert np.all(state.W == [0.03, -0.02, 0.05])
+
+
+def test_half_height_is_above_the_lowest_point():
+    assert half_height(sample_problem().points) == 0.344
+    assert np.all(exponential(np.zeros(3)) == np.eye(3))

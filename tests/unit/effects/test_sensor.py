@@ -1,0 +1,104 @@
+"""What the gyroscope does, each against another way to the same signal."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from rockref import InputError
+from rockref.effects.catalogue import measured
+from rockref.effects.sensor.clock_error import ClockError
+from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth
+from rockref.effects.sensor.gyro_drift import GyroDrift
+from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from rockref.effects.sensor.gyro_scale import GyroScale
+
+T = np.arange(4000) / 2000
+
+
+def tone(f, phase=0.0, axes=(1.0, 0.5, -0.3)):
+    return np.sin(2 * math.pi * f * T + phase)[:, None] * np.array(axes)
+
+
+def test_misalignment_is_the_rotation_by_its_vector():
+    vector = (0.3, -0.2, 0.5)
+    crv = tone(3.0) + [0.1, 0.2, 0.3]
+    out = GyroMisalignment(*vector).sensor(T, crv)
+    assert out == pytest.approx(Rotation.from_rotvec(vector).apply(crv), abs=1e-15)
+
+
+def test_scale_is_per_axis():
+    assert GyroScale(1.02, 0.98, 1.5).sensor(T, tone(1.0)) == pytest.approx(tone(1.0, axes=(1.02, 0.49, -0.45)))
+
+
+@pytest.mark.parametrize("f", [5.0, 20.0, 60.0])
+def test_bandwidth_follows_its_transfer_function(f):
+    """H = w0^2/(w0^2 - w^2 + i sqrt2 w0 w), after the transient; and half the power at the bandwidth itself."""
+    cutoff = 20.0
+    out = GyroBandwidth(cutoff).sensor(T, tone(f))
+    ratio = f / cutoff
+    H = 1 / (1 - ratio**2 + 1j * math.sqrt(2) * ratio)
+    expected = abs(H) * tone(f, np.angle(H))
+    late = T > 1.0  # exp(-2 pi 20/sqrt2) is nothing
+    # The signal is straight between samples: (2 pi f h)^2/12 of it.
+    assert out[late] == pytest.approx(expected[late], abs=(2 * math.pi * f / 2000) ** 2 / 12)
+    if ratio == 1:
+        assert np.std(out[late, 0]) / np.std(tone(f)[late, 0]) == pytest.approx(1 / math.sqrt(2), rel=1e-3)
+
+
+def test_bandwidth_is_settled_on_the_first_sample_and_wants_even_rows():
+    flat = np.full((100, 3), 0.3)
+    assert GyroBandwidth(20.0).sensor(T[:100], flat) == pytest.approx(flat, abs=1e-12)
+    uneven = np.concatenate([T[:50], T[60:110]])
+    with pytest.raises(InputError, match="even spacing"):
+        GyroBandwidth(20.0).sensor(uneven, flat)
+
+
+def test_drift_is_bias_and_slope():
+    out = GyroDrift(0.1, 0.2, 0.3, -1.0, 0.0, 2.0).sensor(T, np.zeros((4000, 3)))
+    assert out[0] == pytest.approx([0.1, 0.2, 0.3])
+    assert out[2000] == pytest.approx([-0.9, 0.2, 2.3])
+
+
+def test_saturation_cuts_at_both_ends():
+    out = GyroSaturation(0.4).sensor(T, tone(2.0))
+    assert out.max() == 0.4 and out.min() == -0.4
+    assert np.array_equal(out[np.abs(tone(2.0)) < 0.4], tone(2.0)[np.abs(tone(2.0)) < 0.4])
+
+
+@pytest.mark.parametrize("rate", [0.99, 1.01])
+def test_clock_shows_the_signal_of_another_time(rate):
+    """W_m(t) = W(rate t): a tone of 7 Hz looks like one of 7 rate Hz."""
+    out = ClockError(rate).sensor(T, tone(7.0))
+    inside = T * rate <= T[-1]
+    # Cubic between samples: (2 pi 7/2000)^4/384 of the tone, at the ends some ten times it.
+    assert out[inside] == pytest.approx(tone(7.0 * rate)[inside], abs=1e-7)
+    assert np.array_equal(out[~inside], np.broadcast_to(tone(7.0)[-1], out[~inside].shape))
+
+
+def test_batches_ride_along():
+    crv = np.stack([tone(3.0), tone(5.0)])
+    effects = [
+        GyroMisalignment(0.1, 0.2, 0.3), GyroScale(1.1, 0.9, 1.2), GyroBandwidth(50.0),
+        GyroDrift(0.1, rate_y=1.0), GyroSaturation(0.8), ClockError(1.01),
+    ]  # fmt: skip
+    for effect in effects:
+        both = effect.sensor(T, crv)
+        for i in range(2):
+            assert np.array_equal(both[i], effect.sensor(T, crv[i])), effect.id
+
+
+def test_the_chain_is_that_of_a_real_gyroscope():
+    """Whatever the order in which they are named: misalignment, scale, bandwidth, drift, saturation, clock."""
+    crv = tone(3.0)
+    chain = [
+        GyroMisalignment(0.1, 0.2, 0.3), GyroScale(1.1, 0.9, 1.2), GyroBandwidth(50.0),
+        GyroDrift(0.1, rate_y=1.0), GyroSaturation(0.8), ClockError(1.01),
+    ]  # fmt: skip
+    by_hand = crv
+    for effect in chain:
+        by_hand = effect.sensor(T, by_hand)
+    assert np.array_equal(measured(chain[::-1], T, crv), by_hand)
+    assert not np.allclose(chain[0].sensor(T, chain[1].sensor(T, crv)), chain[1].sensor(T, chain[0].sensor(T, crv)))

@@ -1,0 +1,121 @@
+"""Effects on shape and mass, each against another way to the same body."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rockref import InputError, Model
+from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
+from rockref.effects.shape.dimension_deviation import DimensionDeviation
+from rockref.effects.shape.foot_defects import FootDefects
+from rockref.effects.shape.inertia_deviation import InertiaDeviation
+from rockref.effects.shape.mass_eccentricity import MassEccentricity
+from rockref.effects.shape.rounded_feet import RoundedFeet
+from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
+from rockref.engines import run
+from rockref.model.release import tipping_angle
+from tests.unit.effects.bodies import H, last, puck
+
+TABLE = FootDefects(1.0e-5, 4.0e-5, 9.2e-5, 5.8e-5, 6e-3, 0.30 / 0.25, 0.15 / 0.18)
+
+
+def test_foot_defects_make_the_eight_point_model():
+    block, points = Model.four_points().replace(effects=(TABLE,)).body()
+    block_8, points_8 = Model.table_3_1().body()
+    assert points.names == points_8.names
+    assert np.array_equal(points.P, points_8.P)
+    for key in ("K_N", "K_T", "C_N", "C_T", "mu_0", "mu"):
+        # A ratio instead of the number itself: one rounding.
+        assert getattr(points, key) == pytest.approx(getattr(points_8, key), rel=4e-16)
+    assert np.array_equal(block.inertia, block_8.inertia)
+
+
+def test_foot_defects_want_four_points():
+    with pytest.raises(InputError, match="four_points"):
+        Model.table_3_1().replace(effects=(TABLE,)).body()
+    with pytest.raises(InputError, match="half the base"):
+        Model.four_points().replace(effects=(FootDefects(delta_diag=0.08),)).body()
+
+
+@pytest.mark.parametrize("side, factor", [("width", 1.01), ("depth", 0.97), ("height", 1.02)])
+def test_dimension_deviation_is_a_model_of_other_sides(side, factor):
+    flat = Model.four_points()
+    block, points = flat.replace(effects=(DimensionDeviation(**{side: factor}),)).body()
+    block_2, points_2 = flat.replace(**{side: getattr(flat, side) * factor}).body()
+    # A few roundings on the way through the second moments.
+    assert points.P == pytest.approx(points_2.P, rel=1e-15)
+    assert block.inertia == pytest.approx(block_2.inertia, rel=1e-14)
+    assert block.mass == block_2.mass
+
+
+def test_inertia_deviation_keeps_a_tensor_a_tensor():
+    J = np.array([[2.0, 0.1, -0.2], [0.1, 2.2, 0.05], [-0.2, 0.05, 0.4]])
+    effect = InertiaDeviation(1.1, 0.9, 1.2)
+    block, _ = Model.table_3_1().replace(inertia=J, effects=(effect,)).body()
+    assert np.diag(block.inertia) == pytest.approx(np.diag(J) * [1.1, 0.9, 1.2], rel=1e-15)
+    assert np.array_equal(block.inertia, block.inertia.T)
+    assert np.all(np.linalg.eigvalsh(block.inertia) > 0)
+
+
+def arc_time(R, tilt_of_edge, tilt, inertia, weight):
+    """Time from rest at `tilt` to upright of a rigid block that turns about its edge, by quadrature of its energy.
+
+    w^2 = 2 m g R [cos(alpha - tilt) - cos(alpha - theta)]/I; with theta = tilt cos(s) the integrand is smooth.
+    """
+    s = (np.arange(4000) + 0.5) * (np.pi / 2) / 4000
+    theta = tilt * np.cos(s)
+    w = np.sqrt(2 * weight * R / inertia * (np.cos(tilt_of_edge - tilt) - np.cos(tilt_of_edge - theta)))
+    return np.sum(tilt * np.sin(s) / w) * (np.pi / 2) / 4000
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("effect", [MassEccentricity(y=2e-3, z=-3e-3), InertiaDeviation(xx=1.05)])
+def test_first_arc_takes_as_long_as_the_rigid_body_says(effect, turned):
+    """An eccentricity toward the pivots shortens their lever and lengthens the arc; turned, it shortens the arc."""
+    stiff = Model.four_points()
+    stiff = stiff.replace(K_N=6e8, K_T=5e8, effects=(effect,))
+    tilt = 0.08
+    response = run(stiff.problem(duration=0.6, step=5e-6, turned=turned, theta_0=tilt), engine="auto")
+    block, points = stiff.body()
+    lever = np.abs(points.P[2 if turned else 0, 1])
+    height = -points.P[0, 2]
+    R2 = lever**2 + height**2
+    expected = arc_time(np.sqrt(R2), np.arctan2(lever, height), tilt, block.inertia[0, 0] + 54 * R2, 54 * 9.81)
+    # The springs under the edge give by 0.4 micrometres of 50 mm, and the release begins with their swing.
+    assert response.main_impacts()[0] == pytest.approx(expected, rel=2e-4)
+
+
+def test_eccentricity_moves_the_tipping_angles_apart():
+    block, points = Model.four_points().replace(effects=(MassEccentricity(y=1e-3),)).body()
+    assert tipping_angle(block, points, 1) == pytest.approx(np.arctan(0.049 / 0.344), rel=1e-14)
+    assert tipping_angle(block, points, -1) == pytest.approx(np.arctan(0.051 / 0.344), rel=1e-14)
+
+
+def test_tilted_normals_push_sideways():
+    """Frictionless, all normals tilted alike: a = g (x, y)."""
+    effect = UnevenContactNormals(*(0.02, -0.01) * 4)
+    state = last(puck([effect], K_N=1e6), 300)
+    assert state.v[:2] == pytest.approx(np.array([0.02, -0.01]) * 9.81 * 300 * H, rel=1e-9)
+
+
+def test_normals_belong_to_their_foot():
+    one = UnevenContactNormals(x3=0.02)
+    problem = puck([one], K_N=1e6, J=(1e3, 1e3, 1.0))
+    state = last(problem, 100)
+    # A quarter of the weight at foot 3 (-0.1, -0.1), pushed along x: a moment 0.1 * F about z.
+    assert state.W[2] == pytest.approx(0.1 * 0.02 * 9.81 / 4 * 100 * H, rel=1e-6)
+
+
+def test_feet_must_have_names_of_feet():
+    block, points = Model.four_points().body()
+    odd = replace(points, names=("left", "2ext", "3ext", "4ext"))
+    with pytest.raises(InputError, match="'left' belongs to no foot"):
+        UnevenFootStiffness(foot1=2.0).points(block, odd)
+
+
+def test_rounded_feet_give_every_point_the_radius():
+    _, points = Model.table_3_1().replace(effects=(RoundedFeet(2e-3),)).body()
+    assert np.array_equal(points.radius, np.full(8, 2e-3))
+    _, same = Model.table_3_1().replace(foot_radius=2e-3).body()
+    assert np.array_equal(same.radius, points.radius)
