@@ -15,12 +15,14 @@ GAP = -32768
 def packed(values: np.ndarray, unit: float | None = None) -> dict[str, Any]:
     """Return values (N,) as 16-bit integers in base64 and the unit that they count: two bytes and a third a number.
 
-    Without `unit` it is a 32000th of the largest magnitude. NaN becomes the gap.
+    Without `unit` it is a 32000th of the largest magnitude. What is not finite becomes the gap.
     """
     values = np.asarray(values, dtype=np.float64)
-    largest = float(np.nanmax(np.abs(values), initial=0.0))
-    unit = unit or (largest / LARGEST if largest > 0.0 else 1.0)
-    whole = np.where(np.isfinite(values), np.rint(values / unit), GAP).astype("<i2")
+    known = np.isfinite(values)
+    filled = np.where(known, values, 0.0)
+    largest = float(np.abs(filled).max(initial=0.0))
+    unit = unit or (largest / LARGEST if largest / LARGEST > 0.0 else 1.0)
+    whole = np.where(known, np.rint(filled / unit), GAP).astype("<i2")
     return {"unit": unit, "n": len(values), "data": base64.b64encode(whole.tobytes()).decode("ascii")}
 
 

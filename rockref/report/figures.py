@@ -52,7 +52,11 @@ def new_figure(width: float, height: float) -> Any:
     """Return an empty figure, inches; no window system is asked for."""
     from matplotlib.figure import Figure
 
-    return Figure(figsize=(width, height), layout="constrained")
+    figure = Figure(figsize=(width, height))
+    # Fixed margins in inches: a layout that is searched for takes three times as long and moves with every drawing.
+    left, right, top, bottom = 0.85 / width, 1.0 - 0.15 / width, 1.0 - 0.4 / height, 0.5 / height
+    figure.subplots_adjust(left=left, right=right, top=top, bottom=bottom, hspace=0.12, wspace=0.16)
+    return figure
 
 
 def whole_run(c: Comparison, k: int) -> Any:
@@ -64,12 +68,12 @@ def whole_run(c: Comparison, k: int) -> Any:
     for axis in range(3):
         _rates(axes[axis], c, k, axis, float(t[0]), float(t[-1]))
     for i, name in enumerate(c.names):
-        contact_plot(axes[3 + i], c, k, i)
+        contact_plot(axes[3 + i], c, k, i, (float(t[0]), float(t[-1])))
         axes[3 + i].set_ylabel(f"contacts\n{name}", fontsize=8)
     axes[-1].set_xlabel("time (s)")
     axes[-1].set_xlim(float(t[0]), float(t[-1]))
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=4, frameon=False, fontsize=9)
+    figure.legend(handles, labels, loc="upper right", ncols=5, frameon=False, fontsize=9)
     figure.suptitle(f"{c.experiment.name}, run {tables.run_name(c, k)}", fontsize=10, x=0.02, ha="left")
     return figure
 
@@ -87,11 +91,12 @@ def zooms(c: Comparison, k: int) -> Any | None:
     for column, (start, end) in enumerate(stretches):
         for axis in range(3):
             _rates(axes[axis][column], c, k, axis, start, end, labelled=column == 0)
-        contact_plot(axes[3][column], c, k, 0, labelled=column == 0)
+        contact_plot(axes[3][column], c, k, 0, (start, end), labelled=column == 0)
         axes[3][column].set_xlim(start, end)
         axes[3][column].set_xlabel("time (s)")
     handles, labels = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=4, frameon=False, fontsize=9)
+    figure.legend(handles, labels, loc="upper right", ncols=5, frameon=False, fontsize=9)
+    figure.suptitle(f"{c.experiment.name}, run {tables.run_name(c, k)}", fontsize=10, x=0.02, ha="left")
     return figure
 
 
@@ -124,19 +129,23 @@ def _rates(ax: Any, c: Comparison, k: int, axis: int, start: float, end: float, 
     ax.grid(color="#e7ebef", lw=0.6)
 
 
-def contact_plot(ax: Any, c: Comparison, k: int, model: int, labelled: bool = True) -> None:
-    """Draw the contact indices of one model: a line for each point while it touches, in the run's time."""
+def contact_plot(
+    ax: Any, c: Comparison, k: int, model: int, stretch: tuple[float, float], labelled: bool = True
+) -> None:
+    """Draw the contact indices of one model: a line for each point while it touches, in the run's time.
+
+    Only what lies in `stretch` (s) is drawn.
+    """
     strips = contact_strips(c.results[model][k])
     for row, (_, intervals) in enumerate(strips):
-        spans = [(a, b - a) for a, b in intervals]
+        spans = [(a, b - a) for a, b in intervals if b > stretch[0] and a < stretch[1]]
         ax.broken_barh(spans, (len(strips) - row - 0.75, 0.5), color=style.colour(model), lw=0)
     ax.set_ylim(0, len(strips))
     ax.set_yticks(
         [len(strips) - row - 0.5 for row in range(len(strips))], [name for name, _ in strips] if labelled else []
     )
     ax.tick_params(labelsize=7)
-    t = _times(c, k)
-    mark_impacts(ax, c.measured[k].features.impacts.times, float(t[0]), float(t[-1]))
+    mark_impacts(ax, c.measured[k].features.impacts.times, *stretch)
 
 
 def mark_impacts(ax: Any, times: np.ndarray, start: float, end: float) -> None:

@@ -35,12 +35,13 @@ def player(m: MeasuredRun, results: Sequence[tuple[str, RunComparison]], until: 
     first = results[0][1].aligned.response
     P = np.asarray(first.problem.points.P, dtype=np.float64)
     attitude = integrated(first.Lambda[0], run.t, run.crv)
-    nearest = np.clip(np.searchsorted(run.t, times), 0, len(run.t) - 1)
-    bodies = [_body("measured", angles(attitude)[nearest], lowest_points(attitude, P)[nearest], estimated=True)]
+    lowest = lowest_points(attitude, P)[_nearest(run.t, times)]
+    bodies = [_body("measured", _between(run.t, angles(attitude), times), lowest, estimated=True)]
     for name, r in results:
         response = r.aligned.response
-        rows = np.clip(np.searchsorted(response.t, times - r.shift), 0, len(response.t) - 1)
-        bodies.append(_body(name, angles(response.Lambda)[rows], _touched(response.anchored, rows), estimated=False))
+        own = times - r.shift
+        touched = _touched(response.anchored, _nearest(response.t, own))
+        bodies.append(_body(name, _between(response.t, angles(response.Lambda), own), touched, estimated=False))
     data = {
         "step": 1.0 / FRAME_RATE,
         "frames": len(times),
@@ -56,6 +57,17 @@ def player(m: MeasuredRun, results: Sequence[tuple[str, RunComparison]], until: 
         "the gyroscope."
     )
     return Player(f"Run {run.id} in motion", sentence, data)
+
+
+def _nearest(t: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Return the rows of t (N,) s, in even steps, nearest to times (M,) s."""
+    step = float(t[-1] - t[0]) / (len(t) - 1)
+    return np.clip(np.rint((times - t[0]) / step).astype(int), 0, len(t) - 1)
+
+
+def _between(t: np.ndarray, values: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Return values (N, 3) at t (N,) s at the instants times (M,) s, (M, 3), straight between rows."""
+    return np.stack([np.interp(times, t, column) for column in values.T], axis=-1)
 
 
 def _touched(anchored: np.ndarray, rows: np.ndarray) -> np.ndarray:

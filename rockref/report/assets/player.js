@@ -287,7 +287,7 @@
       });
     }
     new ResizeObserver(() => draw()).observe(stage);
-    rockref.players.push({ state: state, seek: seek, play: play });
+    rockref.players.push({ state: state, seek: seek, play: play, rotation: rotation, bodies: bodies });
     draw();
     figure.dataset.state = "ready";
   }

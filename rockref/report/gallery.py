@@ -1,0 +1,173 @@
+"""The effects, one after another: what each says of itself, and a picture of the crv with and without it.
+
+The command `rockref effects`, and the page of the documentation, are made from here.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rockref import api
+from rockref.effects.base import HOOKS, Effect
+from rockref.effects.catalogue import QUESTIONS, measured
+from rockref.model.channel import DEGREES
+from rockref.model.storage import write_bytes, write_text
+from rockref.report import style
+from rockref.report.figures import new_figure, rendered
+
+#: What each question asks, as a heading.
+TITLES = {
+    "contact": "How does the plate push back?",
+    "friction": "How does the plate hold the feet?",
+    "shape": "What is the block?",
+    "loads": "What else pulls and pushes?",
+    "support": "What does the plate stand on?",
+    "release": "How does the block start?",
+    "sensor": "What does the gyroscope make of it?",
+}
+#: Pictures last until a little after the second main impact [s], while one can still follow both curves.
+DURATION = 1.5
+
+
+def acts_at(kind: type[Effect]) -> list[str]:
+    """Names of the hooks that the effect overrides, in the order of the step."""
+    return [name for name in HOOKS if getattr(kind, name) is not getattr(Effect, name)]
+
+
+def card(kind: type[Effect]) -> dict[str, Any]:
+    """What an effect says of itself, in plain text and numbers."""
+    parameters = {
+        name: {
+            "meaning": q.meaning,
+            "unit": q.unit,
+            "absent": number(q.absent),
+            "typical": number(q.typical),
+            "plausible": [number(q.low), number(q.high)],
+            "sign": q.sign,
+        }
+        for name, q in kind.quantities.items()
+    }
+    return {
+        "id": kind.id,
+        "question": kind.question,
+        "sentence": kind.sentence,
+        "form": inspect.cleandoc(kind.__doc__ or ""),
+        "equation": kind.equation,
+        "source": kind.source,
+        "parameters": parameters,
+        "acts_at": acts_at(kind),
+        "confounder": kind.confounder,
+        "experiment": kind.experiment,
+        "example": words(kind.typical()),
+    }
+
+
+def number(value: float | None) -> float | str | None:
+    """A number as JSON can hold it."""
+    return "inf" if value is not None and math.isinf(value) else value
+
+
+def words(effect: Effect) -> str:
+    """The effect as it is written on the command line."""
+    values = ",".join(f"{name}={value:g}" for name, value in effect.values().items() if value is not None)
+    return f"{effect.file or effect.id}:{values}" if values else effect.file or effect.id
+
+
+def curves(
+    effect: Effect, duration: float = DURATION, progress: Callable[[float], None] | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times (N,) [s], and crv (N, 3) [deg/s] without and with the effect, for the block of Table 3.1.
+
+    `foot_defects` is shown against the four-point model, to which it belongs.
+    """
+    base = api.Model.four_points() if effect.id == "foot_defects" else api.Model.table_3_1()
+    without = api.simulate(base, duration=duration, engine="auto")
+    with_it = api.simulate(base.replace(effects=(effect,)), duration=duration, engine="auto", progress=progress)
+    shown = measured([effect], with_it.t, with_it.W)
+    return without.t, without.W * DEGREES, shown * DEGREES
+
+
+def picture(effect: Effect, duration: float = DURATION, progress: Callable[[float], None] | None = None) -> Any:
+    """A figure: the three rates, without the effect in grey and with it in colour."""
+    t, without, with_it = curves(effect, duration, progress)
+    figure = new_figure(8.0, 5.6)
+    axes = figure.subplots(3, 1, sharex=True)
+    for i, name in enumerate(style.AXIS_NAMES):
+        axes[i].plot(t, without[:, i], color=style.GREY, linewidth=0.9, label="without")
+        axes[i].plot(t, with_it[:, i], color=style.colour(0), linewidth=0.9, label="with")
+        axes[i].set_ylabel(f"{name}\n(deg/s)", fontsize=9)
+        axes[i].margins(y=0.08)
+        axes[i].axhline(0.0, color=style.BAND, linewidth=0.6, zorder=0)
+    axes[-1].set_xlabel("time (s)")
+    axes[-1].set_xlim(0.0, float(t[-1]))
+    axes[0].legend(loc="upper right", ncols=2, frameon=False, fontsize=8)
+    figure.suptitle(words(effect), fontsize=8, x=0.02, ha="left")
+    return figure
+
+
+def write_picture(
+    effect: Effect, path: Path, duration: float = DURATION, progress: Callable[[float], None] | None = None
+) -> None:
+    """Write the picture as .png or .svg, whole or not at all. Raises InputError (E-WRITE)."""
+    write_bytes(path, rendered(picture(effect, duration, progress), path.suffix.lstrip(".").lower()))
+
+
+def page() -> str:
+    """The page of the documentation, in Markdown."""
+    parts = [
+        "# Effects",
+        "What may be added to the law. `rockref effects NAME` prints the same; `rockref simulate --effect WORDS` and",
+        "a model file use it. Pictures show the block of Table 3.1, without the effect in grey and with it, at its",
+        "typical size, in colour.",
+    ]
+    for question, answers in QUESTIONS.items():
+        parts += ["", f"## {TITLES[question]}", "", f"The law: {answers[0].sentence}", "", f"$${answers[0].equation}$$"]
+        for kind in answers[1:]:
+            parts += ["", *section(kind)]
+    return "\n".join(parts) + "\n"
+
+
+def section(kind: type[Effect]) -> list[str]:
+    """One effect of the page, as lines."""
+    about = card(kind)
+    lines = [f"### {kind.id}", "", kind.sentence, "", f"$${kind.equation}$$", "", about["form"], ""]
+    lines += ["| parameter | meaning | unit | absent | typical | plausible |", "| --- | --- | --- | --- | --- | --- |"]
+    for name, p in about["parameters"].items():
+        low, high = p["plausible"]
+        cells = [f"`{name}`", p["meaning"], p["unit"], _text(p["absent"]), _text(p["typical"]), f"{low:g} to {high:g}"]
+        lines.append("| " + " | ".join(cells) + " |")
+    lines += ["", f"- Acts at: {', '.join(f'`{hook}`' for hook in about['acts_at'])}."]
+    lines += [f"- Most like it: [{kind.confounder}](#{kind.confounder}). What tells them apart: {kind.experiment}"]
+    lines += [f"- Source: {kind.source}."]
+    lines += ["", f"`rockref simulate --effect {about['example']}`", ""]
+    lines += [f"![crv with and without {kind.id}](effects/{kind.id}.png)"]
+    return lines
+
+
+def _text(value: float | str | None) -> str:
+    return "the top" if value is None else value if isinstance(value, str) else f"{value:g}"
+
+
+def write_pictures(folder: Path) -> None:
+    """Write the picture of every effect as id.png, where it is missing or older than the code that it shows."""
+    folder.mkdir(parents=True, exist_ok=True)
+    package = Path(__file__).parents[1]
+    shown = [*package.glob("model/*.py"), *package.glob("effects/**/*.py"), Path(__file__)]
+    changed = max(path.stat().st_mtime for path in shown)
+    for answers in QUESTIONS.values():
+        for kind in answers[1:]:
+            path = folder / f"{kind.id}.png"
+            if not path.exists() or path.stat().st_mtime < changed:
+                write_picture(kind.typical(), path)
+
+
+if __name__ == "__main__":
+    # The page of the documentation: python -m rockref.report.gallery docs/reference/effects_gallery.md
+    write_text(sys.argv[1], page())
