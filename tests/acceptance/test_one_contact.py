@@ -126,8 +126,8 @@ def test_mass_on_the_tangential_spring():
 def test_slide_stops_where_the_closed_form_says():
     """From 0.2 m/s: uniform deceleration, then the anchor holds and the mass swings on its damped spring.
 
-    While it slides the force is mu N and the anchor moves along (T4). The next trial force is larger than
-    mu N while K v > C mu g, so the slide ends at v_1 = C mu g / K; the spring is then stretched by (mu m g - C v_1) / K.
+    While it slides the force is mu N and the anchor moves along (T4). The next trial force is larger than mu N while
+    K v > C mu g, so the slide ends at v_1 = C mu g / K; the spring is then stretched by (mu m g - C v_1) / K.
     """
     v_0, mu = 0.2, 0.25
     response = tangential(v_0)
@@ -192,12 +192,15 @@ def test_stick_slip_on_an_incline():
     """A mass pulled up an incline by a spring whose end moves steadily: it sticks and jumps, in a closed-form rhythm.
 
     Spring k, end speed V, slope load p m g downhill, static and dynamic friction mu_0 and mu. It slips when the spring
-    has (p + mu_0) m g; then y = V t - u - (p + mu) m g / k swings from y_0 = (mu_0 - mu) m g / k with speed V until u
-    stands still again, at -y_0, after (2/w)(pi - atan(w y_0 / V)). It then sticks for 2 y_0 / V.
+    has (p + mu_0) m g; then y = V t - u - (p + mu) m g / k swings, from y_0 = (mu_0 - mu) m g / k with speed V, as
+    y_0 cos + V/w sin, until u is as slow as v_1 = C mu g / K. It then sticks until y is y_0 again.
     """
     k, V, p, mu_0, mu = 2e3, 0.5, 0.1, 0.3, 0.2
-    y_0, w = (mu_0 - mu) * MASS * G / k, np.sqrt(k / MASS)
-    slip, stick = 2 / w * (np.pi - np.arctan(w * y_0 / V)), 2 * y_0 / V
+    y_0, w, v_1 = (mu_0 - mu) * MASS * G / k, np.sqrt(k / MASS), C_T * mu * G / K_T
+    amplitude, phase = np.hypot(w * y_0, V), np.arctan2(w * y_0, V)
+    # speed of y: amplitude cos(w t + phase) = V - v_1, for the second time
+    slip = (2 * np.pi - np.arccos((V - v_1) / amplitude) - phase) / w
+    stick = (y_0 - amplitude / w * np.sin(w * slip + phase)) / V
     pull = physics.Pull(force=-p * MASS * G, stiffness=k, speed=V)
     response = tangential(0.0, duration=3.5, mu_0=mu_0, mu=mu, effects=(pull,), step=4e-4)
     sliding = response.sliding[:, 0].astype(int)
@@ -205,8 +208,8 @@ def test_stick_slip_on_an_incline():
     # The foot's spring in series gives way by k/K_T = 0.4 %, and the mass quivers on it when a slide has stopped.
     assert response.t[begins[0]] == pytest.approx((p + mu_0) * MASS * G / (k * V), rel=5e-3)
     assert len(begins) >= 3
-    assert response.t[ends[:2]] - response.t[begins[:2]] == pytest.approx([slip, slip], rel=1e-2)
+    assert response.t[ends[:2]] - response.t[begins[:2]] == pytest.approx([slip, slip], rel=5e-3)
     assert response.t[begins[1:3]] - response.t[ends[:2]] == pytest.approx([stick, stick], rel=2e-2)
     # each jump carries the mass by V times the period
     jumps = response.x[begins[1:3], 0] - response.x[begins[:2], 0]
-    assert jumps == pytest.approx([V * (slip + stick)] * 2, rel=1e-2)
+    assert jumps == pytest.approx([V * (slip + stick)] * 2, rel=5e-3)
