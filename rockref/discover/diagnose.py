@@ -1,4 +1,4 @@
-"""Which effect is missing: every candidate refitted under the same budget, confirmed on held-out runs, and a verdict."""
+"""Which effect is missing: candidates refitted under the same budget, confirmed on held-out runs, and a verdict."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
 REFITTED, ITERATIONS = 6, 3
-#: Further iterations of a winner before it is built on.
-POLISH = 3
+#: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
+WORTH_A_REFIT = 120.0
 
 
 @dataclass
@@ -157,11 +157,12 @@ def diagnose(
     while len(start.effects) < rules.MOST_EFFECTS:
         look = look_further(setup, experiment, start, seed, say)
         looks.append(look)
-        if not look.order or not rules.is_detected(look.gains[look.order[0].effects[-1]], size_of(look.order[0])):
+        if not look.order:
             break
-        start = look.order[0]
-        if len(start.effects) < rules.MOST_EFFECTS:
-            start = replace(start, point=start.fit.run(start.point, POLISH, np.random.default_rng(seed + 2)))
+        winner = look.order[0]
+        if not rules.is_detected(look.gains[winner.effects[-1]], size_of(winner), second=bool(start.effects)):
+            break
+        start = duel(setup, look, say)
     held = load_experiment(path, uses=(FIT, HOLDOUT))
     return conclude(setup, held, null, start, looks, seen, begun)
 
@@ -186,13 +187,37 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
     candidates = kinds(experiment.baseline, (*start.effects, "base_vibration", "gyro_saturation"))
     trials = screen(start.fit, start.point, candidates, setup, start.effects)
     kept = refit(Trial(start.effects, 0.0, 0.0, start.fit, start.point), ITERATIONS, seed + 1)
-    refitted = [refit(t, ITERATIONS, seed + 1) for t in trials[:REFITTED]]
+    worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
+    refitted = [refit(t, ITERATIONS, seed + 1) for t in worth]
     gains = {f.effects[-1]: gain_over(kept, f) for f in refitted}
     order = sorted(refitted, key=lambda f: -gains[f.effects[-1]])
     for f in order:
         id = f.effects[-1]
         say(f"  {id}: gain {gains[id]:.0f}, size {size_of(f):.2f}")
     return Look(kept, order, gains, trials)
+
+
+def duel(setup: Setup, look: Look, say) -> Family:
+    """The winner of a look and its near rivals, each fitted again from short windows on; the gains are brought up to date."""
+    near = rules.RIVAL_BEFORE_DUEL * look.gains[look.order[0].effects[-1]]
+    polished = []
+    for family in look.order[:3]:
+        if look.gains[family.effects[-1]] < near:
+            continue
+        fit, point = baseline(setup, family.effects, family.point.z, iterations=(4, 4))
+        polished.append(Family(family.effects, fit, point))
+        floor = 0.5 * fit.series.count.sum() * mean_loss(look.kept)
+        gain = gain_over(look.kept, polished[-1]) if same_windows(look.kept, polished[-1]) else floor - point.objective
+        look.gains[family.effects[-1]] = max(gain, 0.0)
+        say(f"  duel: {family.effects[-1]} {gain:.0f}")
+    look.order = sorted(polished, key=lambda f: -look.gains[f.effects[-1]])
+    return look.order[0]
+
+
+def same_windows(one: Family, other: Family) -> bool:
+    """Whether two families were compared on the same windows (a sensor effect moves the cuts)."""
+    a, b = one.fit.series, other.fit.series
+    return len(a.start) == len(b.start) and bool(np.all(a.start == b.start) and np.all(a.stop == b.stop))
 
 
 def gain_over(kept: Family, other: Family) -> float:

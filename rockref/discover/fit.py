@@ -14,7 +14,8 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.windows import STATES, Series
 
-#: Scale of the Cauchy loss in noise sigmas; decided: an impact half a sample early is some tens of sigmas and must not steer.
+#: Scale of the Cauchy loss in noise sigmas; decided: an impact half a sample early is some tens of sigmas and must not
+#: steer.
 CAUCHY = 5.0
 #: Mean loss of a window beyond which it counts only by its logarithm; decided: a window whose corner impacts come in
 #: the wrong order cannot be mended by parameters.
@@ -89,9 +90,20 @@ class Fit:
         self.state_prior = np.stack([spread, spread, *[np.full(s.B, RATE_ERROR)] * 3], axis=1)
         self.prior = np.array([p.prior for p in self.parameters])
         self.stated = np.array([r.release_tilt for r in s.runs])
+        self._last: tuple | None = None
 
     def models(self, z: np.ndarray) -> tuple[list[Model], np.ndarray]:
-        """One model a run, and the release tilts [rad]."""
+        """One model a run, and the release tilts [rad]; the last ones are kept."""
+        key = z.tobytes()
+        if self._last is None or self._last[0] != key:
+            self._last = (key, *self._models(z))
+        return self._last[1], self._last[2]
+
+    def forget(self) -> None:
+        """After the parameters themselves were exchanged."""
+        self._last = None
+
+    def _models(self, z: np.ndarray) -> tuple[list[Model], np.ndarray]:
         models = [self.base] * self.runs
         for p, zi in zip(self.parameters, z, strict=True):
             if p.run is None:

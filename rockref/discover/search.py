@@ -117,6 +117,7 @@ def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...]
         wide.parameters = tuple(
             replace(p, step=PROBE) if p.name.startswith(kind.id + ".") else p for p in wide.parameters
         )
+        wide.forget()
         z0 = np.concatenate([z, np.zeros(own)])
         Jc = wide.parameter_jacobian(z0, c, r, only=range(G, G + own))
         H, g, (H_ss, H_sg, g_s, _) = wide.reduced(r, Js, np.concatenate([Jg, Jc], axis=1), w, c, z0)

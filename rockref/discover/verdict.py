@@ -12,13 +12,17 @@ from rockref.effects import catalogue
 #: At most so many effects are looked for.
 MOST_EFFECTS = 2
 #: Gain (log-likelihood units, windows clipped) above which an effect is there; calibrated on controls.
-DETECTED = 150.0
+DETECTED = 350.0
+#: The same for a second effect, and its least size: what the first fit left unfinished gains something for everyone.
+SECOND, SECOND_SIZE = 900.0, 0.25
 #: Size, in typical sizes, below which an effect is not named: on controls gains come with sizes of 1 to 10 %.
-LEAST_SIZE = 0.15
+LEAST_SIZE = 0.2
 #: Rivals whose gain is above this share of the best one are not told apart from it.
 RIVAL = 0.80
+#: Rivals above this share of the best gain are fitted again from short windows on before the verdict.
+RIVAL_BEFORE_DUEL = 0.55
 #: Share of windows that stay structured above which nothing of the catalogue explains the runs.
-UNEXPLAINED = 0.25
+UNEXPLAINED = 0.30
 #: Factor on the linear standard deviation of an amplitude; calibrated so that 90 % intervals cover 90 %.
 INTERVAL = 2.0
 #: Held-out mean loss must fall by this much to prove an effect; below it the held-out runs were at their floor before.
@@ -27,7 +31,7 @@ HELD_OUT = 0.01
 
 @dataclass
 class Facts:
-    """What the fits say: effects kept, their sizes, gains of the rivals in the last look, how much stays unexplained."""
+    """What the fits say: effects kept, their sizes, gains of the rivals, how much stays unexplained."""
 
     effects: tuple[str, ...]
     sizes: dict[str, float]
@@ -49,9 +53,9 @@ class Decision:
     reasons: list[str] = field(default_factory=list)
 
 
-def is_detected(gain: float, size: float) -> bool:
+def is_detected(gain: float, size: float, second: bool = False) -> bool:
     """Whether an effect is there: enough gain, and not a trifle of it."""
-    return gain > DETECTED and size > LEAST_SIZE
+    return gain > (SECOND if second else DETECTED) and size > (SECOND_SIZE if second else LEAST_SIZE)
 
 
 def decide(facts: Facts) -> Decision:

@@ -37,7 +37,7 @@ class Cut:
 
 
 def cut(crv: np.ndarray, rate: float, shortest: float, longest: float, first_end: float, end: float) -> Cut:
-    """Cut a record where it is smooth: the first window ends after `first_end` s, the others last shortest to longest s.
+    """Cut a record where it is smooth: the first window ends after `first_end` s, the others have the given lengths.
 
     crv : (N, 3) [rad/s], with the gyroscope's filter undone; rate [Hz]; end [s]: what lies beyond is not used.
     """
@@ -139,6 +139,7 @@ class Series:
         self._weight = self.valid[:, :, None] / self.sigma
         self._rates: dict = {}
         self._rows = np.empty((0, col.STATE))
+        self._prepared: tuple | None = None
 
     def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
         """True rates of run i and the smoothed ones; kept for the sensors that were seen last."""
@@ -152,39 +153,52 @@ class Series:
             self._rates[key] = (np.ascontiguousarray(w), local_rates(w))
         return self._rates[key]
 
-    def batch(self, models, tilt: np.ndarray, corrections: np.ndarray, which: np.ndarray, sensor: Sensor) -> Batch:
-        """Windows `which` as one batch. models: one a run; tilt (runs,) [rad]; corrections (len(which), STATES)."""
-        B, run_of = len(which), self.run_of[which]
-        n = models[0].body()[1].n
-        body, P = np.empty((B, col.BODY)), np.empty((B, n, 3))
-        props, memory = np.empty((B, n, col.PROPS)), np.empty((B, n, col.MEMORY))
-        effects, state = np.empty((B, slots.SLOTS)), np.empty((B, col.STATE))
-        Lambda, W, upright, place = np.empty((B, 3, 3)), np.empty((B, 3)), np.empty((B, 3, 3)), np.empty((B, 3))
-        firsts = []
-        for i in np.unique(run_of):
-            turned = bool(self.runs[i].block_turned)
+    def prepared(self, models, tilt: np.ndarray, sensor: Sensor) -> tuple[np.ndarray, ...]:
+        """All windows but for their corrections; the last one is kept, since corrections move far more often.
+
+        body, centres' P, props, effects rows, attitude, rates, standing orientation and place, release state and memory.
+        """
+        key = (tuple(id(m) for m in models), tilt.tobytes())
+        if self._prepared is not None and self._prepared[0] == key:
+            return self._prepared[2]
+        B, n = self.B, models[0].body()[1].n
+        body, P, props = np.empty((B, col.BODY)), np.empty((B, n, 3)), np.empty((B, n, col.PROPS))
+        effects, state = np.empty((B, slots.SLOTS)), np.zeros((B, col.STATE))
+        memory, Lambda, W = np.zeros((B, n, col.MEMORY)), np.empty((B, 3, 3)), np.empty((B, 3))
+        upright, place = np.empty((B, 3, 3)), np.empty((B, 3))
+        for i, run in enumerate(self.runs):
+            turned = bool(run.block_turned)
             problem = pack.with_memory(models[i].problem(duration=1.0, theta_0=tilt[i], turned=turned))
-            at = np.flatnonzero(run_of == i)
+            at = np.flatnonzero(self.run_of == i)
             body[at], P[at], props[at] = pack.body_row(problem), problem.points.P, pack.props_rows(problem)
             effects[at] = pack.effects_row(problem)
             w, smooth = self.rates(i, sensor)
-            L = attitudes(np.ascontiguousarray(problem.start.Lambda), w, sensor.clock / self.rate)
-            Lambda[at], W[at] = L[self.start[which[at]]], smooth[self.start[which[at]]]
+            start = problem.start
+            L = attitudes(np.ascontiguousarray(start.Lambda), w, sensor.clock / self.rate)
+            Lambda[at], W[at] = L[self.start[at]], smooth[self.start[at]]
             standing = np.diag([-1.0, -1.0, 1.0]) if turned else np.eye(3)
-            own = problem.start
-            upright[at], place[at] = standing, standing_place(problem.points.P, standing, own.x, own.Lambda)
-            firsts.append((at[self.first[which[at]]], problem))
-        corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, np.zeros((B, 3)))
+            upright[at], place[at] = standing, standing_place(problem.points.P, standing, start.x, start.Lambda)
+            state[at], memory[at] = pack.state_row(problem), pack.memory_rows(start)
+        result = (body, P, props, effects, Lambda, W, upright, place, state, memory)
+        self._prepared = (key, models, result)
+        return result
+
+    def batch(self, models, tilt: np.ndarray, corrections: np.ndarray, which: np.ndarray, sensor: Sensor) -> Batch:
+        """Windows `which` as one batch. models: one a run; tilt (runs,) [rad]; corrections (len(which), STATES)."""
+        arrays = [a[which] for a in self.prepared(models, tilt, sensor)]
+        body, P, props, effects, Lambda, W, upright, place, release, release_memory = arrays
+        state, memory = np.empty_like(release), np.empty_like(release_memory)
+        loads = np.zeros((len(which), 3))
+        corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, loads)
         state[:, col.TIME] = state[:, col.ORIGIN] = self.time[which] * sensor.clock
-        for where, problem in firsts:
-            state[where], memory[where] = pack.state_row(problem), pack.memory_rows(problem.start)
+        first = self.first[which]
+        state[first], memory[first] = release[first], release_memory[first]
         per_sample = int(round(1 / self.rate / (STEP / self.refine)))
         rows = np.arange(int(self.length[which].max()) * self.ROWS_PER_SAMPLE + 1) * (
             per_sample // self.ROWS_PER_SAMPLE
         )
         wanted = np.minimum(rows[None, :], self.length[which, None] * per_sample).astype(np.int64)
-        h = sensor.clock / self.rate / per_sample
-        return Batch(body, P, props, memory, effects, state, h, wanted)
+        return Batch(body, P, props, memory, effects, state, sensor.clock / self.rate / per_sample, wanted)
 
     def simulate(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None) -> np.ndarray:
         """Modelled records at the samples of the windows `which` (default all), (len(which), M, 3) [rad/s]."""
@@ -222,7 +236,7 @@ class Series:
 def series(
     experiment: Experiment, runs, shortest: float, longest: float, end: float, sensor: Sensor | None = None, **options
 ) -> Series:
-    """Cut the runs into windows of `shortest` to `longest` s up to `end` s; the first one ends 45 ms after the impact."""
+    """Cut the runs into windows of `shortest` to `longest` s up to `end` s; the first ends 45 ms after the impact."""
     from rockref.measure.impacts import main_impacts
 
     cuts = []
