@@ -54,8 +54,8 @@ def add_falling(
     ]
     table = Table(f"{title}, deg/s", ("stretch", "axis", *(name for name, _ in states)), rows)
     sentence = (
-        "Dots: quadratic mean of measured minus modelled over windows of 50 to 90 ms, by axis. Dashes: what noise alone "
-        "makes, and by how much two repeated runs differ over the same time."
+        "Dots: quadratic mean of measured minus modelled over windows of 50 to 90 ms, by axis. Dashes: what noise "
+        "alone makes, and by how much two repeated runs differ over the same time."
     )
     page.add_figure(svg, sentence, table, title, keys)
 

@@ -1,0 +1,68 @@
+"""`rockref add`: one more effect in a model, and the error before and after."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``add`` to `app`."""
+    app.command("add")(add)
+
+
+def add(
+    effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`.")],
+    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    model: Annotated[
+        str | None, typer.Option("--model", "-m", help="What it is added to, a model.toml. Default: the baseline.")
+    ] = None,
+    output: Annotated[Path, typer.Option("--output", "-o", help="Where the new model goes.")] = Path(
+        "with_effect.toml"
+    ),
+    report: Annotated[Path | None, typer.Option("--report", help="Folder for page and figure.")] = None,
+    seed: Annotated[int, typer.Option(help="Seed of the random restarts.")] = 0,
+    workers: Annotated[int | None, typer.Option(help="Threads; default: one per core.")] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+) -> None:
+    """Fit an effect into a model together with all that it has, and show the error before and after.
+
+    By axis and stretch, on fit and on held-out runs, beside the noise floor and what two repeated runs differ by. The
+    new model keeps the history, so that a second effect shows the error fall again. Exit code 0, or 2 if the input
+    cannot be used.
+
+    \b
+    Example:
+      rockref add rolling_resistance data/experiments/mystery-05 -o with_rolling.toml
+      rockref add gyro_scale data/experiments/mystery-10 --model with_cable.toml -o with_both.toml --report report
+      rockref compare data/experiments/mystery-05 --model table_3_1 --model with_rolling.toml
+    """
+    from rockref.commands._models import named_model
+    from rockref.commands._stages import stages
+    from rockref.discover.add import add as run_addition
+    from rockref.discover.diagnosis_record import plain
+    from rockref.report.output import made_folder
+
+    given = named_model(model) if model is not None else None
+    folder = made_folder(report) if report is not None else None
+    with stages(f"adding {effect}", every_line=verbose) as say:
+        found = run_addition(effect, experiment, given, seed, workers, progress=say)
+    found.model.save(output)
+    written = [output]
+    if folder is not None:
+        from rockref.report.addition_page import write_addition
+
+        written.append(write_addition(found, folder))
+    if as_json:
+        record = found.to_dict() | {"written": [str(path) for path in written]}
+        typer.echo(json.dumps(plain(record), indent=1, allow_nan=False))
+    else:
+        from rich.console import Console
+
+        from rockref.report.addition_text import print_addition
+
+        print_addition(Console(), found)
+        for path in written:
+            typer.echo(f"wrote {path}")

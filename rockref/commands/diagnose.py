@@ -1,0 +1,77 @@
+"""`rockref diagnose`: which effect is missing."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``diagnose`` to `app`."""
+    app.command("diagnose")(diagnose)
+
+
+def diagnose(
+    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    model: Annotated[
+        str | None, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml to start from.")
+    ] = None,
+    report: Annotated[
+        Path | None, typer.Option("--report", help="Folder for the page (index.html); made if it is not there.")
+    ] = None,
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
+    save_model: Annotated[Path | None, typer.Option("--save-model", help="Write the best model there.")] = None,
+    seed: Annotated[int, typer.Option(help="Seed of the random restarts.")] = 0,
+    workers: Annotated[int | None, typer.Option(help="Threads; default: one per core.")] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
+) -> None:
+    """Say which physical effect the model lacks, how large it is, and how sure that is; or what it could not tell.
+
+    Fits the baseline and every candidate of the catalogue to the fit runs, confirms on the held-out runs. Exit code 0
+    if there is a verdict (none is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
+
+    \b
+    Example:
+      rockref diagnose data/experiments/mystery-05
+      rockref diagnose data/experiments/mystery-05 --report report
+      rockref diagnose data/experiments/mystery-05 --json > verdict.json
+    """
+    from rockref.commands._models import named_model
+    from rockref.commands._stages import stages
+    from rockref.discover import diagnose as engine
+    from rockref.discover.diagnosis_record import plain
+    from rockref.model.storage import write_text
+    from rockref.report.output import made_folder
+
+    given = named_model(model) if model is not None else None
+    folder = made_folder(report) if report is not None else None
+    with stages(f"diagnosing {experiment}", every_line=verbose) as say:
+        found = engine.diagnose(experiment, given, seed, workers, progress=say)
+        record = plain(found.to_dict())
+        written = []
+        if folder is not None:
+            from rockref.report.diagnosis_page import write_diagnosis
+
+            say("the page")
+            written.append(write_diagnosis(found, folder))
+    text = json.dumps(record, indent=1, allow_nan=False)
+    if output is not None:
+        write_text(output, text + "\n")
+        written.append(output)
+    if save_model is not None:
+        found.model.save(save_model)
+        written.append(save_model)
+    if as_json:
+        typer.echo(text)
+    else:
+        from rich.console import Console
+
+        from rockref.report.diagnosis_text import print_diagnosis
+
+        print_diagnosis(Console(), record)
+        for path in written:
+            typer.echo(f"wrote {path}")
+    if record["verdict"] == "not_trustworthy":
+        raise typer.Exit(1)

@@ -1,0 +1,60 @@
+"""`rockref fit`: the parameters of the baseline from measured runs."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``fit`` to `app`."""
+    app.command("fit")(fit)
+
+
+def fit(
+    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="Where the model goes, a .toml.")] = Path("model.toml"),
+    effect: Annotated[
+        list[str] | None, typer.Option("--effect", "-e", help="Id of an effect to fit along; may be repeated.")
+    ] = None,
+    model: Annotated[str | None, typer.Option("--model", "-m", help="Start from this model.toml.")] = None,
+    gates: Annotated[bool, typer.Option("--gates/--no-gates", help="Check the fit; costs as much again.")] = True,
+    seed: Annotated[int, typer.Option(help="Seed of the random restarts.")] = 0,
+    workers: Annotated[int | None, typer.Option(help="Threads; default: one per core.")] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+) -> None:
+    """Fit the baseline to the fit runs of an experiment, check the fit, write the model with its uncertainty.
+
+    Held-out runs are not opened. Without --effect the windows up to the first impact decide whether a sensor error or
+    a shaking base must come along. Exit code 0; 1 if a gate was not passed (the model is written all the same and says
+    so); 2 if the input cannot be used.
+
+    \b
+    Example:
+      rockref fit data/experiments/mystery-08 -o model.toml
+      rockref fit data/experiments/mystery-01 --effect quadratic_drag -o with_drag.toml
+      rockref fit data/experiments/mystery-08 --json > fit.json
+    """
+    from rockref.commands._models import named_model
+    from rockref.commands._stages import stages
+    from rockref.discover.fitting import fit_experiment
+
+    given = named_model(model) if model is not None else None
+    with stages("fitting", every_line=verbose) as say:
+        found = fit_experiment(
+            experiment, tuple(effect) if effect else None, given, seed, workers, check=gates, progress=say
+        )
+    found.model.save(output)
+    if as_json:
+        typer.echo(json.dumps(found.to_dict() | {"written": [str(output)]}, indent=1))
+    else:
+        from rich.console import Console
+
+        from rockref.report.fit_text import print_fit
+
+        print_fit(Console(), found)
+        typer.echo(f"wrote {output}")
+    if not found.passed:
+        raise typer.Exit(1)

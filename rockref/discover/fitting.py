@@ -1,0 +1,172 @@
+"""`rockref fit`: the baseline, with effects if wanted, found on the fit runs of an experiment, and its gates."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover.diagnose import Family, baseline_model, mean_loss
+from rockref.discover.errors import FIT_STRETCH, Errors, errors_of
+from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of, start_from
+from rockref.discover.gates import Gate, gates
+from rockref.discover.information import covariance, information
+from rockref.discover.presearch import suspects
+from rockref.discover.search import Setup, baseline
+from rockref.effects import catalogue
+from rockref.measure.experiment import FIT, Experiment, load_experiment
+from rockref.model.errors import InputError
+
+#: A set of effects without which the windows cannot even be restarted is taken along where it lowers the mean loss
+#: by this factor (as the diagnosis does).
+CLEARLY = 1.15
+
+
+@dataclass
+class Fitted:
+    """What `rockref fit` found: the model, its numbers, the gates, errors on the fit runs."""
+
+    experiment: Experiment
+    model: Model
+    effects: tuple[str, ...]
+    estimates: list[Estimate]
+    gates: list[Gate]
+    errors: Errors
+    mean_loss: float
+    seconds: float
+    setup: Setup = field(repr=False)
+    family: Family = field(repr=False)
+
+    @property
+    def passed(self) -> bool:
+        """Whether every gate was passed."""
+        return all(gate.passed for gate in self.gates)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers and words."""
+        from rockref.discover.provenance import versions
+
+        return {
+            "experiment": self.experiment.name,
+            "effects": list(self.effects),
+            "parameters": {e.name: e.to_dict() for e in self.estimates},
+            "gates": {"passed": self.passed, "checks": [gate.to_dict() for gate in self.gates]},
+            "error": {
+                "unit": "deg/s RMS",
+                "stretch": FIT_STRETCH.format(end=self.setup.end),
+                "noise_floor": self.errors.noise,
+                "fit": self.errors.total,
+            },
+            "mean_loss": round(self.mean_loss, 4),
+            "seconds": round(self.seconds, 1),
+            "versions": versions(self.experiment),
+        }
+
+
+def known_effects(ids: tuple[str, ...]) -> tuple[str, ...]:
+    """The ids, each once. Raises InputError (E-EFFECT) for one that nobody knows."""
+    for id in ids:
+        catalogue.find(id)
+    if len(set(ids)) != len(ids):
+        raise InputError("E-EFFECT", "--effect", f"{', '.join(ids)}: one is given twice", "Give each once.")
+    return ids
+
+
+def fit_experiment(
+    path: str | Path,
+    effects: tuple[str, ...] | None = None,
+    model: Model | None = None,
+    seed: int = 0,
+    workers: int | None = None,
+    end: float = 3.0,
+    check: bool = True,
+    progress: Callable[[str], None] | None = None,
+) -> Fitted:
+    """Find the parameters of the baseline on the fit runs; held-out runs are not opened.
+
+    Parameters
+    ----------
+    path : experiment folder; model : starts from it in place of the nominal baseline
+    effects : to be fitted along; None lets the release decide whether a sensor error or a shaking base comes along
+    seed : of the random restarts; workers : threads; end : seconds used of each run
+    check : go through the gates (costs about as much as the fit); progress : called with a line at every stage.
+
+    Raises
+    ------
+    InputError
+        where the experiment cannot be used, or an effect is unknown.
+    """
+    begun = time.perf_counter()
+    say = progress or (lambda line: None)
+    experiment = usable(load_experiment(path, uses=(FIT,)))
+    base = baseline_model(experiment, model)
+    setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say)
+    say("release windows")
+    if effects is None:
+        setup, family = chosen_family(setup)
+    else:
+        setup, _, seen = suspects(setup)
+        family = started_family(setup, known_effects(effects), seen["z"])
+    say("information of each run")
+    fit, point = family.fit, family.point
+    found = information(fit, point)
+    checks: list[Gate] = []
+    if check:
+        say("gates: another start")
+        checks = gates(fit, point, found)
+    numbers = in_file_order(estimates(fit, point, covariance(fit, found)))
+    seen_errors = errors_of(fit, point)
+    origin = origin_of(experiment, seed, "rockref fit") | {
+        "gates_passed": all(gate.passed for gate in checks) if checks else "not checked",
+        "history": [{"effects": list(family.effects), "fit_deg_s": seen_errors.total}],
+    }
+    return Fitted(
+        experiment=experiment,
+        model=fitted_model(fit, point, numbers, origin),
+        effects=family.effects,
+        estimates=numbers,
+        gates=checks,
+        errors=seen_errors,
+        mean_loss=mean_loss(family),
+        seconds=time.perf_counter() - begun,
+        setup=setup,
+        family=family,
+    )
+
+
+def usable(experiment: Experiment) -> Experiment:
+    """The experiment, if it has releases, a gyroscope and fit runs. Raises InputError (E-KIND, E-NO-FIT, E-TILT)."""
+    where = f"{experiment.path}"
+    if experiment.kind != "release" or experiment.gyro is None:
+        raise InputError("E-KIND", where, f"is a {experiment.kind}, or has no gyroscope", "Give releases.")
+    if not experiment.fit_runs():
+        raise InputError("E-NO-FIT", where, "has no fit run", 'Mark runs with use = "fit".')
+    if not experiment.tilt_uncertainty:
+        raise InputError("E-TILT", where, "states no uncertainty of the tilt", "Give [release] tilt_uncertainty_rad.")
+    return experiment
+
+
+def started_family(setup: Setup, effects: tuple[str, ...], seen: np.ndarray | None = None, iterations=(6, 5)) -> Family:
+    """The baseline with these effects, begun where the release windows or the setup's own model say."""
+    plain = replace(setup, base=setup.base.replace(effects=()))
+    parameters = plain.parameters(effects)
+    z = start_from(parameters, setup.base)
+    if seen is not None:
+        n = len(seen)
+        z[:n] = np.where(z[:n] == 0, np.clip(seen, -2, 2), z[:n])
+    fit, point = baseline(plain, effects, z, iterations=iterations)
+    return Family(effects, fit, point)
+
+
+def chosen_family(setup: Setup) -> tuple[Setup, Family]:
+    """The plain baseline, or the one with what the release windows suspect, whichever is clearly nearer."""
+    setup, sets, seen = suspects(setup)
+    families = [started_family(setup, effects, None if len(sets) > 1 else seen["z"]) for effects in sets]
+    best = min(families, key=mean_loss)
+    plain = families[0]
+    return setup, best if mean_loss(plain) > CLEARLY * mean_loss(best) else plain
