@@ -2,18 +2,35 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
-try:
-    import numba
-except ImportError:  # the simulator is then right, and some thousand times slower
-    numba = None
-
-#: Whether the simulator is compiled.
-COMPILED = numba is not None
+#: Whether the simulator is compiled. Where it is not it is as right, and some thousand times slower.
+COMPILED = find_spec("numba") is not None
 
 
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return `function` compiled without fastmath and kept on disk; unchanged where numba is missing."""
-    return function if numba is None else numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+    """Return `function` compiled without fastmath, for calls by compiled code; unchanged where numba is missing."""
+    return _compile(function, cache=False)
+
+
+def kept(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The same, kept on disk. What it calls in other files is not watched: close it over their :func:`fingerprint`."""
+    return _compile(function, cache=True)
+
+
+def fingerprint(*names: str) -> int:
+    """A number that changes with the text of any of these modules of this folder."""
+    here = Path(__file__).parent
+    return int.from_bytes(hashlib.sha256(b"".join((here / f"{n}.py").read_bytes() for n in names)).digest()[:7], "big")
+
+
+def _compile(function: Callable[..., Any], cache: bool) -> Callable[..., Any]:
+    if not COMPILED:
+        return function
+    import numba
+
+    return numba.njit(cache=cache, nogil=True, error_model="numpy")(function)

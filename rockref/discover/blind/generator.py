@@ -31,7 +31,9 @@ RUNS = (
 )
 
 
-def simulate(world: World, tilt: float, turned: bool = False, seconds: float = SECONDS, step: float = STEP) -> np.ndarray:
+def simulate(
+    world: World, tilt: float, turned: bool = False, seconds: float = SECONDS, step: float = STEP
+) -> np.ndarray:
     """Body rates (N, 3) [rad/s] at `recorder.FINE` lines a second of a block released at `tilt` [rad]."""
     x, R, pivots = posture.stand(world, tilt, turned)
     q = posture.quaternion(R)
@@ -102,13 +104,13 @@ def make_case(
         form = bool(rng.random() < 0.3) if other_form is None else other_form
         found.append({"id": id, "size": size, **draw(world, rng, size, form, (values or {}).get(id, {}))})
     tables, truths = [], []
-    for number, (id, use, stated, turned) in enumerate(runs):
+    for number, (id, _use, stated, turned) in enumerate(runs):
         jitter = JITTER * rng.normal()
         tilt = stated * parameters["theta_0"] / NOMINAL_TILT + jitter
         one = copy.deepcopy(world)
-        own = {}
+        own: dict[str, float] = {}
         for change in world.each_run:
-            own.update(change(one, rng, number) or {})
+            own.update(change(one, rng, number))
         need = recorder.seconds_needed(one.sensor, seconds)
         rates = simulate(one, tilt, turned, np.ceil(need * 100) / 100)
         if one.sensor.range < 0:  # a share of the largest rate of the first run
@@ -128,7 +130,9 @@ def _write(folder: Path, name: str, baseline: str, runs: Sequence[tuple], tables
     for id, (t, rates) in tables:
         text = io.StringIO()
         text.write("t_s,wx_deg_s,wy_deg_s,wz_deg_s\n")
-        np.savetxt(text, np.column_stack([t, rates / recorder.DEGREE]), fmt=["%.3f", "%.2f", "%.2f", "%.2f"], delimiter=",")
+        np.savetxt(
+            text, np.column_stack([t, rates / recorder.DEGREE]), fmt=["%.3f", "%.2f", "%.2f", "%.2f"], delimiter=","
+        )
         # No time and no name in the head: the same bytes whenever it is made.
         _put(folder / f"run{id}.csv.gz", gzip.compress(text.getvalue().encode(), 6, mtime=0))
     head = f"""name = "{name}"

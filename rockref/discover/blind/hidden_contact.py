@@ -133,7 +133,9 @@ def mass_eccentricity(world: World, rng, size, other, given):
         r = arm - shift
         world.J += 3.0 * (r @ r * np.eye(3) - np.outer(r, r))
         world.J += (world.mass - 3.0) * (shift @ shift * np.eye(3) - np.outer(shift, shift))
-    return said(dict(zip("xyz", map(float, shift), strict=True)), "a lump of 3 kg with its inertia" if other else CATALOGUE)
+    return said(
+        dict(zip("xyz", map(float, shift), strict=True)), "a lump of 3 kg with its inertia" if other else CATALOGUE
+    )
 
 
 def inertia_deviation(world: World, rng, size, other, given):
@@ -145,7 +147,10 @@ def inertia_deviation(world: World, rng, size, other, given):
         product = signed(rng, 0.004 * size) * world.J[0, 0]
         world.J[1, 2] += product
         world.J[2, 1] += product
-    return said(dict(zip(("xx", "yy", "zz"), map(float, s), strict=True)), "a product of inertia comes along" if other else CATALOGUE)
+    return said(
+        dict(zip(("xx", "yy", "zz"), map(float, s), strict=True)),
+        "a product of inertia comes along" if other else CATALOGUE,
+    )
 
 
 def dimension_deviation(world: World, rng, size, other, given):
@@ -158,7 +163,9 @@ def dimension_deviation(world: World, rng, size, other, given):
         moments = np.trace(world.J) / 2 * np.eye(3) - world.J
         moments *= np.outer(s, s)
         world.J = np.trace(moments) * np.eye(3) - moments
-    return said(dict(zip(("width", "depth", "height"), map(float, s), strict=True)), "the inertia stays" if other else CATALOGUE)
+    return said(
+        dict(zip(("width", "depth", "height"), map(float, s), strict=True)), "the inertia stays" if other else CATALOGUE
+    )
 
 
 def foot_defects(world: World, rng, size, other, given):

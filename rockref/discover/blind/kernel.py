@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rockref.discover.blind.compiled import compiled
+from rockref.discover.blind.compiled import compiled, fingerprint, kept
 from rockref.discover.blind.contact import CN, CT, KN, KT, MU, film, friction, normal_force, pull
 from rockref.discover.blind.loads import hung_force, load_on_body
 from rockref.discover.blind.slots import G, P
@@ -147,7 +147,7 @@ def foot_forces(x, v, R, w_plate, points, props, memory, plate, g, dt, F, M, rea
 
 
 @compiled
-def run(x, v, q, w, J, J_inverse, mass, points, props, g, plate, hung, hung_v, steps, dt, every, rates):
+def _run(x, v, q, w, J, J_inverse, mass, points, props, g, plate, hung, hung_v, steps, dt, every, rates):
     """Integrate `steps` steps of dt [s] and write the body rates [rad/s] every `every` steps to rates (N, 3).
 
     Changed in place: x, v (3,), q (4,), w (3,) body; plate (4,), hung, hung_v (3,). points (n, 3), props (n, POINT).
@@ -223,3 +223,16 @@ def run(x, v, q, w, J, J_inverse, mass, points, props, g, plate, hung, hung_v, s
             for k in range(3):
                 rates[row, k] = w[k]
             row += 1
+
+
+def _entry(sources: int):
+    @kept
+    def run(x, v, q, w, J, J_inverse, mass, points, props, g, plate, hung, hung_v, steps, dt, every, rates):
+        if sources != 0:
+            _run(x, v, q, w, J, J_inverse, mass, points, props, g, plate, hung, hung_v, steps, dt, every, rates)
+
+    return run
+
+
+#: The simulation as Python calls it: arguments as in `_run`.
+run = _entry(fingerprint("slots", "contact", "loads", "kernel"))

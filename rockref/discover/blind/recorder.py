@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rockref.discover.blind.compiled import compiled
+from rockref.discover.blind.compiled import kept
 from rockref.discover.blind.world import Sensor
 
 DEGREE = math.pi / 180
@@ -15,9 +15,9 @@ NOISE, BANDWIDTH, RESOLUTION, SAMPLE_RATE = 0.05 * DEGREE, 300.0, 0.01 * DEGREE,
 FINE = 10_000
 
 
-@compiled
+@kept
 def oscillator(u, out, frequency, ratio, dt):
-    """Write the low-pass (second order, Hz, damping ratio) of u (N, 3) to out (N, 3): two half-steps of the midpoint."""
+    """Write the second-order low-pass (Hz, damping ratio) of u (N, 3) to out (N, 3), by the midpoint rule."""
     w = 2.0 * math.pi * frequency
     h = 0.5 * w * dt
     scale = 1.0 / (1.0 + 2.0 * ratio * h + h * h)
@@ -32,7 +32,7 @@ def oscillator(u, out, frequency, ratio, dt):
             out[i, k] = y
 
 
-@compiled
+@kept
 def follower(u, out, frequency, dt):
     """Write the first-order low-pass (Hz) of u (N, 3) to out (N, 3), midpoint rule."""
     h = math.pi * frequency * dt
@@ -78,7 +78,9 @@ def true_time(sensor: Sensor, t: np.ndarray) -> np.ndarray:
     return sensor.clock * t + 0.5 * sensor.clock_bend * t * t
 
 
-def record(rates: np.ndarray, sensor: Sensor, seconds: float, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+def record(
+    rates: np.ndarray, sensor: Sensor, seconds: float, rng: np.random.Generator
+) -> tuple[np.ndarray, np.ndarray]:
     """The table that the recorder keeps: t (N,) [s] and rates (N, 3) [rad/s], of rates (M, 3) at FINE lines a second.
 
     Mounting, ringing of the mount, scale, low-pass, its own 300 Hz, clock, lost packets, bias and drift, noise,

@@ -65,7 +65,7 @@ class World:
     kick: np.ndarray
     sensor: Sensor
     kick_at: float = 0.0
-    each_run: list[Callable[..., None]] = field(default_factory=list)
+    each_run: list[Callable[..., dict[str, float]]] = field(default_factory=list)
 
     def __getitem__(self, name: str) -> float:
         return float(self.g[G[name]])

@@ -1,0 +1,97 @@
+"""`rockref blind make` and `rockref blind score`: verdicts on hidden effects, tested without knowing them."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``blind make`` and ``blind score`` to `app`."""
+    group = typer.Typer(
+        no_args_is_help=True, rich_markup_mode=None, help="Test the discoverer on sealed hidden effects."
+    )
+    group.command("make")(make)
+    group.command("score")(score)
+    app.add_typer(group, name="blind")
+
+
+def make(
+    folder: Annotated[Path, typer.Argument(help="Folder to make; an interrupted one is gone on with.")],
+    seed: Annotated[int, typer.Option(help="Draws the plan and every case.")],
+    cases: Annotated[int, typer.Option(min=1, help="How many cases.")] = 120,
+    effects: Annotated[
+        str | None,
+        typer.Option(help='Cases of your own instead: "none,gyro_scale,rolling_resistance:2,plate_tilt+gyro_drift".'),
+    ] = None,
+    workers: Annotated[int | None, typer.Option(help="Processes; one a core by default.")] = None,
+    dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the manifest.")] = False,
+) -> None:
+    """Make experiments with hidden effects, by a simulator that shares no code with the model, and seal the truth.
+
+    A fifth are controls with nothing hidden, half have one effect at half, once or twice its typical size, the others
+    two effects, effects that are in no list, and twins that no one could tell apart. MANIFEST.json holds the digest
+    of the truth. Some seconds a case with numba, an hour a case without.
+
+    \b
+    Example:
+      rockref blind make blind --seed 7
+      rockref blind make small --seed 1 --effects none,cable_restraint,stribeck_friction,gyro_scale,loose_mass_y
+    """
+    from rockref.commands._progress import progress
+    from rockref.discover.blind import making, plan
+    from rockref.model.errors import InputError
+
+    chosen = None
+    if effects is not None:
+        try:
+            chosen = plan.listed(seed, [word.strip() for word in effects.split(",") if word.strip()])
+        except ValueError as error:
+            known = ", ".join(["none", *plan.EFFECTS, *plan.OUTSIDERS])
+            raise InputError("E-EFFECT", "--effects", f"does not understand {error}", f"Known are {known}.") from None
+    with progress("making cases") as ahead:
+        manifest = making.make(folder, seed, cases, cases=chosen, workers=workers, dask=dask, progress=ahead)
+    if as_json:
+        typer.echo(json.dumps(manifest, indent=1))
+    else:
+        typer.echo(f"{len(manifest['cases'])} cases in {folder}; truth sealed, SHA-256 {manifest['truth_sha256']}")
+
+
+def score(
+    folder: Annotated[Path, typer.Argument(help="Folder made by `rockref blind make`.")],
+    workers: Annotated[int | None, typer.Option(help="Cases at a time; one a core by default.")] = None,
+    dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
+    rivals: Annotated[bool, typer.Option("--rivals/--no-rivals", help="Score simpler methods beside it.")] = True,
+    check: Annotated[bool, typer.Option("--check", help="End with 1 if a goal is not met.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+) -> None:
+    """Diagnose the cases that have no verdict yet, then open the truth and print the table of scores.
+
+    Verdicts are kept in the case folders (verdict.json), so an interrupted run goes on, and verdicts of another tool
+    can be scored. Their digests are written to VERDICTS.json before the truth is opened; all goes to scores.json.
+
+    \b
+    Example:
+      rockref blind score blind --workers 2
+      rockref blind score blind --json > scores.json
+    """
+    from rockref.commands._progress import progress
+    from rockref.discover.blind import scoring, table
+
+    with progress("diagnosing cases") as ahead:
+        found = scoring.score(folder, workers=workers, dask=dask, with_rivals=rivals, progress=ahead)
+    if as_json:
+        typer.echo(json.dumps(found, indent=1))
+    else:
+        typer.echo(table.as_text(found["scores"]))
+        for line in found["failures"]:
+            typer.echo(f"- {line}")
+        for name, rows in found["rivals"].items():
+            typer.echo("\n" + table.as_text(rows, name))
+        for what, whole in found["sealed"].items():
+            if not whole:
+                typer.echo(f"rockref: not as it was sealed: {what}", err=True)
+    if check and any(row["met"] is False for row in found["scores"]):
+        raise typer.Exit(1)
