@@ -22,6 +22,8 @@ from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
 REFITTED, ITERATIONS = 6, 3
+#: The plain baseline is built on unless a suspect of the presearch fits better by this factor of mean loss (decided).
+NO_WORSE = 1.1
 #: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
 WORTH_A_REFIT = 120.0
 
@@ -144,14 +146,15 @@ def diagnose(
     setup, sets, seen = suspects(setup)
     families = []
     for effects in sets:
-        hopeless = not effects and len(sets) > 1
+        hopeless = not effects and bool(seen.get("starts"))
         z = np.zeros(len(setup.parameters(effects)))
-        z[: len(seen["z"])] = 0 if hopeless else np.clip(seen["z"], -2, 2)
-        fit, point = baseline(setup, effects, z, iterations=(4, 2) if hopeless else (6, 5))
+        known = np.clip(seen.get("starts", {}).get(effects, seen["z"]), -3, 3)
+        z[: len(known)] = 0 if hopeless else known
+        fit, point = baseline(setup, effects, z, iterations=(2, 1) if hopeless else (6, 5))
         families.append(Family(effects, fit, point))
     null = families[0]
     start = min(families, key=mean_loss)
-    if mean_loss(null) < 1.15 * mean_loss(start):
+    if mean_loss(null) < NO_WORSE * mean_loss(start):
         start = null
     looks = []
     while len(start.effects) < rules.MOST_EFFECTS:

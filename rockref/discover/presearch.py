@@ -1,4 +1,4 @@
-"""What must be known before the runs can be cut into windows: a sensor that misleads the reconstruction, a base that shakes."""
+"""What must be known before the runs are cut into windows: a sensor that misleads, a base that shakes."""
 
 from __future__ import annotations
 
@@ -38,10 +38,13 @@ def release_fit(setup: Setup, effects: tuple[str, ...] = (), iterations: int = 6
 
 
 def tone(setup: Setup, fit: Fit, point: Point, low: float = 2.0, high: float = 60.0) -> tuple[float, float]:
-    """Frequency [Hz] of the strongest tone in the residuals of the release, and its power against the median one."""
+    """Frequency [Hz] of the strongest tone in the residuals of the release, and its power against the median one.
+
+    The power counts as far as it is as strong in the second half as in the first: a block that settles rings down.
+    """
     r = fit.residual(point.z, point.corrections)
     frequencies = np.arange(low, high, 0.1)
-    power = np.zeros(len(frequencies))
+    power, halves = np.zeros(len(frequencies)), np.zeros((2, len(frequencies)))
     for b in range(r.shape[0]):
         n = int(fit.series.length[b])
         t = np.arange(n) / fit.series.rate
@@ -52,8 +55,11 @@ def tone(setup: Setup, fit: Fit, point: Point, low: float = 2.0, high: float = 6
             A = A - X @ np.linalg.lstsq(X, A, rcond=None)[0]
             coefficient = np.linalg.lstsq(A, y, rcond=None)[0]
             power[k] += np.sum((A @ coefficient) ** 2)
+            for j, part in enumerate((slice(None, n // 2), slice(n // 2, None))):
+                halves[j, k] += np.sum((A[part] @ np.linalg.lstsq(A[part], y[part], rcond=None)[0]) ** 2)
     best = int(np.argmax(power))
-    return float(frequencies[best]), float(power[best] / max(np.median(power), 6.0 * r.shape[0]))
+    steady = 2 * halves[:, best].min() / max(halves[:, best].sum(), 1e-9)
+    return float(frequencies[best]), float(steady * power[best] / max(np.median(power), 6.0 * r.shape[0]))
 
 
 def flat_tops(setup: Setup) -> float | None:
@@ -77,25 +83,30 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
     Returns the setup (with the frequency of a tone), the sets, and what was seen at release (for the report).
     """
     fit, point = release_fit(setup)
-    seen = {"loss": float(np.mean(2 * point.loss / fit.series.count)), "z": point.z}
+    seen: dict = {"loss": float(np.mean(2 * point.loss / fit.series.count)), "z": point.z}
     sets: list[tuple[str, ...]] = [()]
-    frequency, strength = tone(setup, fit, point)
-    seen |= {"tone_hz": frequency, "tone_strength": strength}
-    if strength > TONE:
-        setup = replace(setup, frequency=frequency)
-        sets.append(("base_vibration",))
     if (limit := flat_tops(setup)) is not None:
         seen["flat_top"] = limit
         sets.append(("gyro_saturation",))
+    best = (fit, point)
     if seen["loss"] > STRONG:
         whole = excess(fit, point)
         ranked = []
         for id in MISLEADING[:5]:
             other, trial = release_fit(setup, (id,))
             share = 1 - excess(other, trial) / max(whole, 1e-9)
-            ranked.append((share, id))
+            ranked.append((share, id, other, trial))
             setup.log(f"  release: {id} explains {share:.2f}")
-        ranked.sort(reverse=True)
-        seen["release_shares"] = {id: share for share, id in ranked}
-        sets += [(id,) for share, id in ranked[:2] if share > EXPLAINED]
+        ranked.sort(key=lambda row: -row[0])
+        seen["release_shares"] = {id: share for share, id, _, _ in ranked}
+        taken = [row for row in ranked[:2] if row[0] > EXPLAINED]
+        sets += [(id,) for _, id, _, _ in taken]
+        seen["starts"] = {(id,): trial.z for _, id, _, trial in taken}
+        best = taken[0][2:] if taken else best
+    frequency, strength = tone(setup, *best)
+    seen |= {"tone_hz": frequency, "tone_strength": strength}
+    setup.log(f"  release: strongest tone {frequency:.2f} Hz, {strength:.1f} times the median")
+    if strength > TONE:
+        setup = replace(setup, frequency=frequency)
+        sets.append(("base_vibration",))
     return setup, sets, seen
