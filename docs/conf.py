@@ -27,3 +27,12 @@ copybutton_exclude = ".linenos, .gp, .go"
 html_theme = "furo"
 html_title = f"rockref {release}"
 html_static_path: list[str] = []
+
+
+def setup(app):
+    """Draw the pictures of the effects; they are not kept with the text."""
+    from pathlib import Path
+
+    from rockref.report.gallery import write_pictures
+
+    app.connect("builder-inited", lambda app: write_pictures(Path(app.srcdir, "reference", "effects")))

@@ -1,0 +1,81 @@
+"""`rockref effects`: what may be added to the law."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from rockref.effects.base import Effect
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``effects`` to `app`."""
+    app.command("effects")(effects)
+
+
+def effects(
+    name: Annotated[
+        str | None, typer.Argument(help="An effect: id, id:key=value, or path/to/file.py:Class. Without it, the list.")
+    ] = None,
+    picture: Annotated[
+        Path | None, typer.Option("--picture", "-p", help="Draw the crv with and without it, .png or .svg.")
+    ] = None,
+    duration: Annotated[float, typer.Option(help="Seconds that the picture shows.")] = 1.5,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of lines.")] = False,
+) -> None:
+    """List the effects, or show one: equation, source, parameters, what it is mistaken for, and a picture.
+
+    \b
+    Example:
+      rockref effects
+      rockref effects quadratic_drag
+      rockref effects gyro_scale:x=1.05 --picture scale.png
+      rockref effects examples/my_effect.py:EddyBrake
+    """
+    from rockref.effects.catalogue import QUESTIONS, parse
+    from rockref.model.errors import InputError
+    from rockref.report import gallery
+
+    if name is None:
+        if picture is not None:
+            raise InputError("E-EFFECT", "--picture", "needs an effect", "Write rockref effects NAME --picture FILE.")
+        if as_json:
+            kinds = [kind for answers in QUESTIONS.values() for kind in answers[1:]]
+            typer.echo(json.dumps([gallery.card(kind) for kind in kinds], indent=2))
+            return
+        for question, answers in QUESTIONS.items():
+            typer.echo(f"{question}: {gallery.TITLES[question]}")
+            for kind in answers:
+                typer.echo(f"  {kind.id:24} {kind.sentence}")
+        return
+    if picture is not None and picture.suffix.lower() not in (".png", ".svg"):
+        raise InputError("E-SUFFIX", str(picture), "is no kind of picture", "End its name in .png or .svg.")
+    effect = parse(name, "effects")
+    typer.echo(json.dumps(gallery.card(type(effect)), indent=2) if as_json else text(effect))
+    if picture is not None:
+        from rockref.commands._progress import progress
+
+        with progress("simulating") as report:
+            gallery.write_picture(effect, picture, duration, report)
+        if not as_json:
+            typer.echo(f"wrote        {picture}")
+
+
+def text(effect: "Effect") -> str:
+    """What is shown of an effect, as lines."""
+    from rockref.report import gallery
+
+    about = gallery.card(type(effect))
+    lines = [f"{about['id']} ({about['question']})", "", about["sentence"], "", about["form"], ""]
+    lines += [f"equation     {about['equation']}", f"source       {about['source']}", "parameters"]
+    for key, p in about["parameters"].items():
+        low, high = p["plausible"]
+        unit = "" if p["unit"] == "1" else f" {p['unit']}"
+        absent = "the top" if p["absent"] is None else f"{p['absent']}{unit}"
+        lines.append(f"  {key:12} {p['meaning']}")
+        lines.append(f"  {'':12} absent {absent}; plausible {low:g} to {high:g}{unit}; here {getattr(effect, key)}")
+    lines += [f"acts at      {', '.join(about['acts_at'])}", f"confounder   {about['confounder']}"]
+    lines += [f"told apart   {about['experiment']}", f"to use it    rockref simulate --effect {gallery.words(effect)}"]
+    return "\n".join(lines)

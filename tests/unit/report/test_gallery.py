@@ -1,0 +1,53 @@
+"""The gallery: page and pictures are made from what the effects say of themselves."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from rockref.effects.base import HOOKS
+from rockref.effects.catalogue import EFFECTS
+from rockref.report import gallery
+
+DOCS = Path(__file__).resolve().parents[3] / "docs"
+
+
+def test_the_page_in_the_documentation_is_current():
+    """Made anew by `python -m rockref.report.gallery docs/reference/effects_gallery.md`."""
+    assert (DOCS / "reference/effects_gallery.md").read_text(encoding="utf-8") == gallery.page()
+
+
+def test_the_page_has_a_section_and_a_picture_for_each():
+    page = gallery.page()
+    assert re.findall(r"^### (\w+)$", page, re.MULTILINE) == [
+        kind.id for answers in gallery.QUESTIONS.values() for kind in answers[1:]
+    ]
+    for id in EFFECTS:
+        assert f"](effects/{id}.png)" in page
+
+
+def test_hooks_are_explained_with_their_arguments():
+    howto = (DOCS / "howto/own_effect.md").read_text(encoding="utf-8")
+    for name, arguments in HOOKS.items():
+        assert f"| `{name}({', '.join(arguments)})` |" in howto
+
+
+def test_curves_are_those_of_the_law_and_of_the_effect():
+    t, without, with_it = gallery.curves(EFFECTS["gyro_scale"](2.0, 1.0, 1.0), duration=0.02)
+    assert t[-1] == 0.02
+    assert np.array_equal(with_it[:, 0], 2 * without[:, 0]) and np.array_equal(with_it[:, 1:], without[:, 1:])
+    _, four, eight = gallery.curves(EFFECTS["foot_defects"].typical(), duration=0.02)
+    assert not np.array_equal(four, eight)
+
+
+def test_words_are_what_the_command_line_reads():
+    assert gallery.words(EFFECTS["cable_restraint"](5.0, 0.3)) == "cable_restraint:k=5,c=0.3"
+    assert gallery.words(EFFECTS["gyro_bandwidth"].typical()) == "gyro_bandwidth:frequency=40"
+
+
+def test_pictures_are_drawn_once(tmp_path, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(gallery, "write_picture", lambda effect, path: (drawn.append(effect.id), path.write_text("")))
+    gallery.write_pictures(tmp_path / "effects")
+    gallery.write_pictures(tmp_path / "effects")
+    assert sorted(drawn) == sorted(EFFECTS)
