@@ -108,5 +108,10 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
     setup.log(f"  release: strongest tone {frequency:.2f} Hz, {strength:.1f} times the median")
     if strength > TONE:
         setup = replace(setup, frequency=frequency)
-        sets.append(("base_vibration",))
+        other, trial = release_fit(setup, ("base_vibration",), iterations=12)
+        share = 1 - excess(other, trial) / max(excess(fit, point), 1e-9)
+        setup.log(f"  release: base_vibration explains {share:.2f}")
+        if share > EXPLAINED:
+            sets.append(("base_vibration",))
+            seen.setdefault("starts", {})["base_vibration",] = trial.z
     return setup, sets, seen
