@@ -141,10 +141,8 @@ def weak_rows(t, crv, tilt: float, turned: bool, experiment, width: float = 0.06
         "cable_restraint place": tilt - lean,
         "rolling_resistance": -np.sign(w) * np.cos(lean),
         "plate_tilt": np.cos(lean),
-        "mass_eccentricity side": lab * np.cos(lean),
-        "mass_eccentricity height": np.sin(lean),
+        "mass_eccentricity": lab * np.cos(lean),
         "lingering_wire_pull": np.exp(-t / 0.3),
-        "rounded_feet": side * np.abs(lean),
         "gyro_drift": t,
         "clock_error": -gravity * t,
     }

@@ -1,0 +1,50 @@
+"""`rockref blind`: what it refuses, and what it prints."""
+
+import json
+
+import pytest
+
+from rockref import cli
+from rockref.discover.blind import making, scoring
+
+
+def run(capsys, *arguments):
+    with pytest.raises(SystemExit) as end:
+        cli.main(["blind", *map(str, arguments)])
+    return end.value.code, capsys.readouterr()
+
+
+def test_an_effect_that_does_not_exist_is_refused(capsys, tmp_path):
+    code, printed = run(capsys, "make", tmp_path / "b", "--seed", 1, "--effects", "none,gyro_scal")
+    assert code == 2 and "gyro_scal" in printed.err and not (tmp_path / "b").exists()
+
+
+def test_a_folder_that_is_no_blind_test_is_refused(capsys, tmp_path):
+    code, printed = run(capsys, "score", tmp_path)
+    assert code == 2 and "rockref blind make" in printed.err
+
+
+def test_make_hands_over_what_was_asked_for(capsys, tmp_path, monkeypatch):
+    asked = {}
+
+    def make(folder, seed, n, **more):
+        asked.update(more, seed=seed, n=n)
+        return {"truth_sha256": "abc", "cases": {"case-001": {}}}
+
+    monkeypatch.setattr(making, "make", make)
+    code, printed = run(capsys, "make", tmp_path, "--seed", 7, "--effects", "none, plate_tilt+gyro_drift:2", "--json")
+    assert code == 0 and json.loads(printed.out)["truth_sha256"] == "abc"
+    assert asked["seed"] == 7 and [c.effects for c in asked["cases"]] == [
+        (),
+        (("plate_tilt", 1.0), ("gyro_drift", 2.0)),
+    ]
+
+
+def test_check_ends_with_1_where_a_goal_is_missed(capsys, tmp_path, monkeypatch):
+    row = {"score": "a", "value": 0.5, "low": 0.3, "high": 0.7, "n": 4, "goal": ">= 0.9", "met": False, "percent": True}
+    found = {"scores": [row], "failures": ["case-001"], "rivals": {"r": [row]}, "sealed": {"truth": False}}
+    monkeypatch.setattr(scoring, "score", lambda *a, **k: found)
+    code, printed = run(capsys, "score", tmp_path, "--check")
+    assert code == 1 and "| a | 50.0 % | 30.0 % to 70.0 % | 4 | >= 0.9 | **no** |" in printed.out
+    assert "not as it was sealed: truth" in printed.err
+    assert run(capsys, "score", tmp_path)[0] == 0

@@ -1,0 +1,64 @@
+"""The gyroscope of the blind test: what each of its faults does to a known signal."""
+
+import numpy as np
+import pytest
+
+from rockref.discover.blind import recorder
+from rockref.discover.blind.world import Sensor
+
+T = np.arange(recorder.FINE + 500) / recorder.FINE
+#: Five sigma of the white noise, and half a resolution.
+NOISY = 5 * recorder.NOISE + 0.5 * recorder.RESOLUTION
+
+
+def tone(frequency):
+    return np.repeat(np.sin(2 * np.pi * frequency * T)[:, None], 3, axis=1)
+
+
+def recorded(rates, sensor=None, seconds=1.0):
+    return recorder.record(rates, sensor or Sensor(), seconds, np.random.default_rng(0))[1]
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_low_pass_halves_the_power_at_its_frequency(order):
+    out = recorder.low_pass(tone(50.0), 50.0, order)[5000:10000, 0]
+    # The midpoint rule warps 50 Hz at 10 kHz by (pi 50/1e4)^2/3 = 1e-4.
+    assert np.sqrt(2 * np.mean(out**2)) == pytest.approx(np.sqrt(0.5), rel=1e-3)
+
+
+def test_slow_motion_is_late_by_three_quarters_of_a_millisecond():
+    ramp = np.repeat(T[:, None], 3, axis=1)
+    late = T[5000] - recorder.low_pass(ramp, recorder.BANDWIDTH)[5000, 0]
+    assert late == pytest.approx(np.sqrt(2) / (2 * np.pi * recorder.BANDWIDTH), rel=1e-6)
+
+
+def test_noise_and_resolution():
+    u = recorded(np.zeros((len(T), 3)))
+    assert np.std(u) == pytest.approx(recorder.NOISE, rel=0.05)  # 3000 values: 1.3 %, four of those
+    assert np.abs(u / recorder.RESOLUTION - np.round(u / recorder.RESOLUTION)).max() < 1e-9
+
+
+def test_a_clock_that_is_slow_shows_a_higher_tone():
+    u = recorded(tone(2.0), Sensor(clock=1.02))
+    t = np.arange(len(u)) / 1000
+    delay = np.sqrt(2) / (2 * np.pi * recorder.BANDWIDTH)
+    expected = np.sin(2 * np.pi * 2.0 * (1.02 * t - delay))
+    assert np.abs(u[50:, 0] - expected[50:]).max() < NOISY
+
+
+def test_bias_drift_scale_and_mounting():
+    sensor = Sensor(bias=np.array([0.02, 0, 0]), drift=np.array([0, 0.03, 0]), scale=np.array([1.1, 1, 1]))
+    sensor.turn = np.array([[0, 1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
+    u = recorded(np.tile([0.1, 0.2, 0.3], (len(T), 1)), sensor)
+    assert u[-1] == pytest.approx([1.1 * 0.2 + 0.02, 0.1 + 0.03, 0.3], abs=NOISY)
+
+
+def test_stops_are_flat():
+    u = recorded(tone(2.0), Sensor(range=0.5))
+    top = np.round(0.5 / recorder.RESOLUTION) * recorder.RESOLUTION
+    assert u.max() == pytest.approx(top) and np.mean(np.abs(u[:, 0]) == u.max()) > 0.5
+
+
+def test_lost_packets_repeat_the_ones_before():
+    u = recorder._lose(np.arange(90.0).reshape(30, 3), Sensor(lost_packets=1.0, packet=10), np.random.default_rng(0))
+    assert u[10:20] == pytest.approx(np.arange(90.0).reshape(30, 3)[:10])
