@@ -65,7 +65,7 @@ class Model:
     def from_chromosome_54(cls, genes: np.ndarray, **changes) -> Model:
         """A model from 54 genes (see `rockref.model.parameters.chromosome_54`)."""
         properties, delta_long, delta_diag, theta_0 = split_54(genes)
-        parameters = Parameters(delta_long=tuple(map(float, delta_long)), delta_diag=delta_diag, theta_0=theta_0)
+        parameters = Parameters(delta_diag=delta_diag, theta_0=theta_0).replace(delta_long=delta_long)
         return cls(parameters=parameters, properties=properties, **changes)
 
     @classmethod
@@ -80,7 +80,8 @@ class Model:
     def replace(self, **changes) -> Model:
         """A copy with some values changed: fields of the model, or parameters by name (K_N=..., theta_0=...)."""
         own = {f.name for f in fields(self)}
-        of_parameters = {k: changes.pop(k) for k in list(changes) if k in Parameters.__dataclass_fields__ and k not in own}
+        known = set(Parameters.__dataclass_fields__) - own
+        of_parameters = {k: changes.pop(k) for k in list(changes) if k in known}
         unknown = [k for k in changes if k not in own]
         if unknown:
             raise model_file.unknown_key("Model.replace", unknown[0], own | set(Parameters.__dataclass_fields__))
@@ -107,20 +108,23 @@ class Model:
         """Block and contact points as arrays, with the effects on geometry and mass applied."""
         self.check()
         p = self.parameters
-        inertia = cuboid_inertia(self.mass, self.width, self.depth, self.height) if self.inertia is None else self.inertia
+        sides = self.width, self.depth, self.height
+        inertia = cuboid_inertia(self.mass, *sides) if self.inertia is None else self.inertia
         block = Block(np.array(float(self.mass)), np.array(inertia, float), np.array(float(self.g)))
         if self.points == "custom":
             if self.custom_points is None:
                 raise InputError("E-KEY", "custom_points", "is missing", 'Give the points, or points = "eight_points".')
             points = self.custom_points
         else:
+            names: tuple[str, ...]
             if self.points == "eight_points":
-                P, names = eight_points(self.width, self.depth, self.height, p.delta_long, p.delta_diag), EXTERNAL + INTERNAL
+                P, names = eight_points(*sides, p.delta_long, p.delta_diag), EXTERNAL + INTERNAL
             else:
-                P, names = four_points(self.width, self.depth, self.height), EXTERNAL
+                P, names = four_points(*sides), EXTERNAL
             q = self.properties or point_properties(p, self.mass, np.array([n.endswith("ext") for n in names]))
             radius = np.full(len(names), float(self.foot_radius)) if self.foot_radius else None
-            points = ContactPoints(P, *(np.array(q[k], float)[: len(names)] for k in PROPERTIES), radius, names)
+            own = {k: np.array(q[k], float)[: len(names)] for k in PROPERTIES}
+            points = ContactPoints(P=P, radius=radius, names=names, **own)
         for effect in self.active_effects():
             block, points = effect.points(block, points)
         return block, points

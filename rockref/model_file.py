@@ -34,7 +34,17 @@ PARAMETER_KEYS = {
 }
 POINT_KEYS = {"set": "points", "foot_radius_m": "foot_radius"}
 PROPERTY_KEYS = {"K_N_N_m": "K_N", "K_T_N_m": "K_T", "C_N_N_s_m": "C_N", "C_T_N_s_m": "C_T", "mu_0": "mu_0", "mu": "mu"}
-SECTIONS = ("format", "block", "points", "parameters", "properties", "custom_points", "effects", "uncertainty", "origin")
+SECTIONS = (
+    "format",
+    "block",
+    "points",
+    "parameters",
+    "properties",
+    "custom_points",
+    "effects",
+    "uncertainty",
+    "origin",
+)
 
 
 def unknown_key(where: str, key: str, known) -> InputError:
@@ -122,7 +132,10 @@ def load(cls, path: str | os.PathLike):
     if "custom_points" in tables:
         values["custom_points"] = _custom_points(where, tables)
     values["effects"] = catalogue.from_table(where, tables.get("effects", {}))
-    values["uncertainty"], values["origin"] = table(where, tables, "uncertainty", None), table(where, tables, "origin", None)
+    values["uncertainty"], values["origin"] = (
+        table(where, tables, "uncertainty", None),
+        table(where, tables, "origin", None),
+    )
     model = cls(**values)
     try:
         model.check()
@@ -146,8 +159,10 @@ def _custom_points(where: str, tables: dict) -> ContactPoints:
     n = len(names)
     P = np.array(number(f"{where}: [custom_points] P_m", given.get("P_m"), 3 * n)).reshape(n, 3)
     q = _properties(f"{where}: [custom_points]", given, n)
-    radius = np.array(number(f"{where}: [custom_points] radius_m", given["radius_m"], n)) if "radius_m" in given else None
-    return ContactPoints(P, *(q[k] for k in PROPERTIES), radius, tuple(names))
+    radius = (
+        np.array(number(f"{where}: [custom_points] radius_m", given["radius_m"], n)) if "radius_m" in given else None
+    )
+    return ContactPoints(P=P, radius=radius, names=tuple(names), **q)
 
 
 def plain(value: Any) -> Any:
@@ -184,7 +199,10 @@ def save(model, path: str | os.PathLike) -> None:
     for key, value in tables.items():
         if isinstance(value, dict):
             if value:
-                document[key] = {k: ({i: plain(j) for i, j in v.items()} if isinstance(v, dict) else plain(v)) for k, v in value.items()}
+                document[key] = {
+                    k: ({i: plain(j) for i, j in v.items()} if isinstance(v, dict) else plain(v))
+                    for k, v in value.items()
+                }
         else:
             document[key] = value
     write_text(path, tomlkit.dumps(document))

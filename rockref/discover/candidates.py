@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 
 from rockref.api import Model
 from rockref.discover.fit import Parameter
 from rockref.effects import catalogue
-from rockref.effects.base import Effect
+from rockref.effects.base import Effect, Quantity
+from rockref.effects.loads.base_vibration import BaseVibration
 
 #: Parameters that shape an effect but do not bring it in: they are found on a logarithmic scale about their typical
 #: value. name -> spread (decided: a factor of about two).
@@ -30,6 +32,8 @@ FACTORS = {
     "uneven_foot_friction": 0.3,
     "stribeck_friction": 0.4,
 }
+#: Effects that are absent at infinity: found as the inverse of their parameter.
+INVERSE = ("gyro_bandwidth", "gyro_saturation")
 #: Prior standard deviation in typical sizes; decided: what is five times the typical size is not expected.
 PRIOR = 3.0
 #: Where the search starts in typical sizes for effects that the law at their absence does not see change.
@@ -71,27 +75,24 @@ def parameters_of(kind: type[Effect], runs: int, frequency: float | None = None)
     switches = [k for k in kind.quantities if (kind.id, k) not in SHAPES and (kind.id, k) not in FIXED]
     shapes = [k for k in kind.quantities if (kind.id, k) in SHAPES]
     for key in [*switches, *shapes]:
-        q = kind.quantities[key]
-        name = f"{kind.id}.{key}"
-        common = {"unit": q.unit, "step": 0.05}
-        if key in shapes:
-            spread = SHAPES[kind.id, key]
-            found.append(Parameter(name, setter(kind, key), q.typical, spread, log=True, prior=1.0, **common))
-        elif kind.id in FACTORS:
-            found.append(Parameter(name, setter(kind, key), 1.0, FACTORS[kind.id], log=True, prior=PRIOR, **common))
-        elif kind.id == "compliant_support":
-            found.append(Parameter(name, support_setter(kind), 0.0, 1.0, low=0.0, prior=PRIOR, **common))
-        elif kind.id == "gyro_bandwidth":
-            found.append(Parameter(name, inverse_setter(kind, key), 0.0, 1 / q.typical, low=0.0, prior=PRIOR, **common))
-        elif kind.id == "gyro_saturation":
-            found.append(Parameter(name, inverse_setter(kind, key), 0.0, 1 / q.typical, low=0.0, prior=PRIOR, **common))
-        else:
-            size = abs(q.typical - q.absent)
-            low = q.absent if q.sign == "+" else max(q.least, -float("inf"))
-            found.append(
-                Parameter(name, setter(kind, key), q.absent, size, prior=PRIOR, low=low, high=q.most, **common)
-            )
+        found.append(parameter_of(kind, key, kind.quantities[key]))
     return tuple(found)
+
+
+def parameter_of(kind: type[Effect], key: str, q: Quantity) -> Parameter:
+    """One parameter of an effect as a number that a fit can move."""
+    typical, absent = float(q.typical or 0.0), float(q.absent or 0.0)
+    make = partial(Parameter, f"{kind.id}.{key}", unit=q.unit, step=0.05)
+    if (kind.id, key) in SHAPES:
+        return make(setter(kind, key), typical, SHAPES[kind.id, key], log=True, prior=1.0)
+    if kind.id in FACTORS:
+        return make(setter(kind, key), 1.0, FACTORS[kind.id], log=True, prior=PRIOR)
+    if kind.id == "compliant_support":
+        return make(support_setter(kind), 0.0, 1.0, low=0.0, prior=PRIOR)
+    if kind.id in INVERSE:
+        return make(inverse_setter(kind, key), 0.0, 1 / typical, low=0.0, prior=PRIOR)
+    low = absent if q.sign == "+" else q.least
+    return make(setter(kind, key), absent, abs(typical - absent), prior=PRIOR, low=low, high=q.most)
 
 
 def inverse_setter(kind: type[Effect], key: str):
@@ -103,7 +104,8 @@ def inverse_setter(kind: type[Effect], key: str):
 def vibration_parameters(kind: type[Effect], runs: int, frequency: float | None = None) -> tuple[Parameter, ...]:
     """Frequency and direction of a base vibration, and for each run its cosine and sine amplitude (its own phase)."""
     q = kind.quantities
-    size = q["amplitude"].typical
+    size = float(q["amplitude"].typical or 1.0)
+    first = frequency or float(q["frequency"].typical or 10.0)
 
     def component(real: bool):
         def set_value(model: Model, value: float) -> Model:
@@ -111,6 +113,7 @@ def vibration_parameters(kind: type[Effect], runs: int, frequency: float | None 
             if not there and value == 0:
                 return model
             e = current(model, kind)
+            assert isinstance(e, BaseVibration)
             c, s = e.amplitude * math.cos(e.phase), e.amplitude * math.sin(e.phase)
             c, s = (value, s) if real else (c, value)
             return with_effect(model, replace(e, amplitude=math.hypot(c, s), phase=math.atan2(s, c)))
@@ -124,7 +127,7 @@ def vibration_parameters(kind: type[Effect], runs: int, frequency: float | None 
         return set_value
 
     found = [
-        Parameter(f"{kind.id}.frequency", shape("frequency"), frequency or q["frequency"].typical, 0.02, log=True,
+        Parameter(f"{kind.id}.frequency", shape("frequency"), first, 0.02, log=True,
                   step=0.05, prior=10.0, unit="Hz"),
         Parameter(f"{kind.id}.direction", shape("direction"), 0.0, 0.5, prior=3.0, unit="rad", step=0.05),
     ]  # fmt: skip
@@ -137,7 +140,7 @@ def vibration_parameters(kind: type[Effect], runs: int, frequency: float | None 
 
 def support_setter(kind: type[Effect]):
     """A support is absent when it is rigid: found as its compliance against that of the typical frequency."""
-    typical, direct = kind.quantities["frequency"].typical, setter(kind, "frequency")
+    typical, direct = float(kind.quantities["frequency"].typical or 60.0), setter(kind, "frequency")
     return lambda model, value: direct(model, typical / value**0.5 if value > 1e-3 else 0.0)
 
 
@@ -145,8 +148,9 @@ def value_of(parameter: Parameter, z: float) -> float:
     """The effect's own number at z (an inverse is turned back)."""
     v = parameter.value(z)
     if parameter.name == "compliant_support.frequency":
-        return catalogue.EFFECTS["compliant_support"].quantities["frequency"].typical / v**0.5 if v > 1e-3 else 0.0
-    if parameter.name.split(".")[0] in ("gyro_bandwidth", "gyro_saturation"):
+        typical = float(catalogue.EFFECTS["compliant_support"].quantities["frequency"].typical or 60.0)
+        return typical / v**0.5 if v > 1e-3 else 0.0
+    if parameter.name.split(".")[0] in INVERSE:
         return 1 / v if v > 0 else float("inf")
     return v
 

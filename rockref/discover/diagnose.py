@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from rockref.discover.fit import Fit, Point
 from rockref.discover.presearch import suspects
 from rockref.discover.search import Setup, Trial, baseline, screen
 from rockref.discover.signature import signature
+from rockref.discover.windows import gyro_of
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
@@ -178,7 +179,7 @@ def mean_loss(family: Family) -> float:
 
 @dataclass
 class Look:
-    """Candidates on top of a family: the family refitted, the candidates by gain, their gains, all that were screened."""
+    """Candidates on top of a family: the family refitted, the candidates by gain, their gains, all that were tried."""
 
     kept: Family
     order: list[Family]
@@ -202,7 +203,7 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
 
 
 def duel(setup: Setup, look: Look, say) -> Family:
-    """The winner of a look and its near rivals, each fitted again from short windows on; the gains are brought up to date."""
+    """The winner of a look and its near rivals, each fitted again from short windows on; gains are mended."""
     near = rules.RIVAL_BEFORE_DUEL * look.gains[look.order[0].effects[-1]]
     polished = []
     for family in look.order[:3]:
@@ -259,7 +260,7 @@ def conclude(
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
     card = signature(null.fit, null.point, final.fit, final.point)
     total = {id: max(g, 0.0) for id, g in look.gains.items()}
-    noise = float(np.degrees(setup.experiment.gyro.noise))
+    noise = float(np.degrees(gyro_of(setup.experiment).noise))
     shown = final if kept else null
     return Diagnosis(
         experiment=experiment,

@@ -120,7 +120,7 @@ class Fit:
         return self.series.residual(models, tilt, corrections, which)
 
     def window_loss(self, r: np.ndarray, which=None) -> np.ndarray:
-        """Robust loss of each window, on the scale of half the sum of squares: Cauchy per sample, logarithm above CAP."""
+        """Robust loss of each window, as half a sum of squares: Cauchy per sample, logarithm above CAP."""
         total = CAUCHY**2 / 2 * np.sum(np.log1p((r / CAUCHY) ** 2), axis=(1, 2))
         count = self.series.count if which is None else self.series.count[which]
         mean = total / count * 2

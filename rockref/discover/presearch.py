@@ -8,6 +8,7 @@ import numpy as np
 
 from rockref.discover.fit import Fit, Point
 from rockref.discover.search import Setup, release_windows
+from rockref.discover.windows import gyro_of
 
 #: Sensor effects that spoil the reconstructed state, so that every window misfits whatever the physics.
 MISLEADING = ("gyro_misalignment", "gyro_scale", "gyro_drift", "gyro_bandwidth", "clock_error", "gyro_saturation")
@@ -68,11 +69,11 @@ def flat_tops(setup: Setup) -> float | None:
     for run in setup.runs:
         x = np.abs(run.crv)
         top = x.max()
-        resolution = setup.experiment.gyro.resolution
+        resolution = gyro_of(setup.experiment).resolution
         near = np.sum(np.any(x > top - 0.6 * resolution, axis=1))
         if near >= 12:
             limits.append(top)
-    if len(limits) < max(2, len(setup.runs) // 2) or np.ptp(limits) > 2 * setup.experiment.gyro.resolution:
+    if len(limits) < max(2, len(setup.runs) // 2) or np.ptp(limits) > 2 * gyro_of(setup.experiment).resolution:
         return None
     return float(np.median(limits))
 

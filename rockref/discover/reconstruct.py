@@ -105,10 +105,10 @@ def _skew(r):
 def corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, loads):
     """Start states of B windows on the corner that carries the block, quasi-statically.
 
-    Lambda : (B, 3, 3), W : (B, 3) reconstructed attitude and rates; corrections : (B, 5) tilt and roll [rad, body axes],
-    rates [rad/s]. body (B, BODY), P (B, n, 3), props (B, n, PROPS) as in the compiled step; upright : (B, 3, 3)
-    orientation and place : (B, 3) position of the standing block, which place the corner on the plate [m]; loads : (B, 3) further acceleration that
-    acts like gravity [m/s2]. Fills state (B, STATE) and memory (B, n, MEMORY).
+    Lambda : (B, 3, 3), W : (B, 3) reconstructed attitude and rates; corrections : (B, 5) tilt and roll [rad, body
+    axes], rates [rad/s]. body (B, BODY), P (B, n, 3), props (B, n, PROPS) as in the compiled step; upright : (B, 3, 3)
+    orientation and place : (B, 3) position of the standing block, which place the corner on the plate [m];
+    loads : (B, 3) further acceleration that acts like gravity [m/s2]. Fills state (B, STATE) and memory (B, n, MEMORY).
 
     The lowest point is the pivot. The block turns rigidly about it, which gives velocity and acceleration of the
     centre of mass and the force at the pivot; penetration and anchor are set so that the springs carry this force.
@@ -131,14 +131,14 @@ def corner_starts(Lambda, W, corrections, body, P, props, upright, place, state,
         r[2] -= radius
         mass, g = body[b, 0], body[b, 1]
         J = body[b, 2:11].copy().reshape(3, 3)
-        I = L @ J @ L.T
+        inertia = L @ J @ L.T
         omega = L @ w_body
-        R, O = _skew(r), _skew(omega)
+        R, S = _skew(r), _skew(omega)
         gravity = np.array([-loads[b, 0], -loads[b, 1], g - loads[b, 2]])
         # a_G = -(domega x r) - omega x (omega x r);  F = m (a_G + g e_z);  I domega + omega x I omega = r x F
-        A = I - mass * (R @ R)
-        Orr = O @ (O @ r)
-        rhs = -(O @ (I @ omega)) + mass * (R @ (gravity - Orr))
+        A = inertia - mass * (R @ R)
+        Orr = S @ (S @ r)
+        rhs = -(S @ (inertia @ omega)) + mass * (R @ (gravity - Orr))
         domega = _solve3(A, rhs)
         acceleration = R @ domega - Orr
         F = mass * (acceleration + gravity)

@@ -74,8 +74,8 @@ def _records(states, A, fast, slow, has_slow, follows, length, M, per, start, dt
 def records(states, matrix, fast, slow, follows, length, M, per, start, dt, bias, drift, limit) -> np.ndarray:
     """What the gyroscope shows of B windows, (B, M, 3) [rad/s].
 
-    states (B, R, STATE) with `per` rows a sample; matrix (3, 3) scale and misalignment; fast, slow : coefficients of the
-    gyroscope's filter and of a further one (or None), which runs on over windows that follow their predecessor;
+    states (B, R, STATE) with `per` rows a sample; matrix (3, 3) scale and misalignment; fast, slow : coefficients of
+    the gyroscope's filter and of a further one (or None), which runs on over windows that follow their predecessor;
     length (B,) samples; start (B,) [s] and dt [s] on the device's clock; bias, drift, limit as in `Sensor`.
     """
     out = np.empty((states.shape[0], M, 3))

@@ -10,7 +10,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.candidates import parameters_of
 from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters
-from rockref.discover.windows import STATES, Cut, Series, sensor_of, series
+from rockref.discover.windows import STATES, Cut, Series, gyro_of, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
 from rockref.measure.impacts import main_impacts
@@ -18,6 +18,8 @@ from rockref.measure.impacts import main_impacts
 #: Stages: window lengths [s] and most iterations; decided: short windows pull the parameters near, longer ones weigh
 #: what accumulates (drag, cable, eccentricity).
 SHORT, MIDDLE = (0.025, 0.05), (0.05, 0.09)
+#: Where an experiment states none [rad]; decided: 1 mm of wire (the source's "±0.08°").
+TILT_UNCERTAINTY = 1.4e-3
 #: Seconds of each run that the first stage looks at.
 FIRST_STAGE = 1.6
 
@@ -37,7 +39,7 @@ class Setup:
 
     def parameters(self, effects: tuple[str, ...] = ()) -> tuple[Parameter, ...]:
         """Baseline, tilts, and those of the effects."""
-        own = baseline_parameters(self.base, len(self.runs), self.experiment.tilt_uncertainty)
+        own = baseline_parameters(self.base, len(self.runs), self.experiment.tilt_uncertainty or TILT_UNCERTAINTY)
         extra = [p for e in effects for p in parameters_of(catalogue.find(e), len(self.runs), self.frequency)]
         return (*own, *extra)
 
@@ -51,7 +53,7 @@ def release_windows(setup: Setup) -> Series:
     cuts = []
     for run in setup.runs:
         impact = float(main_impacts(run.t, run.crv).times[0])
-        cuts.append(Cut(np.array([0]), np.array([int((impact - 0.03) * setup.experiment.gyro.sample_rate)])))
+        cuts.append(Cut(np.array([0]), np.array([int((impact - 0.03) * gyro_of(setup.experiment).sample_rate)])))
     return Series(setup.experiment, setup.runs, cuts, workers=setup.workers)
 
 
@@ -80,7 +82,8 @@ def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None =
         fit = setup.fit(windows(replace(setup, end=end), lengths, model), effects)
         point = fit.point(z, np.zeros((fit.series.B, STATES)))[0]
         setup.log(
-            f"{' + '.join(effects) or 'baseline'}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s, {point.objective:.0f}"
+            f"{' + '.join(effects) or 'baseline'}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s, "
+            f"{point.objective:.0f}"
         )
         point = fit.relax_states(point, 2)
         point = fit.run(point, most, rng)
@@ -104,7 +107,7 @@ class Trial:
 
 
 def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...] = ()) -> list[Trial]:
-    """Every candidate by one Gauss-Newton step of everything (nuisances, corrections, candidate) from the fit's point."""
+    """Every candidate by one Gauss-Newton step of everything (nuisances, corrections, candidate) from a fit's point."""
     z, c = point.z, point.corrections
     r = fit.residual(z, c)
     Js, Jg, w = fit.state_jacobian(z, c, r), fit.parameter_jacobian(z, c, r), fit.weights(r)

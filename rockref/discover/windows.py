@@ -17,7 +17,8 @@ from rockref.discover.record import filter_coefficients, records
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
-from rockref.measure.experiment import Experiment
+from rockref.measure.experiment import Experiment, Gyro
+from rockref.model.errors import InputError
 
 #: Step inside windows [s]; decided: 16 steps a millisecond; halving it changes the residual by less than a hundredth
 #: of the noise (the gate measures it again on every experiment).
@@ -26,6 +27,14 @@ STEP = 1e-3 / 16
 SETTLE = 4
 #: Corrections of a window's start: tilt, roll [rad], three rates [rad/s].
 STATES = 5
+
+
+def gyro_of(experiment: Experiment) -> Gyro:
+    """The data sheet of an experiment's gyroscope. Raises InputError (E-GYRO) where it has none."""
+    if experiment.gyro is None:
+        cure = "Windows are restarted from gyroscope records; state [gyro] in experiment.toml."
+        raise InputError("E-GYRO", f"{experiment.path}: [gyro]", "is missing", cure)
+    return experiment.gyro
 
 
 @dataclass(frozen=True)
@@ -82,19 +91,20 @@ def sensor_of(model: Model) -> Sensor:
     """The sensor effects of a model as one Sensor."""
     values: dict = {}
     for e in model.effects:
+        v = e.values()
         if e.id == "gyro_misalignment":
-            values["turn"] = np.array([e.x, e.y, e.z])
+            values["turn"] = np.array([v["x"], v["y"], v["z"]])
         elif e.id == "gyro_scale":
-            values["scale"] = np.array([e.x, e.y, e.z])
+            values["scale"] = np.array([v["x"], v["y"], v["z"]])
         elif e.id == "gyro_drift":
-            values["bias"] = np.array([e.bias_x, e.bias_y, e.bias_z])
-            values["drift"] = np.array([e.rate_x, e.rate_y, e.rate_z])
+            values["bias"] = np.array([v["bias_x"], v["bias_y"], v["bias_z"]])
+            values["drift"] = np.array([v["rate_x"], v["rate_y"], v["rate_z"]])
         elif e.id == "gyro_bandwidth":
-            values["bandwidth"] = e.frequency
+            values["bandwidth"] = v["frequency"]
         elif e.id == "gyro_saturation":
-            values["range"] = e.range
+            values["range"] = v["range"]
         elif e.id == "clock_error":
-            values["clock"] = e.rate
+            values["clock"] = v["rate"]
     return Sensor(**values)
 
 
@@ -120,7 +130,7 @@ class Series:
     def __init__(self, experiment: Experiment, runs, cuts, refine: int = 1, workers: int | None = None):
         self.experiment, self.runs, self.cuts = experiment, tuple(runs), tuple(cuts)
         self.refine, self.workers = refine, workers
-        gyro = experiment.gyro
+        gyro = gyro_of(experiment)
         self.rate, self.bandwidth = gyro.sample_rate, gyro.bandwidth
         self.sigma = float(np.sqrt(gyro.noise**2 + gyro.resolution**2 / 12))
         self.run_of = np.concatenate([np.full(len(c.start), i) for i, c in enumerate(self.cuts)])
@@ -154,9 +164,9 @@ class Series:
         return self._rates[key]
 
     def prepared(self, models, tilt: np.ndarray, sensor: Sensor) -> tuple[np.ndarray, ...]:
-        """All windows but for their corrections; the last one is kept, since corrections move far more often.
+        """All windows but for their corrections; the last answer is kept, since corrections move far more often.
 
-        body, centres' P, props, effects rows, attitude, rates, standing orientation and place, release state and memory.
+        body, P, props, effects rows, attitude, rates, standing orientation and place, release state and memory.
         """
         key = (tuple(id(m) for m in models), tilt.tobytes())
         if self._prepared is not None and self._prepared[0] == key:
@@ -241,7 +251,8 @@ def series(
 
     cuts = []
     for run in runs:
-        w = true_rates(run.crv, run.t, experiment.gyro.sample_rate, experiment.gyro.bandwidth, sensor or Sensor())
+        gyro = gyro_of(experiment)
+        w = true_rates(run.crv, run.t, gyro.sample_rate, gyro.bandwidth, sensor or Sensor())
         impact = float(main_impacts(run.t, run.crv).times[0])
-        cuts.append(cut(w, experiment.gyro.sample_rate, shortest, longest, impact + 0.045, end))
+        cuts.append(cut(w, gyro.sample_rate, shortest, longest, impact + 0.045, end))
     return Series(experiment, tuple(runs), tuple(cuts), **options)
