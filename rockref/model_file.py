@@ -12,7 +12,7 @@ import numpy as np
 
 from rockref.effects import catalogue
 from rockref.model.errors import InputError
-from rockref.model.parameters import PROPERTIES, Parameters
+from rockref.model.parameters import Parameters
 from rockref.model.problem import ContactPoints
 from rockref.model.storage import write_text
 
