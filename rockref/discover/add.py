@@ -26,7 +26,9 @@ from rockref.model.errors import InputError
 #: Effects that must be there before the runs are cut into windows: they spoil the reconstructed state, or need a tone.
 FROM_THE_START = (*MISLEADING, "base_vibration")
 #: Iterations of the refit with the effect; the model without it gets as many.
-ITERATIONS = 5
+ITERATIONS = 6
+#: Iterations of the model without it, on short and on longer windows.
+START = (6, 8)
 
 
 @dataclass(frozen=True)
@@ -139,7 +141,8 @@ def add(
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say)
     setup = with_tone(setup, (*own, effect))
     say(f"the model without {effect}")
-    before = started_family(setup, own)
+    # A model that was fitted before begins where it ended: fewer iterations on the short windows are enough.
+    before = started_family(setup, own, iterations=START)
     say(f"the model with {effect}")
     after = with_one_more(setup, before, effect, seed)
     rng = np.random.default_rng(seed + 1)
@@ -188,7 +191,7 @@ def with_one_more(setup: Setup, before: Family, effect: str, seed: int) -> Famil
     """The family with one more effect, refitted jointly."""
     effects = (*before.effects, effect)
     if effect in FROM_THE_START:
-        family = started_family(setup, effects)
+        family = started_family(setup, effects, iterations=START)
         fit, point = family.fit, family.point
     else:
         plain = replace(setup, base=before.fit.base)

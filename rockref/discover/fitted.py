@@ -50,6 +50,8 @@ def estimates(fit: Fit, point: Point, covariance: np.ndarray) -> list[Estimate]:
     half = NINETY * rules.INTERVAL * np.sqrt(np.maximum(np.diag(covariance), 0.0))
     found = []
     for k, p in enumerate(fit.parameters):
+        if "." in p.name:
+            half[k] = np.hypot(half[k], rules.SYSTEMATIC * point.z[k])
         ends = sorted((value_of(p, point.z[k] - half[k]), value_of(p, point.z[k] + half[k])))
         found.append(
             Estimate(

@@ -14,7 +14,7 @@ from rockref.api import Model
 from rockref.discover.diagnose import Family, baseline_model, mean_loss
 from rockref.discover.errors import FIT_STRETCH, Errors, errors_of
 from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of, start_from
-from rockref.discover.gates import Gate, gates
+from rockref.discover.gates import Gate, gates, other_start
 from rockref.discover.information import covariance, information
 from rockref.discover.presearch import suspects
 from rockref.discover.search import Setup, baseline
@@ -25,6 +25,11 @@ from rockref.model.errors import InputError
 #: A set of effects without which the windows cannot even be restarted is taken along where it lowers the mean loss
 #: by this factor (as the diagnosis does).
 CLEARLY = 1.15
+
+#: Most iterations on short and on longer windows; decided: on a control the objective still falls after ten.
+ITERATIONS = (10, 20)
+#: The same for a plain baseline that the release windows refute already.
+FEW = (3, 2)
 
 
 @dataclass
@@ -111,14 +116,16 @@ def fit_experiment(
         setup, family = chosen_family(setup)
     else:
         setup, _, seen = suspects(setup)
-        family = started_family(setup, known_effects(effects), seen["z"])
+        family = started_family(setup, known_effects(effects), start_of(seen, effects))
     say("information of each run")
     fit, point = family.fit, family.point
     found = information(fit, point)
     checks: list[Gate] = []
     if check:
         say("gates: another start")
-        checks = gates(fit, point, found)
+        plain = replace(setup, base=fit.base, seed=seed + 1)
+        begin = other_start(fit.parameters, point.z, seed + 1)
+        checks = gates(fit, point, found, baseline(plain, family.effects, begin, iterations=ITERATIONS))
     numbers = in_file_order(estimates(fit, point, covariance(fit, found)))
     seen_errors = errors_of(fit, point)
     origin = origin_of(experiment, seed, "rockref fit") | {
@@ -151,22 +158,33 @@ def usable(experiment: Experiment) -> Experiment:
     return experiment
 
 
-def started_family(setup: Setup, effects: tuple[str, ...], seen: np.ndarray | None = None, iterations=(6, 5)) -> Family:
+def started_family(
+    setup: Setup, effects: tuple[str, ...], seen: np.ndarray | None = None, iterations=ITERATIONS
+) -> Family:
     """The baseline with these effects, begun where the release windows or the setup's own model say."""
     plain = replace(setup, base=setup.base.replace(effects=()))
     parameters = plain.parameters(effects)
     z = start_from(parameters, setup.base)
     if seen is not None:
         n = len(seen)
-        z[:n] = np.where(z[:n] == 0, np.clip(seen, -2, 2), z[:n])
+        z[:n] = np.where(z[:n] == 0, np.clip(seen, -3, 3), z[:n])
     fit, point = baseline(plain, effects, z, iterations=iterations)
     return Family(effects, fit, point)
+
+
+def start_of(seen: dict[str, Any], effects: tuple[str, ...]) -> np.ndarray | None:
+    """Where the release windows say that a set of effects begins; None where they say nothing of it."""
+    starts = seen.get("starts", {})
+    return starts.get(effects, None if starts else seen["z"])
 
 
 def chosen_family(setup: Setup) -> tuple[Setup, Family]:
     """The plain baseline, or the one with what the release windows suspect, whichever is clearly nearer."""
     setup, sets, seen = suspects(setup)
-    families = [started_family(setup, effects, None if len(sets) > 1 else seen["z"]) for effects in sets]
+    families = [
+        started_family(setup, effects, start_of(seen, effects), ITERATIONS if effects or len(sets) == 1 else FEW)
+        for effects in sets
+    ]
     best = min(families, key=mean_loss)
     plain = families[0]
     return setup, best if mean_loss(plain) > CLEARLY * mean_loss(best) else plain

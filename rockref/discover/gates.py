@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.fit import Fit, Point
+from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.information import Information, covariance, eliminated, own_parameters
-from rockref.discover.windows import STATES
 
 #: Two fits agree while they differ by less than this many widened standard deviations in every shared parameter
 #: (decided: two draws from the same law differ by more than three widths once in thirty numbers at root two a width).
@@ -49,11 +48,10 @@ class Gate:
         }  # fmt: skip
 
 
-def gates(fit: Fit, point: Point, found: Information, iterations: int = 6, seed: int = 1) -> list[Gate]:
-    """All gates of a fit; `found` is its information. The other start costs another fit of `iterations`."""
-    other = other_start(fit, point, iterations, seed)
+def gates(fit: Fit, point: Point, found: Information, other: tuple[Fit, Point]) -> list[Gate]:
+    """All gates of a fit; `found` is its information, `other` the same fit begun elsewhere."""
     return [
-        starts_agree(fit, point, other, found),
+        starts_agree(fit, point, other[1], found),
         gradient_small(fit, point, found),
         step_small(fit, point),
         off_bounds(fit, point),
@@ -61,16 +59,17 @@ def gates(fit: Fit, point: Point, found: Information, iterations: int = 6, seed:
     ]
 
 
-def other_start(fit: Fit, point: Point, iterations: int, seed: int) -> Point:
-    """The same fit from another place: shared parameters drawn about their priors, corrections at zero."""
+def other_start(parameters: tuple[Parameter, ...], z: np.ndarray, seed: int) -> np.ndarray:
+    """Another place to begin, z (G,): shared parameters drawn about their priors, effects by a tenth, tilts at rest.
+
+    An effect on the wrong side of its absence would not be the same model.
+    """
     rng = np.random.default_rng(seed)
-    own = own_parameters(fit.parameters)
-    of_effects = np.array(["." in p.name for p in fit.parameters])
-    z = np.where(own, point.z, OTHER_START * fit.prior * rng.normal(size=len(point.z)))
-    # An effect begins off by a tenth: on the wrong side of its absence it would not be the same model.
-    z = np.where(of_effects, point.z * (1 + 0.1 * rng.normal(size=len(z))), z)
-    begun = fit.point(z, np.zeros((fit.series.B, STATES)))[0]
-    return fit.run(fit.relax_states(begun, 2), iterations, rng)
+    draw = rng.normal(size=len(z))
+    prior = np.array([p.prior for p in parameters])
+    of_effects = np.array(["." in p.name for p in parameters])
+    drawn = np.where(of_effects, z * (1 + 0.1 * draw), OTHER_START * prior * draw)
+    return np.where(own_parameters(parameters), z, drawn)
 
 
 def starts_agree(fit: Fit, point: Point, other: Point, found: Information) -> Gate:
@@ -80,9 +79,8 @@ def starts_agree(fit: Fit, point: Point, other: Point, found: Information) -> Ga
     off = np.abs(point.z - other.z)[shared] / width
     worst = int(np.argmax(off))
     name = [p.name for p, s in zip(fit.parameters, shared, strict=True) if s][worst]
-    gain = point.objective - other.objective
-    words = f"Another start ends {off[worst]:.1f} widths away in {name} and {abs(gain):.0f} units "
-    words += "lower." if gain > 0 else "higher."
+    words = f"Another start ends {off[worst]:.1f} widths away in {name}; objectives {point.objective:.0f} and "
+    words += f"{other.objective:.0f}."
     return Gate("starts_agree", bool(off[worst] < AGREE), float(off[worst]), AGREE, words)
 
 

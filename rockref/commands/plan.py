@@ -1,0 +1,62 @@
+"""`rockref plan`: what a campaign could show before it is made."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``plan`` to `app`."""
+    app.command("plan")(plan)
+
+
+def plan(
+    model: Annotated[str, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml.")] = "table_3_1",
+    runs: Annotated[
+        str, typer.Option("--runs", help="Tilts in rad; x3 repeats, t turns the block: 0.117x3,0.098,0.117t.")
+    ] = "0.117x3,0.098,0.117t",
+    effect: Annotated[
+        list[str] | None, typer.Option("--effect", "-e", help="Candidate; may be repeated. Default: the catalogue.")
+    ] = None,
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
+    seed: Annotated[int, typer.Option(help="Seed of the simulated noise.")] = 0,
+    workers: Annotated[int | None, typer.Option(help="Threads; default: one per core.")] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+) -> None:
+    """Foretell, by simulation, which effects a planned campaign could detect and which it would confuse.
+
+    Says which further run would help most, and what as many repeats of one release would give against varied ones.
+    Exit code 0, or 2 if the input cannot be used.
+
+    \b
+    Example:
+      rockref plan
+      rockref plan --runs 0.117x5 --effect rolling_resistance --effect viscous_friction
+      rockref plan --model model.toml --runs 0.117,0.1,0.117t --json > plan.json
+    """
+    from rockref.commands._models import named_model
+    from rockref.commands._stages import stages
+    from rockref.discover.diagnosis_record import plain
+    from rockref.discover.plan import plan as run_plan
+    from rockref.discover.plan import releases_from
+    from rockref.model.storage import write_text
+
+    planned = releases_from(runs)
+    with stages("planning", every_line=verbose) as say:
+        found = run_plan(named_model(model), planned, effect or None, seed=seed, workers=workers, progress=say)
+    text = json.dumps(plain(found.to_dict()), indent=1, allow_nan=False)
+    if output is not None:
+        write_text(output, text + "\n")
+    if as_json:
+        typer.echo(text)
+    else:
+        from rich.console import Console
+
+        from rockref.report.plan_text import print_plan
+
+        print_plan(Console(), found)
+        if output is not None:
+            typer.echo(f"wrote {output}")

@@ -1,0 +1,89 @@
+"""`rockref diagnose`: what it prints and writes, with which exit code; the diagnosis itself is made up."""
+
+import json
+
+import pytest
+
+from rockref import cli
+from rockref.discover import diagnose as engine
+from rockref.discover.diagnosis_record import KEYS, plain, read
+from rockref.model.errors import InputError
+from tests.unit.discover import fakes
+
+
+@pytest.fixture(scope="module")
+def made():
+    return fakes.made_experiment()
+
+
+def run(capsys, *arguments):
+    with pytest.raises(SystemExit) as end:
+        cli.main(["diagnose", *map(str, arguments)])
+    out, err = capsys.readouterr()
+    return end.value.code, out, err
+
+
+def answer(monkeypatch, found):
+    """Make the engine return this diagnosis; the arguments it was called with come back in a list."""
+    calls = []
+    monkeypatch.setattr(engine, "diagnose", lambda *a, **k: calls.append((a, k)) or found)
+    return calls
+
+
+def test_json_is_the_record_and_nothing_else(capsys, monkeypatch, made):
+    found = fakes.diagnosis("named", made)
+    answer(monkeypatch, found)
+    code, out, err = run(capsys, "anywhere", "--json")
+    assert (code, err) == (0, "")
+    assert json.loads(out) == plain(found.to_dict())
+    assert set(KEYS) <= set(json.loads(out))
+
+
+@pytest.mark.parametrize(
+    "verdict, code", [("named", 0), ("none", 0), ("class", 0), ("something_else", 0), ("not_trustworthy", 1)]
+)
+def test_exit_code_is_1_only_where_nothing_can_be_trusted(capsys, monkeypatch, made, verdict, code):
+    answer(monkeypatch, fakes.diagnosis(verdict, made))
+    assert run(capsys, "anywhere")[0] == code
+
+
+def test_verdict_comes_first_and_errors_before_and_after(capsys, monkeypatch, made):
+    answer(monkeypatch, fakes.diagnosis("named", made))
+    _, out, _ = run(capsys, "anywhere")
+    assert out.splitlines()[0] == "synthetic: NAMED. quadratic_drag is missing."
+    for text in ("0.2500", "0.0600", "0.3500", "0.0800", "0.0500", "0.38", "0.44", "512"):
+        assert text in out, text
+    # (0.25 - 0.06) of (0.25 - 0.05), and (0.35 - 0.08) of (0.35 - 0.05).
+    assert "95 %" in out and "90 %" in out
+    assert "Turn the block <by half a turn> & repeat." in out
+
+
+def test_nothing_found_shows_no_amplitude(capsys, monkeypatch, made):
+    answer(monkeypatch, fakes.diagnosis("none", made))
+    _, out, _ = run(capsys, "anywhere")
+    assert "How large" not in out and "gap" not in out
+
+
+def test_record_written_beside_reads_back(capsys, monkeypatch, made, tmp_path):
+    found = fakes.diagnosis("class", made)
+    answer(monkeypatch, found)
+    run(capsys, "anywhere", "--output", tmp_path / "verdict.json")
+    assert read(tmp_path / "verdict.json") == plain(found.to_dict())
+
+
+def test_options_reach_the_engine(capsys, monkeypatch, made):
+    calls = answer(monkeypatch, fakes.diagnosis("none", made))
+    run(capsys, "anywhere", "--seed", "7", "--workers", "2", "--model", "four_points")
+    (path, model, seed, workers), _ = calls[0]
+    assert (str(path), model.points, seed, workers) == ("anywhere", "four_points", 7, 2)
+
+
+def test_unusable_input_ends_with_2(capsys, tmp_path):
+    code, out, err = run(capsys, tmp_path / "nowhere")
+    assert (code, out) == (2, "") and "[E-FOLDER]" in err
+
+
+def test_a_record_without_its_keys_is_refused(tmp_path):
+    (tmp_path / "no.json").write_text("{}")
+    with pytest.raises(InputError, match="E-JSON"):
+        read(tmp_path / "no.json")

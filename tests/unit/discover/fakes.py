@@ -1,0 +1,110 @@
+"""Diagnoses, fits and additions without the hour of computing: made-up words and numbers in the real shapes."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from rockref import Model
+from rockref.discover.add import Addition, State
+from rockref.discover.diagnose import Diagnosis
+from rockref.discover.errors import Errors
+from rockref.discover.fitted import Estimate
+from rockref.discover.fitting import Fitted
+from rockref.discover.gates import Gate
+from rockref.effects.catalogue import parse
+from tests.unit.discover.synthetic import experiment
+
+DRAG = Model.table_3_1().replace(effects=(parse("quadratic_drag:c=0.4"),))
+
+
+def made_experiment(duration: float = 1.6):
+    """Two fit runs and a held-out one of a block with drag."""
+    runs = [{}, {"tilt": 0.105}, {"use": "holdout", "tilt": 0.11}]
+    return experiment(DRAG, runs, duration=duration, noisy=True)
+
+
+def diagnosis(verdict: str = "named", made=None) -> Diagnosis:
+    """A diagnosis of this verdict."""
+    effects = {"named": ("quadratic_drag",), "class": ("quadratic_drag", "rolling_resistance")}.get(verdict, ())
+    found = bool(effects)
+    return Diagnosis(
+        experiment=made or made_experiment(),
+        verdict=verdict,
+        effects=effects,
+        ranking=[
+            {"effect": "quadratic_drag", "gain": 512.3, "z": 32.01, "weight": 0.93},
+            {"effect": "rolling_resistance", "gain": 90.1, "z": 13.42, "weight": 0.07},
+        ],
+        amplitudes={
+            "quadratic_drag.c": {"value": 0.41, "low": 0.38, "high": 0.44, "unit": "N s2/m2", "in_typical_sizes": 1.0}
+        }
+        if found
+        else {},
+        error={
+            "unit": "deg/s RMS",
+            "stretch": "some windows",
+            "noise_floor": 0.05,
+            "baseline": {"fit": 0.25, "holdout": 0.35},
+            "with_effect": {"fit": 0.06, "holdout": 0.08} if found else {"fit": 0.25, "holdout": 0.35},
+        },
+        separating_experiment="Turn the block <by half a turn> & repeat." if found else "",
+        signature={"axis": "main", "axis_shares": {"main": 0.7, "transverse": 0.2, "longitudinal": np.float64(0.1)}},
+        gates={"median_loss": 1.02, "held_out_gain": [0.5, float("nan")], "passed": verdict != "not_trustworthy"},
+        sentence="quadratic_drag is missing." if found else "A sentence.",
+        seconds=12.34,
+        model=DRAG,
+    )
+
+
+def errors(scale: float, total: float) -> Errors:
+    """Nine errors of about this size; nothing in one of them."""
+    table = scale * np.arange(1.0, 10.0).reshape(3, 3)
+    table[1, 1] = np.nan
+    return Errors(total, table, 0.05)
+
+
+def estimates() -> list[Estimate]:
+    """Three numbers: a shared one, one of the effect, one of a run."""
+    return [
+        Estimate("K_N", 5.9e7, 5.5e7, 6.3e7, "N/m", 0.3, False, None),
+        Estimate("quadratic_drag.c", 0.41, 0.38, 0.44, "N s2/m2", 0.34, True, None),
+        Estimate("tilt_offset[0]", 1e-4, 0.5e-4, 1.5e-4, "rad", 0.1, False, 0),
+    ]
+
+
+def addition(made=None) -> Addition:
+    """Drag added to the baseline: the gap to the noise closed by nine tenths, by two thirds on the held-out run."""
+    before = State((), errors(0.1, 0.25), errors(0.12, 0.35))
+    after = State(("quadratic_drag",), errors(0.02, 0.07), errors(0.03, 0.15))
+    history = [before.to_dict(), after.to_dict()]
+    return Addition(
+        experiment=made or made_experiment(),
+        effect="quadratic_drag",
+        before=before,
+        after=after,
+        model=DRAG.replace(origin={"made_by": "rockref add", "history": history}),
+        estimates=estimates(),
+        spread=np.array([0.2, 0.3, 0.4]),
+        history=history,
+        end=3.0,
+        seconds=1.0,
+        family=None,
+    )
+
+
+def fitted(passed: bool = True, made=None) -> Fitted:
+    """A fit whose first gate passed or not."""
+    return Fitted(
+        experiment=made or made_experiment(),
+        model=Model.table_3_1(),
+        effects=(),
+        estimates=estimates(),
+        gates=[Gate("starts_agree", passed, 1.0, 3.0, "Another start ends 1.0 widths away.")],
+        errors=errors(0.1, 0.25),
+        mean_loss=1.02,
+        seconds=1.0,
+        setup=SimpleNamespace(end=3.0),
+        family=None,
+    )
