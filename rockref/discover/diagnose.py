@@ -105,7 +105,20 @@ def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
             "value": value_of(p, point.z[i]), "low": ends[0], "high": ends[1], "unit": p.unit,
             "in_typical_sizes": float(point.z[i]),
         }  # fmt: skip
-    return found
+    return found | vibration_amplitude(found)
+
+
+def vibration_amplitude(found: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    """The amplitude of a base vibration, from the cosine and sine parts of the runs: their mean, and their spread."""
+    parts = [[row["value"] for name, row in found.items() if f".{part}[" in name] for part in ("cosine", "sine")]
+    if not parts[0]:
+        return {}
+    sizes = np.hypot(*np.array(parts))
+    value, half = (
+        float(sizes.mean()),
+        float(1.645 * sizes.std() / np.sqrt(len(sizes)) + rules.SYSTEMATIC * sizes.mean()),
+    )
+    return {"base_vibration.amplitude": {"value": value, "low": value - half, "high": value + half, "unit": "m/s2"}}
 
 
 def size_of(family: Family, effect: str | None = None) -> float:
