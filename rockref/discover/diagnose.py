@@ -181,8 +181,15 @@ def diagnose(
         if not rules.is_detected(look.gains[winner.effects[-1]], size_of(winner), second=bool(start.effects)):
             break
         start = duel(setup, look, say)
+        if structured(start) > rules.HOPELESS:
+            break
     held = load_experiment(path, uses=(FIT, HOLDOUT))
     return conclude(setup, held, null, start, looks, seen, begun)
+
+
+def structured(family: Family) -> float:
+    """Share of the windows that the family leaves structured."""
+    return float(np.mean(2 * family.point.loss / family.fit.series.count > 1.5))
 
 
 def mean_loss(family: Family) -> float:
@@ -263,7 +270,7 @@ def conclude(
         effects=final.effects,
         sizes={e: size_of(final, e) for e in final.effects},
         gains=look.gains,
-        bad=float(np.mean(2 * final.point.loss / final.fit.series.count > 1.5)),
+        bad=structured(final),
         median=float(np.median(2 * final.point.loss / final.fit.series.count)),
         held_gain=held_gains(plain, with_effect),
         held_floor=float(np.median(2 * plain.loss / plain.count)),
