@@ -2,7 +2,8 @@
 
 Written from the text of the rules and independent of `rockref.model`. Vectors are lists of three numbers, matrices
 lists of three rows, and a number may be anything that knows + - * / and comparison: mpmath's with fifty digits,
-`numpy.longdouble`, `fractions.Fraction`, plain floats, floats that round at random. Only roots and the circular functions need a
+`numpy.longdouble`, `fractions.Fraction`, plain floats, floats that round at random. Only roots and the circular
+functions need a
 helper `m` with `sqrt`, `hypot`, `sin`, `cos`. Slow on purpose: nothing is rearranged, no series is truncated.
 """
 
@@ -63,7 +64,9 @@ def cuboid_inertia(mass: Number, width: Number, depth: Number, height: Number) -
     return [[J[0], zero, zero], [zero, J[1], zero], [zero, zero, J[2]]]
 
 
-def contact_points(width: Number, depth: Number, height: Number, delta_long: list, delta_diag: Number, m) -> list[Vector]:
+def contact_points(
+    width: Number, depth: Number, height: Number, delta_long: list, delta_diag: Number, m
+) -> list[Vector]:
     """G2: 1ext..4ext at the corners, raised by delta_long; 1int..4int on the diagonals, delta_diag from the corner."""
     half = m.sqrt(width * width + depth * depth) / 2
     external, internal = [], []
@@ -163,7 +166,8 @@ def contact(xi, xi_rate, u_t, v_slide, s, anchored: bool, sliding: bool, point: 
 
 
 def resultants(Lambda: Matrix, r: list[Vector], F: list[Vector], mass: Number, g: Number):
-    """A1 to A3: force (plate axes, with the weight), moment about the centre of mass (plate axes), the same in body axes."""
+    """A1 to A3: force (plate axes, with the weight), moment about the centre of mass (plate axes), the same in body
+    axes."""
     zero = mass - mass
     force, moment = [zero, zero, -mass * g], [zero, zero, zero]
     for lever, f in zip(r, F, strict=True):
@@ -196,7 +200,8 @@ def exponential(Theta: Vector, m) -> Matrix:
 
 
 class Half(NamedTuple):
-    """The step up to the force evaluation: I1 x, I2 Theta, I3 Lambda, the predicted velocities; E = exp - I, JW kept."""
+    """The step up to the force evaluation: I1 x, I2 Theta, I3 Lambda, the predicted velocities; E = exp - I, JW
+    kept."""
 
     x: Vector
     Theta: Vector

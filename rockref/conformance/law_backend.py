@@ -13,12 +13,12 @@ from rockref.engines import run
 from rockref.model import integrator, parameters
 from rockref.model.integrator import prepared_inertia
 from rockref.model.problem import Block, ContactPoints, Problem, State, as_arrays, stack
-from rockref.model.release import release_posture
 from rockref.model.rotation import exp_minus_identity
 
 
 class RulesBackend:
-    """A backend made of `Rules`; every piece of the protocol is shown. Arguments and results: docs, "Judge your backend"."""
+    """A backend made of `Rules`; every piece of the protocol is shown. Arguments and results: docs, "Judge your
+    backend"."""
 
     language = "Python"
 
@@ -52,7 +52,7 @@ class RulesBackend:
         unused = np.zeros(n, self.dtype)
         points = ContactPoints(P, self._array(K_N), *(unused,) * 5, None, ("",) * n)
         block = Block(self._array(mass), np.eye(3, dtype=self.dtype), self._array(g))
-        state = release_posture(block, points, self.dtype.type(theta_0))
+        state = self.rules.release(block, points, self.dtype.type(theta_0))
         return {"x": state.x, "Lambda": state.Lambda}
 
     def kinematics(self, x, Lambda, v, W, P) -> dict[str, Any]:
@@ -92,7 +92,7 @@ class RulesBackend:
         state = replace(State.at_rest(x, Lambda, 0, v, W), a=a, T=T)
         x_n, Theta, L_n, v_p, W_p, E, JW = pieces.first_half(self.rules, state, prepared, h)
         v_n = self.rules.velocity(v, a, a_next, h)
-        W_n = integrator.times(prepared.J_inverse, self.rules.momentum(JW, T, T_next, E, h))
+        W_n = integrator.update_rates(W, JW, self.rules.momentum(JW, T, T_next, E, h), prepared.J_inverse)
         return {"x": x_n, "Theta": Theta, "Lambda": L_n, "v_predicted": v_p, "W_predicted": W_p, "v": v_n, "W": W_n}
 
     def step(self, problem: Problem) -> dict[str, Any]:
@@ -131,9 +131,8 @@ class NumpyEngine(RulesBackend):
     def derived(self, **p: Any) -> dict[str, Any]:
         """G1, G2 by the rules; P1 to P3 as the model puts them together."""
         q = {k: np.asarray(v, float) for k, v in p.items()}
-        twelve = parameters.Parameters(
-            *(float(q[k]) for k in ("K_N", "K_T", "beta_int", "beta_ext", "mu_int", "mu_ext"))
-        )
+        names = ("K_N", "K_T", "beta_int", "beta_ext", "mu_int", "mu_ext")
+        twelve = parameters.Parameters().replace(**{k: float(q[k]) for k in names})
         made = parameters.point_properties(twelve, float(q["mass"]), np.arange(8) < 4)
         return super().derived(**p) | made
 

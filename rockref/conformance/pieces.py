@@ -1,6 +1,7 @@
 """The law as a set of replaceable rules, and the step made of them.
 
-`law()` gathers the functions of `rockref.model` as they are when it is called; `replace` plants something else in the place of
+`law()` gathers the functions of `rockref.model` as they are when it is called; `replace` plants something else in the
+place of
 one of them. The compositions below repeat the order of the step and no equation of it; with nothing replaced their
 bits are those of the law (a test looks).
 """
@@ -13,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rockref.model import assembly, channel, contact, geometry, integrator, parameters, rotation
+from rockref.model import assembly, channel, contact, geometry, integrator, parameters, release, rotation
 from rockref.model.integrator import Inertia, prepared_inertia, times
 from rockref.model.problem import ContactPoints, Problem, State, as_arrays
 from rockref.model.simulate import output_steps
@@ -28,6 +29,7 @@ class Rules:
     stiffness: Callable  # P1
     damping: Callable  # P2
     damping_ratio: Callable  # P3
+    release: Callable  # R1
     position: Callable  # I1
     acceleration: Callable  # I2, Euler's equations
     increment: Callable  # I2
@@ -49,6 +51,7 @@ class Rules:
     body_moment: Callable  # A3
     velocity: Callable  # I4
     momentum: Callable  # I5
+    rates: Callable  # I5
     channel: Callable  # M1
     point_law: Callable
     contact: Callable
@@ -68,6 +71,7 @@ def law() -> Rules:
         stiffness=parameters.common_stiffness,
         damping=parameters.viscous_damping,
         damping_ratio=parameters.common_damping_ratio,
+        release=release.release_posture,
         position=integrator.update_position,
         acceleration=integrator.angular_acceleration,
         increment=integrator.rotation_increment,
@@ -89,6 +93,7 @@ def law() -> Rules:
         body_moment=assembly.body_moment,
         velocity=integrator.update_velocity,
         momentum=integrator.update_momentum,
+        rates=integrator.update_rates,
         channel=channel_of_history,
         point_law=point_law,
         contact=evaluate_contact,
@@ -193,7 +198,7 @@ def step(rules: Rules, problem: Problem, state: State, inertia: Inertia) -> Stat
     x, _, Lambda, v_p, W_p, E, JW = first_half(rules, state, inertia, h)
     a, T, F, c = evaluate(rules, problem, state, x, Lambda, v_p, W_p)
     v = rules.velocity(state.v, state.a, a, h)
-    W = times(inertia.J_inverse, rules.momentum(JW, state.T, T, E, h))
+    W = integrator.update_rates(state.W, JW, rules.momentum(JW, state.T, T, E, h), inertia.J_inverse)
     return replace(
         state, x=x, v=v, Lambda=Lambda, W=W, s=c.s, anchored=c.touching, sliding=c.sliding, a=a, T=T, F=F,
         t=state.origin + (state.count + 1) * problem.step, count=state.count + 1,
@@ -202,7 +207,8 @@ def step(rules: Rules, problem: Problem, state: State, inertia: Inertia) -> Stat
 
 @dataclass(frozen=True)
 class Rows:
-    """What a run gives back: t (N,), and W, x (..., N, 3), Lambda (..., N, 3, 3), F (..., N, n, 3), anchored (..., N, n)."""
+    """What a run gives back: t (N,), and W, x (..., N, 3), Lambda (..., N, 3, 3), F (..., N, n, 3), anchored (..., N,
+    n)."""
 
     t: np.ndarray
     W: np.ndarray

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 
 class Rule(NamedTuple):
-    """A rule: id, what it says, equation or place in the source, the function of the law that is it, what it feeds on."""
+    """A rule: id, what it says, equation or place in the source, the function of the law that is it, what it feeds
+    on."""
 
     id: str
     says: str
@@ -20,7 +21,9 @@ RULES: tuple[Rule, ...] = (
     Rule("G2", "places of the eight contact points", "Fig. 3.2b", "rockref.model.geometry:eight_points"),
     Rule("P1", "one stiffness for all points", "(3.7)", "rockref.model.parameters:common_stiffness"),
     Rule("P2", "C = 2 beta sqrt(K m)", "(3.8)", "rockref.model.parameters:viscous_damping", ("P1",)),
-    Rule("P3", "the same ratio, normal and tangential", "(3.9)", "rockref.model.parameters:common_damping_ratio", ("P2",)),
+    Rule(
+        "P3", "the same ratio, normal and tangential", "(3.9)", "rockref.model.parameters:common_damping_ratio", ("P2",)
+    ),
     Rule("R1", "release posture", "Release posture", "rockref.model.release:release_posture", ("G2", "P1")),
     Rule("I1", "x+ = x + h v + h^2/2 a", "I1", "rockref.model.integrator:update_position"),
     Rule("I2", "Theta = h W + h^2/2 A, A = J^-1 (T - W x J W)", "I2", "rockref.model.integrator:rotation_increment"),
@@ -38,7 +41,9 @@ RULES: tuple[Rule, ...] = (
     Rule("T5", "no contact, no anchor; set where the point next touches", "T5", "rockref.model.contact:touch", ("K1",)),
     Rule("T1", "trial force of sticking", "before (3.6)", "rockref.model.contact:trial_force", ("T5",)),
     Rule("T2", "sticking while |F*| <= mu_0 F_N", "(3.6a)", "rockref.model.contact:sticks", ("N1", "N2", "T1")),
-    Rule("T6", "threshold mu_0 F_N if it stuck, mu F_N if it slid", "(3.6)", "rockref.model.contact:threshold", ("T2",)),
+    Rule(
+        "T6", "threshold mu_0 F_N if it stuck, mu F_N if it slid", "(3.6)", "rockref.model.contact:threshold", ("T2",)
+    ),
     Rule("T3", "sliding: mu F_N along the trial force", "(3.6b)", "rockref.model.contact:radial_return", ("T2", "T6")),
     Rule("T4", "after sliding the anchor is moved", "after (3.6)", "rockref.model.contact:move_anchor", ("T3",)),
     Rule("A1", "sum of point forces and weight", "A1", "rockref.model.assembly:resultant_force", ("N1", "N2", "T3")),
@@ -52,7 +57,12 @@ RULES: tuple[Rule, ...] = (
         "rockref.model.integrator:update_momentum",
         ("I2", "A3"),
     ),
-    Rule("S2", "the run: first evaluation at the start, rows at their instants", "The step", "rockref.model.simulate:simulate"),
+    Rule(
+        "S2",
+        "the run: first evaluation at the start, rows at their instants",
+        "The step",
+        "rockref.model.simulate:simulate",
+    ),
     Rule("M1", "measured channel: crv in deg/s about X, Y, Z", "Fig. 3.4", "rockref.model.channel:crv_deg_s", ("I5",)),
 )
 

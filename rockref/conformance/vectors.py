@@ -57,7 +57,8 @@ class Vector:
 class Trajectory:
     """One run: its problem, the rows, their bars, where comparison ends, and the instants of the main impacts.
 
-    columns : name -> (N,) or (N, k): t_s, W, x, Lambda, and bar_W, bar_x, bar_Lambda (N,) for every profile
+    columns : name -> (N,) or (N, k): t_s, W_rad_s, x_m, Lambda (N, 9), converged_..., and bar_..., bar_float32_...,
+        bar_scheme_... (N,)
     """
 
     id: str
@@ -111,7 +112,12 @@ def expected_of(entry: dict[str, Any]) -> Expected:
     bars = {k: None if entry.get(k) is None else np.array(entry[k], float) for k in ("bar", "bar_float32")}
     rule = entry["rule"]
     return Expected(
-        np.asarray(value_of(entry)), bars["bar"], bars["bar_float32"], rule, entry.get("rule_traced", rule), entry["route"]
+        np.asarray(value_of(entry)),
+        bars["bar"],
+        bars["bar_float32"],
+        rule,
+        entry.get("rule_traced", rule),
+        entry["route"],
     )
 
 
@@ -137,7 +143,7 @@ def vector_of(entry: dict[str, Any], sets: dict[str, Any]) -> Vector:
 
 @lru_cache
 def layer(name: str) -> tuple[Vector, ...]:
-    """All vectors of one layer, "L0" .. "L4", "L7", or of the probes, "LB"."""
+    """All vectors of one layer, "L0" .. "L4", "L7", or of the short runs, "L5s"."""
     document = json.loads(read_bytes(f"{name}.json"))
     return tuple(vector_of(entry, document["sets"]) for entry in document["vectors"])
 
@@ -145,13 +151,14 @@ def layer(name: str) -> tuple[Vector, ...]:
 def problem_of(q: dict[str, Any]) -> Problem:
     """A Problem from flat inputs, the keys of the JSON-lines protocol."""
     block = Block(np.asarray(q["mass"]), np.asarray(q["inertia"]), np.asarray(q["g"]))
-    properties = (np.asarray(q[k]) for k in ("K_N", "K_T", "C_N", "C_T", "mu_0", "mu"))
-    n = len(q["P"])
-    points = ContactPoints(np.asarray(q["P"]), *properties, None, tuple(q.get("names", [f"point {i}" for i in range(n)])))
-    later = {k: np.asarray(q[k]) for k in ("a", "T", "F") if q.get(k) is not None}
-    memory = [np.asarray(q["s"]), np.asarray(q["anchored"], bool), np.asarray(q["sliding"], bool)]
-    state = State(*(np.asarray(q[k]) for k in ("x", "v", "Lambda", "W")), *memory, t=float(q.get("t", 0.0)), **later)
-    return Problem(block, points, state, float(q["step"]), float(q["duration"]), float(q["output_rate"]))
+    made = {k: np.asarray(q[k]) for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu")}
+    names = tuple(q.get("names", [f"point {i}" for i in range(len(q["P"]))]))
+    points = ContactPoints(**made, radius=None, names=names)
+    state: dict[str, Any] = {k: np.asarray(q[k]) for k in ("x", "v", "Lambda", "W", "s")}
+    state |= {k: np.asarray(q[k], bool) for k in ("anchored", "sliding")}
+    state |= {k: np.asarray(q[k]) for k in ("a", "T", "F") if q.get(k) is not None}
+    start = State(**state, t=float(q.get("t", 0.0)))
+    return Problem(block, points, start, float(q["step"]), float(q["duration"]), float(q["output_rate"]))
 
 
 def flat(problem: Problem) -> dict[str, Any]:
@@ -167,6 +174,11 @@ def flat(problem: Problem) -> dict[str, Any]:
 def trajectory_names() -> tuple[str, ...]:
     """The trajectories of L5, in order."""
     return tuple(manifest()["trajectories"])
+
+
+def window_names() -> tuple[str, ...]:
+    """The windows of L5: 20 ms cut out of trajectories."""
+    return tuple(manifest()["windows"])
 
 
 @lru_cache

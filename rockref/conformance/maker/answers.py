@@ -16,11 +16,12 @@ PROPERTIES = ("K_N", "C_N", "K_T", "C_T", "mu_0", "mu")
 
 def derived(q: dict[str, Any], m: Any) -> dict[str, Any]:
     """G1, G2, P1 to P3."""
-    made = exact.properties(*(q[k] for k in ("mass", "K_N", "K_T", "beta_int", "beta_ext", "mu_int", "mu_ext")), m)
-    size = [q[k] for k in ("width", "depth", "height")]
+    names = ("mass", "K_N", "K_T", "beta_int", "beta_ext", "mu_int", "mu_ext")
+    made = exact.properties(**{k: q[k] for k in names}, m=m)
+    size = {k: q[k] for k in ("width", "depth", "height")}
     return {
-        "inertia": exact.cuboid_inertia(q["mass"], *size),
-        "P": exact.contact_points(*size, q["delta_long"], q["delta_diag"], m),
+        "inertia": exact.cuboid_inertia(q["mass"], **size),
+        "P": exact.contact_points(**size, delta_long=q["delta_long"], delta_diag=q["delta_diag"], m=m),
         **made,
     }
 
@@ -59,8 +60,8 @@ def rotate(q: dict[str, Any], m: Any) -> dict[str, Any]:
 
 def integrate(q: dict[str, Any], m: Any) -> dict[str, Any]:
     """I1 to I5, loads prescribed."""
-    half = exact.first_half(*(q[k] for k in ("x", "v", "Lambda", "W", "a", "T", "h", "inertia")), m)
-    v, W = exact.second_half(*(q[k] for k in ("v", "a", "T", "a_next", "T_next", "h", "inertia")), half)
+    half = exact.first_half(q["x"], q["v"], q["Lambda"], q["W"], q["a"], q["T"], q["h"], q["inertia"], m)
+    v, W = exact.second_half(q["v"], q["a"], q["T"], q["a_next"], q["T_next"], q["h"], q["inertia"], half)
     shown = {k: getattr(half, k) for k in ("x", "Theta", "Lambda", "v_predicted", "W_predicted")}
     return shown | {"v": v, "W": W}
 
@@ -73,7 +74,7 @@ def body_of(q: dict[str, Any]) -> Body:
 
 def start_of(q: dict[str, Any]) -> Moment:
     """The start state."""
-    later = {k: q.get(k) for k in ("a", "T", "F")}
+    later: dict[str, Any] = {k: q.get(k) for k in ("a", "T", "F")}
     return Moment(*(q[k] for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding")), **later)
 
 
@@ -82,7 +83,13 @@ def step(q: dict[str, Any], m: Any) -> dict[str, Any]:
     after = exact_run.step(body_of(q), exact_run.started(body_of(q), start_of(q), m), q["step"], m)
     found = {k: getattr(after, k) for k in ("x", "v", "Lambda", "W", "anchored", "sliding", "a", "T")}
     branch = branch_of(after.anchored, after.sliding)
-    for name, whole in (("F_N", after.F), ("F_stick", after.F), ("F_slip", after.F), ("s_stick", after.s), ("s_slip", after.s)):
+    for name, whole in (
+        ("F_N", after.F),
+        ("F_stick", after.F),
+        ("F_slip", after.F),
+        ("s_stick", after.s),
+        ("s_slip", after.s),
+    ):
         found[name] = part(name, np.array(whole, object), branch).tolist()
     return found
 

@@ -90,7 +90,7 @@ class RandomRounding:
 
     def __init__(self, seed: int, single: bool = False):
         draw = random.Random(seed).random
-        self.kind = type("Rounded", (_Rounded,), {"draw": staticmethod(draw), "single": single, "__slots__": ()})
+        self.kind: Any = type("Rounded", (_Rounded,), {"draw": staticmethod(draw), "single": single, "__slots__": ()})
         self.single = single
         self.pi = self.number(np.float32(math.pi) if single else math.pi)
 

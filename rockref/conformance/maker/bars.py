@@ -75,16 +75,27 @@ def answer(case: Case, m: Any, inputs: dict[str, Any] | None = None) -> dict[str
 
 
 def moved(inputs: dict[str, Any], rng: random.Random) -> dict[str, Any]:
-    """All numbers moved by -1, 0 or +1 ulp at random."""
-
-    def move(a: Any) -> Any:
-        if isinstance(a, np.ndarray) and a.dtype != bool:
-            shift = np.array([rng.choice((-1.0, 0.0, 1.0)) for _ in range(a.size)]).reshape(a.shape)
-            return np.where(shift == 0, a, np.nextafter(a, np.where(shift > 0, np.inf, -np.inf)))
-        return rng.choice((a, np.nextafter(a, np.inf), np.nextafter(a, -np.inf))) if isinstance(a, float) else a
-
+    """All numbers moved by -1, 0 or +1 ulp at random; rotations by an ulp of 1 in every entry, as a pose kept as a
+    quaternion
+    has its rounding."""
     keep = {"step", "duration", "output_rate", "t"}
-    return {k: v if k in keep else move(v) for k, v in inputs.items()}
+    return {
+        k: v if k in keep else moved_pose(v, rng) if k == "Lambda" else moved_number(v, rng) for k, v in inputs.items()
+    }
+
+
+def moved_number(a: Any, rng: random.Random) -> Any:
+    """A number or an array moved by up to an ulp; flags and names stay."""
+    if isinstance(a, np.ndarray) and a.dtype != bool:
+        shift = np.array([rng.choice((-1.0, 0.0, 1.0)) for _ in range(a.size)]).reshape(a.shape)
+        return np.where(shift == 0, a, np.nextafter(a, np.where(shift > 0, np.inf, -np.inf)))
+    return rng.choice((a, np.nextafter(a, np.inf), np.nextafter(a, -np.inf))) if isinstance(a, float) else a
+
+
+def moved_pose(Lambda: np.ndarray, rng: random.Random) -> np.ndarray:
+    """A rotation matrix moved by up to half an ulp of 1 in every entry."""
+    shift = np.array([rng.choice((-1.0, 0.0, 1.0)) for _ in range(Lambda.size)]).reshape(Lambda.shape)
+    return Lambda + shift * 2.0**-53
 
 
 def reordered(case: Case, rng: random.Random) -> dict[str, Any]:
@@ -137,7 +148,9 @@ def is_flag(value: Any) -> bool:
 
 def same_flags(member: dict[str, Any], exactly: dict[str, Any]) -> bool:
     """Whether all flags of a member are those of the answer."""
-    return all(np.array_equal(np.asarray(member[k]), np.asarray(v)) for k, v in exactly.items() if is_flag(v) and k in member)
+    return all(
+        np.array_equal(np.asarray(member[k]), np.asarray(v)) for k, v in exactly.items() if is_flag(v) and k in member
+    )
 
 
 def spread(members: list[dict[str, Any]], exactly: dict[str, Any]) -> dict[str, np.ndarray]:
@@ -191,4 +204,3 @@ def barred(case: Case, seed: int) -> dict[str, Barred]:
 def converted_floats_of(value: Any) -> Any:
     """Nested lists of the floats nearest to fifty-digit numbers."""
     return [converted_floats_of(v) for v in value] if isinstance(value, list) else float(value)
-

@@ -10,6 +10,7 @@ import numpy as np
 from rockref.conformance.maker.bars import Case
 from rockref.conformance.maker.drawing import Draw, diagonal, normalised, rotation, table_3_1, turned
 
+UPRIGHT = np.eye(3)
 J_BLOCK = diagonal(2.1484375, 2.25, 0.0901336669921875)
 J_TOP = diagonal(0.5, 1.25, 2.0)
 
@@ -20,7 +21,7 @@ def assembly() -> Iterator[Case]:
     P = table_3_1()["P"]
     force, moment = {"force": ("A1", "A1")}, {"force": ("A1", "A1"), "moment": ("A2", "A2"), "T": ("A2", "A3")}
 
-    def ask(rule: str, fields: dict, flags: tuple[str, ...], F: np.ndarray, Lambda: np.ndarray = np.eye(3)) -> Case:
+    def ask(rule: str, fields: dict, flags: tuple[str, ...], F: np.ndarray, Lambda: np.ndarray = UPRIGHT) -> Case:
         inputs = {"Lambda": Lambda, "r": turned(Lambda, P[: len(F)]), "F": F, "mass": 54.0, "g": 9.81}
         return Case(rule, "L2", "assemble", inputs, fields, flags)
 
@@ -43,6 +44,14 @@ def assembly() -> Iterator[Case]:
             yield ask("A3", leaning, ("eight forces", "leaning"), d.vectors(2000, 8), d.rotation(angle))
 
 
+#: Angles [rad] of the exponential, on both sides of where a series may be exchanged for another.
+SIZES = (
+    (1e-9, "tiny"), (6.5e-6, "one step"), (1e-5, "one step"), (1e-4, "small"), (1e-3, "small"), (0.008, "small"),
+    (0.0099, "small"), (0.0101, "small"), (0.03, "small"), (0.1, "moderate"), (0.3, "moderate"), (1.0, "moderate"),
+    (2.0, "moderate"), (3.0, "near a half turn"), (3.140625, "near a half turn"), (3.14159, "near a half turn"),
+)  # fmt: skip
+
+
 def exponentials() -> Iterator[Case]:
     """I3, the exponential: zero, tiny, about the switch between series, moderate, near a half turn."""
     d = Draw(31)
@@ -53,9 +62,7 @@ def exponentials() -> Iterator[Case]:
 
     for i in range(3):
         yield ask("about an axis", np.eye(3)[i] * 0.5)
-    for size, flag in ((1e-9, "tiny"), (6.5e-6, "one step"), (1e-5, "one step"), (1e-4, "small"), (1e-3, "small"), (0.008, "small"),
-                       (0.0099, "small"), (0.0101, "small"), (0.03, "small"), (0.1, "moderate"), (0.3, "moderate"), (1.0, "moderate"),
-                       (2.0, "moderate"), (3.0, "near a half turn"), (3.140625, "near a half turn"), (3.14159, "near a half turn")):  # fmt: skip
+    for size, flag in SIZES:
         yield ask(flag, size * normalised(d.vector(1)))
 
 
@@ -65,9 +72,26 @@ def steps() -> Iterator[Case]:
     zero, one = np.zeros(3), np.eye(3)
 
     def ask(rule: str, names: str, flags: tuple[str, ...], **changes: Any) -> Case:
-        q: dict[str, Any] = {"x": zero, "v": zero, "Lambda": one, "W": zero, "a": zero, "T": zero, "a_next": zero, "T_next": zero}
+        q: dict[str, Any] = {
+            "x": zero,
+            "v": zero,
+            "Lambda": one,
+            "W": zero,
+            "a": zero,
+            "T": zero,
+            "a_next": zero,
+            "T_next": zero,
+        }
         q |= {"h": 2.0**-16, "inertia": J_BLOCK} | changes
-        rules = {"x": "I1", "Theta": "I2", "Lambda": "I3", "v_predicted": "S1", "W_predicted": "S1", "v": "I4", "W": "I5"}
+        rules = {
+            "x": "I1",
+            "Theta": "I2",
+            "Lambda": "I3",
+            "v_predicted": "S1",
+            "W_predicted": "S1",
+            "v": "I4",
+            "W": "I5",
+        }
         fields = {k: (rules[k], rules[k]) for k in names.split()}
         if "Theta" not in fields and "Lambda" in fields and rule == "I2":
             fields["Lambda"] = ("I2", "I2")
@@ -82,11 +106,27 @@ def steps() -> Iterator[Case]:
         yield ask("I2", "Theta", ("torque-free",), W=d.vector(20), h=h, inertia=J_TOP)
         yield ask("I2", "Theta", ("spinning under a moment",), W=d.vector(5), T=d.vector(300), h=h, inertia=J_TOP)
     full = np.array([[1.0, 0.25, -0.125], [0.25, 1.5, 0.0625], [-0.125, 0.0625, 0.75]])
-    yield ask("I2", "Theta", ("spinning under a moment", "oblique inertia"), W=d.vector(5), T=d.vector(300), h=2.0**-10, inertia=full)
+    yield ask(
+        "I2",
+        "Theta",
+        ("spinning under a moment", "oblique inertia"),
+        W=d.vector(5),
+        T=d.vector(300),
+        h=2.0**-10,
+        inertia=full,
+    )
     for i in range(3):
         yield ask("I3", "Lambda", ("steady spin",), W=one[i] * 3.0, Lambda=d.rotation(0.5), h=2.0**-10)
     for h in (1e-5, 2.0**-10, 2.0**-5):
-        yield ask("I3", "Lambda", ("spinning", "ball"), W=d.vector(6), Lambda=d.rotation(0.5), h=h, inertia=diagonal(1.0, 1.0, 1.0))
+        yield ask(
+            "I3",
+            "Lambda",
+            ("spinning", "ball"),
+            W=d.vector(6),
+            Lambda=d.rotation(0.5),
+            h=h,
+            inertia=diagonal(1.0, 1.0, 1.0),
+        )
     for h in (1e-5, 2.0**-10):
         q = {"v": d.vector(1), "a": d.vector(20), "W": d.vector(3), "T": d.vector(300), "h": h}
         yield ask("S1", "v_predicted W_predicted", ("predicted velocities",), **q)
@@ -101,9 +141,18 @@ def steps() -> Iterator[Case]:
     for h in (1e-5, 2.0**-10, 2.0**-6, 2.0**-4):
         yield ask("I5", "W", ("torque-free top",), W=d.vector(20) if h < 0.01 else d.vector(6), h=h, inertia=J_TOP)
     for h in (1e-5, 2.0**-10, 2.0**-8):
-        yield ask("I5", "W", ("spinning under a moment",), W=d.vector(5), T=d.vector(300), T_next=d.vector(300), h=h, inertia=J_TOP)
-    yield ask("I5", "W", ("spinning under a moment", "oblique inertia"), W=d.vector(5), T=d.vector(300), T_next=d.vector(300),
-              h=2.0**-10, inertia=full)  # fmt: skip
+        yield ask(
+            "I5",
+            "W",
+            ("spinning under a moment",),
+            W=d.vector(5),
+            T=d.vector(300),
+            T_next=d.vector(300),
+            h=h,
+            inertia=J_TOP,
+        )
+    loads = {"W": d.vector(5), "T": d.vector(300), "T_next": d.vector(300)}
+    yield ask("I5", "W", ("spinning under a moment", "oblique inertia"), h=2.0**-10, inertia=full, **loads)
 
 
 def all_bodies() -> Iterator[Case]:

@@ -25,7 +25,9 @@ STICK = {"F_T": ("T1", "T3"), "trace.F_trial": ("T1", "T1"), "sliding": ("T2", "
 SLIDE = {"F_T": ("T3", "T3"), "sliding": ("T2", "T2"), "s": ("T4", "T4")}
 
 
-def ask(rule: str, fields: dict[str, tuple[str, str]], flags: tuple[str, ...], on_surface=False, **changes: Any) -> Case:
+def ask(
+    rule: str, fields: dict[str, tuple[str, str]], flags: tuple[str, ...], on_surface=False, **changes: Any
+) -> Case:
     """A question about one point that has compressed the plate by 10 micrometres, with changes."""
     q: dict[str, Any] = {"xi": 2.0**-17, "xi_rate": 0.0, "u_t": ZERO, "v_slide": ZERO, "s": ZERO}
     q |= {"anchored": True, "sliding": False, **FOOT, **changes}
@@ -60,7 +62,7 @@ def normal() -> Iterator[Case]:
     yield ask("N1", fields, ("undamped",), xi=1.5e-5, xi_rate=-0.5, C_N=0.0)
     yield ask("N1", fields, ("tiny",), xi=2.0**-830, xi_rate=2.0**-820)
     yield ask("N1", {"F_N": N1}, ("touching",), on_surface=True, xi=0.0)
-    fields = {"F_N": N2, "F_T": T5, "touching": T5, "sliding": T5}
+    fields = {"F_N": N2, "touching": T5, "sliding": T5}
     for gap, rate in ((1e-7, 0.5), (1e-6, 0.25), (1e-5, 1.0), (1e-3, 16.0), (0.25, 2000.0)):
         yield ask("N2", fields, ("above the plate", "approaching"), xi=-gap * d.between(0.8, 1.2), xi_rate=rate)
     for gap in (1e-12, 1e-6, 1e-3):
@@ -68,6 +70,7 @@ def normal() -> Iterator[Case]:
     # Above the plate the spring pulls where the gap is wide: the branch alone keeps the force at zero there.
     yield ask("N2", fields, ("above the plate", "at rest"), xi=-3e-5)
     stretched = {"s": np.array([2.0**-16, -(2.0**-17)]), "v_slide": np.array([0.125, 0.25])}
+    fields["F_T"] = T5
     yield ask("N2", fields, ("above the plate", "sliding"), xi=-2e-6, xi_rate=0.5, sliding=True, **stretched)
 
 
@@ -111,12 +114,18 @@ def towards(direction: float, ratio: float, F_N: float, mu: float) -> np.ndarray
     return size * np.array([math.cos(direction), math.sin(direction)])
 
 
+#: Sizes of the trial force against the cone.
+RATIOS = (
+    (0.5, "inside"), (0.9, "inside"), (1 - 2.0**-20, "just inside"), (1 + 2.0**-20, "just outside"), (1.1, "outside"),
+    (1.3, "outside"),
+)  # fmt: skip
+
+
 def cone() -> Iterator[Case]:
     """T2: inside, just inside, just outside, outside; on the cone; at its tip; too small to be squared."""
     d = Draw(23)
     decided = {"sliding": ("T2", "T2"), "trace.threshold": ("T6", "T6")}
-    for ratio, where in ((0.5, "inside"), (0.9, "inside"), (1 - 2.0**-20, "just inside"), (1 + 2.0**-20, "just outside"),
-                         (1.1, "outside"), (1.3, "outside")):  # fmt: skip
+    for ratio, where in RATIOS:
         for direction in (0.1, 0.75, 2.5, 4.0, 5.2):
             xi = d.decade(1e-6, 1e-4)
             fields = decided | ({"F_T": ("T1", "T3")} if ratio < 1 else {"F_T": ("T3", "T3")})
@@ -126,7 +135,13 @@ def cone() -> Iterator[Case]:
     for spring, damper, flag in ((1.5, -1.0, "stick"), (0.7, 0.6, "slip")):
         F_N, mu = 2.0**-17 * 6e7, 0.25
         v = -damper * mu * F_N / FOOT["C_T"] * np.array([0.6, 0.8])
-        yield ask("T2", decided, (flag, "spring and damper"), s=spring * mu * F_N / FOOT["K_T"] * np.array([0.6, 0.8]), v_slide=v)
+        yield ask(
+            "T2",
+            decided,
+            (flag, "spring and damper"),
+            s=spring * mu * F_N / FOOT["K_T"] * np.array([0.6, 0.8]),
+            v_slide=v,
+        )
     surface = {"K_N": 2.0**26, "K_T": 2.0**26, "xi": 5 * 2.0**-19, "mu": 0.5, "mu_0": 0.5}
     for sign in (1, -1):
         s = sign * np.array([3.0, 4.0]) * 2.0**-20
@@ -155,7 +170,9 @@ def two_coefficients() -> Iterator[Case]:
             fields = {"sliding": ("T6", "T6"), "trace.threshold": ("T6", "T6")}
             if sliding:
                 fields["F_T"] = ("T3", "T3")
-            yield ask("T6", fields, ("slip" if sliding else "stick", "between the cones"), xi=xi, s=s, sliding=sliding, **made)
+            yield ask(
+                "T6", fields, ("slip" if sliding else "stick", "between the cones"), xi=xi, s=s, sliding=sliding, **made
+            )
     for ratio in (2.2, 3.0):
         s = towards(d.between(0, 6.2), ratio, 2.0**-17 * 6e7, 0.25)
         yield ask("T3", SLIDE, ("slip", "outside both cones"), s=s, **made)
@@ -169,7 +186,9 @@ def sliding() -> Iterator[Case]:
         s = towards(d.between(0, 6.2), d.between(1.2, 6), xi * 6e7, 0.25)
         v = d.vector(0.02, 2) if i % 2 else ZERO
         fields, flags = dict(SLIDE), ("slip", "spring and damper" if i % 2 else "spring")
-        yield ask("T3" if i < 8 else "T4", fields, flags, xi=xi, u_t=d.vector(1e-3, 2), s=s, v_slide=v, sliding=i % 3 == 0)
+        yield ask(
+            "T3" if i < 8 else "T4", fields, flags, xi=xi, u_t=d.vector(1e-3, 2), s=s, v_slide=v, sliding=i % 3 == 0
+        )
     for _ in range(4):
         q = {"v_slide": d.vector(0.5, 2), "anchored": False, "s": d.vector(1e-4, 2), "u_t": d.vector(1e-3, 2)}
         yield ask("T4", SLIDE, ("slip", "touch-down"), xi=d.decade(1e-7, 1e-5), xi_rate=d.decade(1e-3, 0.1), **q)

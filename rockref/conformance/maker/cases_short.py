@@ -1,6 +1,7 @@
 """Questions to those who show `simulate` only (L5s): runs of one or two steps, each laid out so that one rule decides.
 
-The first row shows the contact rules at the start state itself, the later ones the integrator. Feet on the plate, or the block in
+The first row shows the contact rules at the start state itself, the later ones the integrator. Feet on the plate, or
+the block in
 free flight; soft feet where the step is to be long.
 """
 
@@ -20,7 +21,9 @@ UP, IN = HEIGHT / 2, 2.0**-17
 Z = np.array([0.0, 0.0, 1.0])
 
 
-def ask(fields: dict[str, str], flag: str, steps: int, x: Any, Lambda: Any = None, made: dict | None = None, **changes: Any) -> Case:
+def ask(
+    fields: dict[str, str], flag: str, steps: int, x: Any, Lambda: Any = None, made: dict | None = None, **changes: Any
+) -> Case:
     """A run of so many steps from a state; `made` replaces properties, `changes` the memory and the step."""
     q = table_3_1(delta_long=EVEN) | {k: np.full(8, float(v)) for k, v in (made or {}).items()}
     rates = {k: np.array(changes.pop(k), float) for k in ("v", "W") if k in changes}
@@ -28,7 +31,9 @@ def ask(fields: dict[str, str], flag: str, steps: int, x: Any, Lambda: Any = Non
     h = q.pop("step", 2.0**-17)
     q |= {"step": h, "duration": steps * h, "output_rate": 1 / h}
     rule = next(iter(fields.values()))
-    return Case(rule, "L5s", "simulate", q, {k: (r, r) for k, r in fields.items()}, (flag, f"{steps} step(s)"))
+    return Case(
+        rule, "L5s", "simulate", q, {k: (r, r) for k, r in fields.items()}, (flag, f"{steps} step(s)"), set="even feet"
+    )
 
 
 def standing(depth: float = IN) -> np.ndarray:
@@ -61,7 +66,9 @@ def normal() -> Iterator[Case]:
     lean = rotation((0.0005, 0.001, 0.4))
     for i in range(3):
         yield ask(motion, "leaning and turning", 1, deep, lean, W=0.25 * np.eye(3)[i])
-    yield ask({"F_T@0": "T5"}, "touch-down far from the old anchor", 1, standing(), s=np.full((8, 2), 2.0**-10), made=GLUE)
+    yield ask(
+        {"F_T@0": "T5"}, "touch-down far from the old anchor", 1, standing(), s=np.full((8, 2), 2.0**-10), made=GLUE
+    )
 
 
 def friction() -> Iterator[Case]:
@@ -69,11 +76,23 @@ def friction() -> Iterator[Case]:
     d = Draw(50)
     for _ in range(2):
         yield ask({"F_T@0": "T1"}, "spring", 1, standing(), made=GLUE, **held(d.vectors(1e-5, 8, 2)))
-        yield ask({"F_T@0": "T1"}, "damper", 1, standing(), made=GLUE, **held(np.zeros((8, 2))), v=[d.between(-0.1, 0.1), 0.0625, 0])
+        yield ask(
+            {"F_T@0": "T1"},
+            "damper",
+            1,
+            standing(),
+            made=GLUE,
+            **held(np.zeros((8, 2))),
+            v=[d.between(-0.1, 0.1), 0.0625, 0],
+        )
     for _ in range(2):
         tip = np.array([0.8, 0.6]) * 2.0**-17 * 1.2 * 0.25
-        yield ask({"F_T@0": "T2"}, "oblique, just inside", 1, standing(), made={"mu": 0.25, "mu_0": 0.25}, **held(tip * 0.99))
-        yield ask({"F_T@0": "T2"}, "oblique, just outside", 1, standing(), made={"mu": 0.25, "mu_0": 0.25}, **held(tip * 1.01))
+        yield ask(
+            {"F_T@0": "T2"}, "oblique, just inside", 1, standing(), made={"mu": 0.25, "mu_0": 0.25}, **held(tip * 0.99)
+        )
+        yield ask(
+            {"F_T@0": "T2"}, "oblique, just outside", 1, standing(), made={"mu": 0.25, "mu_0": 0.25}, **held(tip * 1.01)
+        )
     between = np.array([0.8, 0.6]) * 2.0**-17 * 1.2 * 0.25 * 1.5
     pair = {"mu": 0.25, "mu_0": 0.5}
     yield ask({"F_T@0": "T6"}, "between the cones, stuck", 1, standing(), made=pair, **held(between))
@@ -82,9 +101,19 @@ def friction() -> Iterator[Case]:
     for _ in range(3):
         v = [d.between(-0.25, 0.25), d.between(-0.25, 0.25), 0]
         yield ask({"F_T@0": "T3"}, "sliding", 1, standing(), v=v, sliding=slid, **held(d.vectors(2e-5, 8, 2)))
-        yield ask({"F_T@2": "T4"}, "the anchor slides along", 2, standing(), v=v, sliding=slid, **held(d.vectors(2e-5, 8, 2)))
+        yield ask(
+            {"F_T@2": "T4"}, "the anchor slides along", 2, standing(), v=v, sliding=slid, **held(d.vectors(2e-5, 8, 2))
+        )
     # Sticking again: a sudden stop of the foot shows where its anchor has been left.
-    yield ask({"F_T@2": "T4"}, "the anchor that is left", 2, standing(), W=[0, 0, 3.0], **held(d.vectors(1e-5, 8, 2)), made={"C_T": 0.0})
+    yield ask(
+        {"F_T@2": "T4"},
+        "the anchor that is left",
+        2,
+        standing(),
+        W=[0, 0, 3.0],
+        **held(d.vectors(1e-5, 8, 2)),
+        made={"C_T": 0.0},
+    )
 
 
 def flight() -> Iterator[Case]:
@@ -102,7 +131,14 @@ def flight() -> Iterator[Case]:
         yield fly({"x@2": "I4"}, "falling", 2, v=v)
     for i in range(3):
         yield fly({"Lambda@1": "I3"}, "steady spin", W=3.0 * np.eye(3)[i], Lambda=d.rotation(0.5))
-    yield fly({"Lambda@1": "I3"}, "spinning ball", W=d.vector(6), Lambda=d.rotation(0.5), inertia=diagonal(1.0, 1.0, 1.0), step=2.0**-5)
+    yield fly(
+        {"Lambda@1": "I3"},
+        "spinning ball",
+        W=d.vector(6),
+        Lambda=d.rotation(0.5),
+        inertia=diagonal(1.0, 1.0, 1.0),
+        step=2.0**-5,
+    )
     for h in (2.0**-10, 2.0**-6):
         yield fly({"Lambda@1": "I2"}, "torque-free top", W=d.vector(8), Lambda=d.rotation(0.5), step=h)
         yield fly({"W@1": "I5"}, "torque-free top", W=d.vector(8), Lambda=d.rotation(0.5), step=h)

@@ -12,6 +12,7 @@ from rockref.conformance import exact, exact_run
 from rockref.conformance.maker.answers import body_of, start_of
 from rockref.conformance.maker.arithmetic import Doubles, converted
 from rockref.conformance.maker.bars import Case
+from rockref.conformance.maker.drawing import orthonormal
 from rockref.conformance.maker.scenes import Scene, scenes
 from rockref.conformance.vectors import problem_of
 from rockref.engines import run
@@ -50,12 +51,17 @@ def states(scene: Scene) -> Any:
 def at_row(scene: Scene, response: Any, row: int) -> dict[str, Any]:
     """Inputs of a step from that row, with a and T as its point forces make them."""
     q = scene.q | {k: np.array(getattr(response, k)[row]) for k in STATE}
+    q["Lambda"] = orthonormal(q["Lambda"])
     F = np.array(response.F[row])
     numbers = {k: converted(q[k], float) for k in ("mass", "g", "Lambda", "P")}
     levers = [exact.apply(numbers["Lambda"], P) for P in numbers["P"]]
     force, _, T = exact.resultants(numbers["Lambda"], levers, F.tolist(), numbers["mass"], numbers["g"])
     a = [f / numbers["mass"] for f in force]
-    return q | {"F": F, "a": np.array(a), "T": np.array(T), "step": scene.step} | {"duration": scene.step, "output_rate": 1e5}
+    return (
+        q
+        | {"F": F, "a": np.array(a), "T": np.array(T), "step": scene.step}
+        | {"duration": scene.step, "output_rate": 1e5}
+    )
 
 
 def margin(q: dict[str, Any]) -> float:
@@ -107,4 +113,6 @@ def steps() -> Iterator[Case]:
             flags = (name, f"t = {response.t[some[best]]:.5f} s", "".join("-sS"[c] for c in pattern))
             # A pattern that is met on a switching surface only, to rounding, cannot be told from its neighbour.
             if margins[best] > 1e-7:
-                yield Case("S1", "L4", "step", asked[best], fields, flags, branch=branch, set=name, margin=margins[best])
+                yield Case(
+                    "S1", "L4", "step", asked[best], fields, flags, branch=branch, set=name, margin=margins[best]
+                )

@@ -11,8 +11,8 @@ from rockref.conformance import pieces
 
 #: Rules whose numbers are moved; decisions are not.
 MOVED = (
-    "position", "acceleration", "increment", "exponential", "rotation", "kinematics", "normal", "trial", "threshold",
-    "friction", "anchor", "force", "moment", "body_moment", "velocity", "momentum",
+    "position", "acceleration", "increment", "exponential", "kinematics", "normal", "trial", "threshold",
+    "friction", "anchor", "force", "moment", "body_moment", "velocity", "momentum", "rates",
 )  # fmt: skip
 
 
@@ -36,4 +36,11 @@ def noisy_rules(seed: int) -> pieces.Rules:
         return with_noise
 
     law = pieces.law()
-    return law.replace(**{name: moved(getattr(law, name)) for name in MOVED})
+
+    def rotation(Lambda: np.ndarray, E: np.ndarray) -> np.ndarray:
+        # Rounded against 1, as a pose kept as a quaternion is.
+        turned = law.rotation(Lambda, E)
+        return turned + ulp / 2 * draw.integers(-1, 2, turned.shape, dtype=np.int8)
+
+    noisy = {name: moved(getattr(law, name)) for name in MOVED}
+    return law.replace(**noisy, rotation=rotation)

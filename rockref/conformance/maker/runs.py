@@ -1,6 +1,7 @@
 """Expected rows of a run, and their bars.
 
-Values: `exact` in longdouble. Bars: 8 times the largest deviation, so far in the run, of the float64 law, of 16 runs with all inputs
+Values: `exact` in longdouble. Bars: 8 times the largest deviation, so far in the run, of the float64 law, of 16 runs
+with all inputs
 moved by an ulp and the points in random order, and of 8 runs under random rounding; plus an ulp.
 """
 
@@ -18,6 +19,8 @@ from rockref.conformance.maker.arithmetic import LongDoubles, converted
 from rockref.conformance.maker.bars import FACTOR, ULP_RUNS, moved, ulp
 from rockref.conformance.maker.noise import noisy_rules
 from rockref.conformance.maker.scenes import PER_POINT
+from rockref.conformance.other_scheme import KickAndDrift
+from rockref.conformance.runs import upright
 from rockref.conformance.vectors import problem_of
 from rockref.engines import run
 from rockref.model.problem import Problem, stack
@@ -25,7 +28,8 @@ from rockref.model.simulate import output_steps
 
 ROUNDING_RUNS, SINGLE_RUNS = 8, 12
 SHOWN = ("W", "x", "Lambda")
-#: Comparison ends where the bar exceeds this share of the signal. float64: the issue's 1e-6. float32 and scheme: decided; a tenth of the
+#: Comparison ends where the bar exceeds this share of the signal. float64: the issue's 1e-6. float32 and scheme:
+#: decided; a tenth of the
 #: signal still tells a wrong rule from a right one.
 HORIZON = {"": 1e-6, "float32_": 0.1, "scheme_": 0.1}
 
@@ -64,17 +68,54 @@ def allowed(q: dict[str, Any]) -> dict[str, Any]:
     return q | {"mu_0": np.maximum(q["mu_0"], q["mu"])}
 
 
-def members(q: dict[str, Any], seed: int) -> list[Any]:
-    """Correct float64 runs: the law, moved and rearranged ones, and (as one batch) those under random rounding."""
+def double_members(q: dict[str, Any], seed: int) -> list[Any]:
+    """Correct float64 runs: the law, and moved and rearranged ones."""
     rng = random.Random(seed)
     problems = [problem_of(q)] + [problem_of(rearranged(q, rng)) for _ in range(ULP_RUNS)]
-    found: list[Any] = [run(p, engine="auto") for p in problems]
-    batch = pieces.simulate(noisy_rules(seed), stack([problem_of(q)] * ROUNDING_RUNS))
-    return found + [batch.pick(i) for i in range(ROUNDING_RUNS)]
+    return [run(p, engine="auto") for p in problems]
 
 
-def single_members(q: dict[str, Any], seed: int) -> list[Any]:
-    """Correct float32 runs: inputs moved by a single-precision ulp before they are rounded."""
+def inert(q: dict[str, Any], points: int) -> dict[str, Any]:
+    """The inputs with points added that hang a metre above the centre of mass and never touch."""
+    more = points - len(q["P"])
+    if not more:
+        return q
+    added = {k: np.concatenate([q[k], np.ones(more)]) for k in PER_POINT if k != "P"}
+    added["P"] = np.concatenate([q["P"], np.tile([0.0, 0.0, 1.0], (more, 1))])
+    added["s"] = np.concatenate([q["s"], np.zeros((more, 2))])
+    added |= {k: np.concatenate([q[k], np.zeros(more, bool)]) for k in ("anchored", "sliding")}
+    return q | added | {"names": [*q["names"], *(f"inert {i}" for i in range(more))]}
+
+
+def alike(qs: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Inputs of one step made so alike that they can run in one batch: as many points, the longest duration, every
+    row."""
+    longest = {"duration": max(q["duration"] for q in qs), "output_rate": max(q["output_rate"] for q in qs)}
+    return [inert(q, max(len(p["P"]) for p in qs)) | longest for q in qs]
+
+
+def side_by_side(rules: pieces.Rules, many: list[list[dict[str, Any]]], dtype: Any = None) -> list[list[Any]]:
+    """Several runs each of several inputs, all in one batch; each with its own rows."""
+    flat = [q for qs in many for q in qs]
+    shared = [problem_of(q) for q in alike(flat)]
+    batch, steps = pieces.simulate(rules, stack(shared), dtype), output_steps(shared[0])
+    picked = []
+    for i, q in enumerate(flat):
+        rows = np.searchsorted(steps, output_steps(problem_of(q)))
+        run_ = batch.pick(i)
+        picked.append(Rows(run_.t[rows], run_.W[rows], run_.x[rows], run_.Lambda[rows]))
+    each = iter(picked)
+    return [[next(each) for _ in qs] for qs in many]
+
+
+def rounding_members(qs: list[dict[str, Any]], seed: int) -> list[list[Any]]:
+    """Correct float64 runs under random rounding, for each of several inputs."""
+    return side_by_side(noisy_rules(seed), [[q] * ROUNDING_RUNS for q in qs])
+
+
+def single_members(qs: list[dict[str, Any]], seed: int) -> list[list[Any]]:
+    """Correct float32 runs for each of several inputs, which are moved by a single-precision ulp before they are
+    rounded."""
     rng = random.Random(seed)
 
     def rough(a: Any) -> Any:
@@ -83,9 +124,8 @@ def single_members(q: dict[str, Any], seed: int) -> list[Any]:
             return a * (1 + 2.0**-23 * shift)
         return a
 
-    problems = [problem_of(q)] + [problem_of(allowed({k: rough(v) for k, v in q.items()})) for _ in range(SINGLE_RUNS - 1)]
-    batch = pieces.simulate(pieces.law(), stack(problems), np.float32)
-    return [batch.pick(i) for i in range(SINGLE_RUNS)]
+    many = [[q] + [allowed({k: rough(v) for k, v in q.items()}) for _ in range(SINGLE_RUNS - 1)] for q in qs]
+    return side_by_side(pieces.law(), many, np.float32)
 
 
 def deviation(found: list[Any], truth: Rows, key: str) -> np.ndarray:
@@ -118,27 +158,20 @@ def horizon(width: dict[str, np.ndarray], truth: Rows, share: float) -> float:
     return float(truth.t[max(last, 0)])
 
 
-def impacts(t: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
-    """Instants at which the block passes upright, linear between rows; crossings of less than 0.01 rad do not count."""
-    tilt = np.arctan2(np.asarray(Lambda[:, 2, 1], float), np.asarray(Lambda[:, 2, 2], float))
-    found, last = [], 0
-    for i in np.flatnonzero(np.signbit(tilt[1:]) != np.signbit(tilt[:-1])):
-        if np.max(np.abs(tilt[last : i + 1])) > 0.01:
-            share = tilt[i] / (tilt[i] - tilt[i + 1])
-            found.append(t[i] + share * (t[i + 1] - t[i]))
-            last = i + 1
-    return np.array(found)
-
-
 def impact_bars(found: list[Any], truth: Rows, end: float, factor: float = FACTOR) -> list[dict[str, float]]:
     """Main impacts up to `end` [s] with their bars [s]; the linear interpolation belongs to their definition."""
-    right = [i for i in impacts(truth.t, truth.Lambda) if i <= end]
-    others = [impacts(m.t, m.Lambda) for m in found]
+    right = [i for i in upright(truth.t, truth.Lambda) if i <= end]
+    others = [upright(truth.t, m.Lambda) for m in found]
     result = []
     for k, instant in enumerate(right):
         apart = [abs(o[k] - instant) if len(o) > k else np.inf for o in others]
         result.append({"t_s": float(instant), "bar_s": float(factor * max(apart) + np.spacing(instant))})
     return result
+
+
+def other_scheme(qs: list[dict[str, Any]]) -> list[Any]:
+    """Runs by another integrator, for each of several inputs."""
+    return [runs[0] for runs in side_by_side(KickAndDrift().rules, [[q] for q in qs])]
 
 
 def converged(problem: Problem, step: float) -> Any:

@@ -10,7 +10,7 @@ import numpy as np
 
 from rockref.conformance import exact, exact_run
 from rockref.conformance.maker.arithmetic import Digits, converted
-from rockref.conformance.maker.drawing import HEIGHT, MASS, THETA_0, rotation, table_3_1
+from rockref.conformance.maker.drawing import HEIGHT, THETA_0, rotation, table_3_1
 
 PER_POINT = ("P", "K_N", "C_N", "K_T", "C_T", "mu_0", "mu")
 EVEN = (5e-5, 5e-5, 5e-5, 5e-5)
@@ -41,7 +41,12 @@ class Scene:
 def at_rest(q: dict[str, Any], x: Any, Lambda: Any, v: Any = (0, 0, 0), W: Any = (0, 0, 0)) -> dict[str, Any]:
     """The inputs with a start state without contact history."""
     n = len(q["P"])
-    pose = {"x": np.array(x, float), "Lambda": np.array(Lambda, float), "v": np.array(v, float), "W": np.array(W, float)}
+    pose = {
+        "x": np.array(x, float),
+        "Lambda": np.array(Lambda, float),
+        "v": np.array(v, float),
+        "W": np.array(W, float),
+    }
     names = [f"{c}{k}" for k in ("ext", "int") for c in "1234"][:n]
     memory = {"s": np.zeros((n, 2)), "anchored": np.zeros(n, bool), "sliding": np.zeros(n, bool)}
     return q | pose | memory | {"names": q.get("names", names)}
@@ -51,7 +56,7 @@ def released(q: dict[str, Any], theta_0: float = THETA_0, W: Any = (0, 0, 0)) ->
     """The inputs with the release posture."""
     m = Digits()
     numbers = {k: converted(q[k], m.number) for k in ("mass", "g", "P", "K_N")}
-    x, Lambda = exact_run.release(*(numbers[k] for k in ("mass", "g", "P", "K_N")), m.number(theta_0), m)
+    x, Lambda = exact_run.release(**numbers, theta_0=m.number(theta_0), m=m)
     return at_rest(q, np.array(x, float), np.array(Lambda, float), W=W)
 
 
@@ -88,7 +93,9 @@ def scenes() -> dict[str, Scene]:
     base = table_3_1()
     low, pair = table_3_1(mu=0.05), table_3_1(mu=0.15, mu_0=0.25)
     even, slippery = table_3_1(delta_long=EVEN), table_3_1(mu=0.05, delta_long=EVEN)
-    oblique = released(base) | {"inertia": base["inertia"] + np.array([[0, 0.02, -0.03], [0.02, 0, 0.015], [-0.03, 0.015, 0]])}
+    oblique = released(base) | {
+        "inertia": base["inertia"] + np.array([[0, 0.02, -0.03], [0.02, 0, 0.015], [-0.03, 0.015, 0]])
+    }
     heavy = released(base | {"g": 9.80665, "mass": 60.0})
     uneven = standing(base, 2e-5) | {"Lambda": rotation((1e-4, 2e-4, 0))}
     sliding = standing(slippery, -1e-6, v=(0.125, 0.0625, 0))

@@ -9,7 +9,6 @@ import numpy as np
 
 from rockref.conformance import pieces
 from rockref.conformance.law_backend import RulesBackend
-from rockref.conformance.pieces import Rules
 from rockref.model.assembly import resultant_force, resultant_moment
 from rockref.model.contact import Kinematics
 from rockref.model.integrator import angular_acceleration
@@ -106,7 +105,11 @@ def fused_kinematics(x, Lambda, v, W, P):
     omega = _turned(Lambda, W[..., None, :])
     u = x[..., None, :] + r
     turning = np.stack(
-        [fused(omega[..., (i + 1) % 3], r[..., (i + 2) % 3], -omega[..., (i + 2) % 3] * r[..., (i + 1) % 3]) for i in range(3)], -1
+        [
+            fused(omega[..., (i + 1) % 3], r[..., (i + 2) % 3], -omega[..., (i + 2) % 3] * r[..., (i + 1) % 3])
+            for i in range(3)
+        ],
+        -1,
     )
     u_rate = v[..., None, :] + turning
     return Kinematics(r, u, u_rate, -u[..., 2], -u_rate[..., 2], u_rate[..., :2])
@@ -161,8 +164,6 @@ class InCompany(RulesBackend):
         """A run."""
         other = replace(problem, start=replace(problem.start, v=problem.start.v + 0.125))
         return pieces.simulate(self.rules, stack([other, problem]), self.dtype).pick(1)
-
-
 
 
 CONTROLS = (

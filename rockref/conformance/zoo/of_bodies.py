@@ -6,13 +6,22 @@ from dataclasses import replace
 
 import numpy as np
 
-from rockref.conformance.pieces import Rows, Rules
+from rockref.conformance.pieces import Rules
 from rockref.conformance.zoo.mistake import Mistake
 from rockref.model import geometry
 from rockref.model.assembly import resultant_force, sum_over_points
 from rockref.model.integrator import times
-from rockref.model.problem import Problem
-from rockref.model.rotation import apply, apply_transposed, cross, hat, product, transposed
+from rockref.model.problem import Problem, State
+from rockref.model.rotation import (
+    apply,
+    apply_to_points,
+    apply_transposed,
+    cross,
+    exponential,
+    hat,
+    product,
+    transposed,
+)
 
 # -- G, P: what follows from the parameters; and how a run that derives them itself misreads its problem ------------
 
@@ -84,6 +93,16 @@ def properties_read(**changes):
         return replace(problem, points=replace(points, **{k: f(points) for k, f in changes.items()}))
 
     return read
+
+
+# -- R1: the release posture ----------------------------------------------------------------------------------------
+
+
+def without_roll(block, points, theta_0):
+    Lambda = exponential(np.array([-theta_0, 0, 0], points.P.dtype))
+    height = np.min(apply_to_points(Lambda, points.P)[..., 2])
+    x = np.array([0, 0, -height - block.mass * block.g / 2 / points.K_N[0]], points.P.dtype)
+    return State.at_rest(x, Lambda, points.n)
 
 
 # -- A: sums over the points ----------------------------------------------------------------------------------------
@@ -219,24 +238,50 @@ def _one(**changes):
     return lambda rules: rules.replace(**changes)
 
 
+OF_PARAMETERS = (
+    Mistake(
+        "Z31", "G1", "Ixx and Izz exchanged",
+        _one(inertia=axes_exchanged), inertia_read(lambda J, m, h: J[::-1]),
+    ),
+    Mistake(
+        "Z58", "G1", "half sides in the place of sides",
+        _one(inertia=half_sides), inertia_read(lambda J, m, h: J / 4),
+    ),
+    Mistake(
+        "Z59", "G1", "inertia about the base, not about the centre of mass",
+        _one(inertia=about_the_base), inertia_read(lambda J, m, h: J + np.array([1.0, 1.0, 0.0]) * m * h * h / 4),
+    ),
+    Mistake(
+        "Z60", "G2", "internal points inset along the sides, not along the diagonal",
+        _one(points=inset_along_the_sides), points_read(inset_again),
+    ),
+    Mistake(
+        "Z61", "G2", "external points below the internal plane",
+        _one(points=lowered), points_read(raised_reversed),
+    ),
+    Mistake(
+        "Z07", "P1", "total stiffness shared among the eight points",
+        _one(stiffness=lambda K, n: np.full(n, K / n)),
+        properties_read(K_N=lambda p: p.K_N / 8, K_T=lambda p: p.K_T / 8),
+    ),
+    Mistake(
+        "Z08", "P2", "damping by an eighth of the mass",
+        _one(damping=lambda beta, K, mass: 2 * beta * np.sqrt(K * mass / 8)),
+        properties_read(C_N=lambda p: p.C_N / np.sqrt(8), C_T=lambda p: p.C_T / np.sqrt(8)),
+    ),
+    Mistake(
+        "Z62", "P2", "the factor 2 lost",
+        _one(damping=lambda beta, K, mass: beta * np.sqrt(K * mass)),
+        properties_read(C_N=lambda p: p.C_N / 2, C_T=lambda p: p.C_T / 2),
+    ),
+    Mistake(
+        "Z63", "P3", "no tangential damping ratio",
+        _one(damping_ratio=lambda beta: (beta, 0 * beta)), properties_read(C_T=lambda p: 0 * p.C_T),
+    ),
+    Mistake("Z87", "R1", "tilted about X only: one corner hangs in the air", _one(release=without_roll)),
+)  # fmt: skip
 
-
-OF_BODIES = (
-    Mistake("Z31", "G1", "Ixx and Izz exchanged", _one(inertia=axes_exchanged), inertia_read(lambda J, m, h: J[::-1])),
-    Mistake("Z58", "G1", "half sides in the place of sides", _one(inertia=half_sides), inertia_read(lambda J, m, h: J / 4)),
-    Mistake("Z59", "G1", "inertia about the base, not about the centre of mass", _one(inertia=about_the_base),
-            inertia_read(lambda J, m, h: J + np.array([1.0, 1.0, 0.0]) * m * h * h / 4)),
-    Mistake("Z60", "G2", "internal points inset along the sides, not along the diagonal", _one(points=inset_along_the_sides),
-            points_read(inset_again)),
-    Mistake("Z61", "G2", "external points below the internal plane", _one(points=lowered), points_read(raised_reversed)),
-    Mistake("Z07", "P1", "total stiffness shared among the eight points", _one(stiffness=lambda K, n: np.full(n, K / n)),
-            properties_read(K_N=lambda p: p.K_N / 8, K_T=lambda p: p.K_T / 8)),
-    Mistake("Z08", "P2", "damping by an eighth of the mass", _one(damping=lambda beta, K, mass: 2 * beta * np.sqrt(K * mass / 8)),
-            properties_read(C_N=lambda p: p.C_N / np.sqrt(8), C_T=lambda p: p.C_T / np.sqrt(8))),
-    Mistake("Z62", "P2", "the factor 2 lost", _one(damping=lambda beta, K, mass: beta * np.sqrt(K * mass)),
-            properties_read(C_N=lambda p: p.C_N / 2, C_T=lambda p: p.C_T / 2)),
-    Mistake("Z63", "P3", "no tangential damping ratio", _one(damping_ratio=lambda beta: (beta, 0 * beta)),
-            properties_read(C_T=lambda p: 0 * p.C_T)),
+OF_SUMS = (
     Mistake("Z64", "A1", "standard gravity in place of the g that is given", _one(force=other_gravity)),
     Mistake("Z65", "A1", "weight with the wrong sign", _one(force=weight_up)),
     Mistake("Z66", "A1", "friction forces left out of the sum", _one(force=no_friction_in_the_sum)),
@@ -244,6 +289,9 @@ OF_BODIES = (
     Mistake("Z68", "A2", "friction forces left out of the moment", _one(moment=normal_forces_only)),
     Mistake("Z24", "A3", "moment left in plate axes", _one(body_moment=not_turned)),
     Mistake("Z69", "A3", "moment turned by Lambda, not by its transpose", _one(body_moment=turned_forward)),
+)
+
+OF_STEPS = (
     Mistake("Z34", "I1", "position by the old velocity alone (forward Euler)", _one(position=no_square_term)),
     Mistake("Z70", "I1", "h^2 a for h^2/2 a", _one(position=no_half)),
     Mistake("Z30", "I2", "gyroscopic term missing", _one(acceleration=no_gyroscopic_term)),
@@ -259,7 +307,16 @@ OF_BODIES = (
     Mistake("Z75", "I5", "momentum turned forth, not back", _one(momentum=turned_forth)),
     Mistake("Z76", "I5", "momentum not turned at all", _one(momentum=not_turned_back)),
     Mistake("Z77", "I5", "half of the new moment forgotten", _one(momentum=new_moment_missing)),
-    *(Mistake(f"Z{name}", "M1", says, channel(change)[0], report=channel(change)[1])
-      for name, says, change in (("35", "angular velocity in plate axes", _in_plate_axes), ("78", "rad/s for deg/s", _in_rad_s),
-                                 ("79", "Y axis with the wrong sign", _y_reversed), ("80", "one sample late", _a_sample_late))),
-)  # fmt: skip
+)
+
+OF_THE_CHANNEL = tuple(
+    Mistake(id_, "M1", says, channel(change)[0], report=channel(change)[1])
+    for id_, says, change in (
+        ("Z35", "angular velocity in plate axes", _in_plate_axes),
+        ("Z78", "rad/s for deg/s", _in_rad_s),
+        ("Z79", "Y axis with the wrong sign", _y_reversed),
+        ("Z80", "one sample late", _a_sample_late),
+    )
+)
+
+OF_BODIES = OF_PARAMETERS + OF_SUMS + OF_STEPS + OF_THE_CHANNEL

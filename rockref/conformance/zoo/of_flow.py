@@ -84,7 +84,7 @@ def no_first_evaluation(rules: Rules, problem: Problem) -> State:
     state = pieces.start(rules, problem)
     if problem.start.a is not None:
         return state
-    return replace(state, a=0 * state.a, T=0 * state.T)
+    return replace(state, a=np.zeros_like(state.x), T=np.zeros_like(state.x))
 
 
 def _one(**changes: Any) -> Any:

@@ -90,6 +90,11 @@ def contact_above_the_plate(xi, F_N):
     return np.where(xi < -2e-6, 0, F_N)
 
 
+def depth_without_sign(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
+    c = point_law(rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p)
+    return c._replace(F_N=rules.normal(np.abs(xi), xi_rate, p.K_N, p.C_N))
+
+
 def tangential_constants(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
     return point_law(rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p._replace(K_N=p.K_T, C_N=p.C_T))
 
@@ -109,6 +114,10 @@ def anchor_set_in_every_step(xi, u_t, s, had_anchor):
 def anchor_at_the_origin(xi, u_t, s, had_anchor):
     keep = (xi >= 0) & had_anchor
     return np.where(keep[..., None], s, 0 * u_t), xi >= 0
+
+
+def touching_for_ever(xi, u_t, s, had_anchor):
+    return np.where(had_anchor[..., None], s, u_t), (xi >= 0) | had_anchor
 
 
 # -- T1: the trial force --------------------------------------------------------------------------------------------
@@ -169,9 +178,10 @@ def no_guard(F_trial, size, stick, mu_F_N):
     return np.minimum(1, mu_F_N / size)[..., None] * F_trial
 
 
-def trial_kept(F_trial, size, stick, mu_F_N):
-    return np.where((stick | (mu_F_N <= 0))[..., None], np.where((mu_F_N <= 0)[..., None] & ~stick[..., None], 0, F_trial),
-                    F_trial * 1.0 * np.minimum(1, (mu_F_N / np.where(stick, 1, size)) ** 0.5)[..., None])  # fmt: skip
+def returned_half_way(F_trial, size, stick, mu_F_N):
+    ratio = mu_F_N / np.where(stick, 1, size)
+    scale = np.where(stick, 1, np.where(mu_F_N > 0, (1 + ratio) / 2, 0))
+    return scale[..., None] * F_trial
 
 
 def dashpot_outside(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
@@ -203,7 +213,7 @@ def against_the_velocity(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, s
 def slides_with_mu_0(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
     c = point_law(rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p)
     size = rules.size(c.F_trial)
-    F_T = rules.friction(c.F_trial, size, ~c.sliding, p.mu_0 * c.F_N)
+    F_T = np.where(c.sliding[..., None], rules.friction(c.F_trial, size, ~c.sliding, p.mu_0 * c.F_N), c.F_T)
     return c._replace(F_T=F_T, s=rules.anchor(F_T, u_t, c.s_trial, v_slide, ~c.sliding, p.K_T, p.C_T))
 
 
@@ -233,7 +243,9 @@ def _one(**changes):
 OF_POINTS = (
     Mistake("Z04", "K1", "sign of the penetration rate: the damper feeds energy", _rates(wrong_sign_of_rate)),
     Mistake("Z06", "K1", "rates of the centre, omega x r forgotten", _rates(rate_of_the_centre)),
-    Mistake("Z19", "K1", "sliding velocity not projected: contains the normal part", _rates(slide_with_the_normal_part)),
+    Mistake(
+        "Z19", "K1", "sliding velocity not projected: contains the normal part", _rates(slide_with_the_normal_part)
+    ),
     Mistake("Z25", "K1", "angular velocity not turned into plate axes", _rates(body_rate_not_turned)),
     Mistake("Z36", "K1", "sliding velocity of the centre in place of the foot's", _rates(slide_of_the_centre)),
     Mistake("Z37", "K1", "points turned by the transposed rotation", _rates(turned_the_wrong_way)),
@@ -246,9 +258,11 @@ OF_POINTS = (
     Mistake("Z42", "N1", "tangential constants in the normal force", _one(point_law=tangential_constants)),
     Mistake("Z03", "N2", "damping acts above the plate", _one(gap=no_branch)),
     Mistake("Z43", "N2", "contact from two micrometres above the plate", _one(gap=contact_above_the_plate)),
+    Mistake("Z85", "N2", "depth without its sign: pushes from both sides", _one(point_law=depth_without_sign)),
     Mistake("Z09", "T5", "anchor kept after lift-off", _one(touch=stale_anchor)),
     Mistake("Z10", "T5", "anchor set anew in every step", _one(touch=anchor_set_in_every_step)),
     Mistake("Z44", "T5", "anchor of a new touch at the origin of the plate", _one(touch=anchor_at_the_origin)),
+    Mistake("Z86", "T5", "contact flag never cleared", _one(touch=touching_for_ever)),
     Mistake("Z45", "T1", "no damper in the trial force", _one(trial=no_damper)),
     Mistake("Z46", "T1", "damper of the trial force pushes", _one(trial=damper_pushes)),
     Mistake("Z47", "T1", "normal constants in the trial force", _one(point_law=normal_constants)),
@@ -261,11 +275,18 @@ OF_POINTS = (
     Mistake("Z52", "T6", "dynamic threshold for sticking points too", _one(threshold=always_dynamic)),
     Mistake("Z12", "T3", "box in place of the cone: x and y cut separately", _one(friction=box)),
     Mistake("Z14", "T3", "dashpot added outside the cone", _one(point_law=dashpot_outside)),
-    Mistake("Z16", "T3", "sliding force by the normal force before the tension cut", _one(point_law=cone_by_the_uncut_normal)),
+    Mistake(
+        "Z16",
+        "T3",
+        "sliding force by the normal force before the tension cut",
+        _one(point_law=cone_by_the_uncut_normal),
+    ),
     Mistake("Z22", "T3", "0/0 at zero trial force", _one(friction=no_guard)),
-    Mistake("Z53", "T3", "sliding force along the velocity, not along the trial force", _one(point_law=against_the_velocity)),
+    Mistake(
+        "Z53", "T3", "sliding force along the velocity, not along the trial force", _one(point_law=against_the_velocity)
+    ),
     Mistake("Z54", "T3", "sliding with the static coefficient", _one(point_law=slides_with_mu_0)),
-    Mistake("Z55", "T3", "returned half-way to the cone only", _one(friction=trial_kept)),
+    Mistake("Z55", "T3", "returned half-way to the cone only", _one(friction=returned_half_way)),
     Mistake("Z11", "T4", "force returned to the cone, anchor not moved", _one(anchor=anchor_left_behind)),
     Mistake("Z13", "T4", "anchor moved without the damper's part", _one(anchor=anchor_without_damper)),
     Mistake("Z56", "T4", "anchor moved to the foot", _one(anchor=anchor_at_the_foot)),

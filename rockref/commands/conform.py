@@ -1,0 +1,173 @@
+"""`rockref conform`: judge a backend by the vectors, and say which equation is wrong."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+ACTIONS = ("exe", "export", "answer", "serve", "judge", "zoo")
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``conform`` to `app`."""
+    app.command("conform")(conform)
+
+
+def conform(
+    target: Annotated[str, typer.Argument(help="What is judged, or what is done; see below.")] = "numpy",
+    rest: Annotated[list[str] | None, typer.Argument(help="Program and its arguments, or files.")] = None,
+    layers: Annotated[str | None, typer.Option(help="Some of L0,L1,L2,L3,L4,L5s,L5,L6,L7; all by default.")] = None,
+    profile: Annotated[
+        str | None, typer.Option(help="float64, float32, scheme (another integrator); default: what it says.")
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Small layers only, no trajectories, no properties.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    junit: Annotated[Path | None, typer.Option(help="Write JUnit XML there.")] = None,
+    badge: Annotated[Path | None, typer.Option(help="Write a badge (SVG) there.")] = None,
+    html: Annotated[Path | None, typer.Option(help="Write a page with the divergence drawn there.")] = None,
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="export, answer: the file to write.")] = None,
+    timeout: Annotated[
+        float, typer.Option(help="exe: seconds for a run; a sixtieth of it for a small question.")
+    ] = 600.0,
+    examples: Annotated[int, typer.Option(help="Examples drawn for each property of L6.")] = 50,
+    colour: Annotated[
+        bool | None, typer.Option("--colour/--no-colour", help="By default where a terminal reads.")
+    ] = None,
+) -> None:
+    """Judge a backend by the vectors; name the first wrong rule and its equation.
+
+    TARGET is numpy, numba, path/to/file.py:Class, package:Class, the name of an entry point, or one of
+    exe (a program that speaks JSON lines), export and judge (questions and answers as files), answer and serve
+    (a Python backend as file or as program), zoo (the judge judged by planted mistakes).
+    Exit code 1 where the backend falls short.
+
+    \b
+    Example:
+      rockref conform
+      rockref conform numba --html verdict.html
+      rockref conform examples/backend_numpy.py:Backend --quick
+      rockref conform exe ./backend --timeout 60
+      rockref conform export --output requests.jsonl
+      rockref conform judge responses.jsonl --json
+      rockref conform zoo --json
+    """
+    from rockref.conformance.judge import LAYERS
+    from rockref.model.errors import InputError
+
+    rest = rest or []
+    if target not in ACTIONS and rest:
+        raise InputError(
+            "E-ARGUMENT", target, f"is followed by {rest[0]!r}", "Only exe, judge, answer, serve take more arguments."
+        )
+    chosen = _layers(layers, quick, LAYERS)
+    if target == "zoo":
+        _zoo(as_json, quick)
+    elif target in ("export", "answer", "serve"):
+        _files(target, rest, chosen, profile or "float64", output)
+    else:
+        backend, answered = _backend(target, rest, timeout)
+        _judge(backend, [n for n in chosen if answered is None or n in answered], profile, as_json, colour, examples,
+               {"junit": junit, "badge": badge, "html": html})  # fmt: skip
+
+
+def _layers(layers: str | None, quick: bool, every: tuple[str, ...]) -> list[str]:
+    if layers is not None:
+        return [name.strip() for name in layers.split(",") if name.strip()]
+    return [n for n in every if not (quick and n in ("L5", "L6"))]
+
+
+def _backend(target: str, rest: list[str], timeout: float) -> tuple[Any, set[str] | None]:
+    """The backend, and the layers to which it has answers (None: whatever it is asked)."""
+    from rockref.conformance.backend import load
+    from rockref.model.errors import InputError
+
+    if target == "exe":
+        from rockref.conformance.executable import Executable
+
+        if not rest:
+            raise InputError("E-ARGUMENT", "exe", "no program is given", "rockref conform exe ./program [arguments].")
+        return Executable(rest, small=max(timeout / 60, 1.0), long=timeout), None
+    if target == "judge":
+        from rockref.conformance.offline import Recorded
+
+        if len(rest) != 1:
+            raise InputError("E-ARGUMENT", "judge", f"has {len(rest)} files", "rockref conform judge responses.jsonl.")
+        recorded = Recorded(Path(rest[0]))
+        return recorded, recorded.layers
+    return load(target), None
+
+
+def _judge(
+    backend: Any,
+    layers: list[str],
+    profile: str | None,
+    as_json: bool,
+    colour: bool | None,
+    examples: int,
+    files: dict[str, Any],
+) -> None:
+    from rockref.conformance import in_files, in_words
+    from rockref.conformance.judge import PROFILES, judge
+    from rockref.conformance.verdict import as_json as in_json
+    from rockref.conformance.verdict import verdict
+    from rockref.model.storage import write_bytes
+
+    precision = getattr(backend, "precision", "float64")
+    used = profile or (precision if precision in PROFILES else "float64")
+    show = sys.stderr.isatty() and not as_json
+    findings = judge(backend, layers, used, _progress if show else None, examples)
+    found = verdict(findings, backend)
+    if show:
+        typer.echo("\r" + " " * 40 + "\r", nl=False, err=True)
+    for name, make in (("junit", in_files.junit), ("badge", in_files.badge), ("html", in_files.page)):
+        if files[name] is not None:
+            data = make(found)
+            write_bytes(files[name], data if isinstance(data, bytes) else data.encode())
+    if as_json:
+        typer.echo(json.dumps(in_json(found), indent=1))
+    else:
+        typer.echo(in_words.text(found, sys.stdout.isatty() if colour is None else colour), nl=False, color=True)
+    if hasattr(backend, "close"):
+        backend.close()
+    if not found.passed:
+        raise typer.Exit(1)
+
+
+def _progress(layer: str, share: float) -> None:
+    typer.echo(f"\r{layer:4} {share:4.0%}", nl=False, err=True)
+
+
+def _files(action: str, rest: list[str], layers: list[str], profile: str, output: Path | None) -> None:
+    from rockref.conformance import jsonlines, offline
+    from rockref.conformance.backend import load
+    from rockref.model.errors import InputError
+    from rockref.model.storage import write_text
+
+    if action == "serve":
+        jsonlines.serve(load(rest[0] if rest else "numpy"))
+        return
+    if action == "export":
+        made = offline.text(layers, profile)
+    else:
+        if len(rest) != 2:
+            raise InputError(
+                "E-ARGUMENT", "answer", f"has {len(rest)} arguments", "rockref conform answer BACKEND requests.jsonl."
+            )
+        backend = load(rest[0])
+        requests = Path(rest[1]).read_text(encoding="utf-8").splitlines()
+        made = "".join(jsonlines.line(jsonlines.answer(backend, json.loads(row))) for row in requests if row.strip())
+    if output is None:
+        typer.echo(made, nl=False)
+    else:
+        write_text(output, made)
+
+
+def _zoo(as_json: bool, quick: bool) -> None:
+    from rockref.conformance.zoo.run import in_words, run_zoo
+
+    found = run_zoo(black_box=not quick, progress=_progress if sys.stderr.isatty() and not as_json else None)
+    typer.echo(json.dumps(found, indent=1) if as_json else in_words(found))
+    if found["detected"] < found["planted"] or found["controls_rejected"]:
+        raise typer.Exit(1)

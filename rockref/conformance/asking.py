@@ -1,0 +1,32 @@
+"""Putting a vector's question to a backend."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rockref.conformance.vectors import Vector, problem_of
+
+
+def as_mapping(answer: Any, piece: str) -> dict[str, Any]:
+    """A piece's answer as a mapping: a dict, or an object with attributes."""
+    if isinstance(answer, dict):
+        return answer
+    if piece == "simulate":
+        return {k: getattr(answer, k, None) for k in ("t", "W", "x", "Lambda", "F", "anchored")}
+    if hasattr(answer, "_asdict"):
+        return dict(answer._asdict())
+    return dict(vars(answer))
+
+
+def has(backend: Any, piece: str) -> bool:
+    """Whether a backend shows a piece."""
+    return callable(getattr(backend, piece, None))
+
+
+def ask(backend: Any, vector: Vector) -> dict[str, Any]:
+    """The backend's answer to a vector. What the backend raises goes through."""
+    if vector.piece in ("step", "simulate"):
+        answer = getattr(backend, vector.piece)(problem_of(vector.inputs))
+    else:
+        answer = getattr(backend, vector.piece)(**vector.inputs)
+    return as_mapping(answer, vector.piece)

@@ -1,0 +1,111 @@
+"""Who shows `simulate` only: the pattern of its deviations, and the mistakes of the zoo that leave the most similar
+one."""
+
+from __future__ import annotations
+
+import csv
+import gzip
+import io
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance import vectors
+from rockref.conformance.asking import as_mapping
+from rockref.conformance.compare import bar_of, in_bars
+from rockref.conformance.fields import Missing, result
+from rockref.conformance.runs import SHOWN, expected_columns, grouped, simulate
+from rockref.conformance.vectors import Expected, Vector, problem_of, read_bytes, trajectory
+
+#: Every so many rows of a window enter the fingerprint: windows are long, and their rows alike.
+STRIDE = 10
+#: Deviations are written as whole tenths of their logarithm; a number that is none counts as 10^20 bars.
+TENTHS, LARGEST = 10, 20.0
+#: Deviations below so many bars are rounding.
+SILENT = 10.0
+
+
+def mark(got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
+    """sign(deviation) log10(1 + deviation in bars), flat; 0 inside ten bars."""
+    ratio = in_bars(got, expected, bar)
+    with np.errstate(all="ignore"):
+        size = np.minimum(np.log10(1 + ratio), LARGEST)
+        sign = np.where(np.asarray(got, float) < expected, -1.0, 1.0)
+    return np.where(ratio > SILENT, sign * size, 0.0).ravel()
+
+
+def of_short_run(vector: Vector, out: dict[str, Any]) -> np.ndarray:
+    """The marks of one short run."""
+    marks = []
+    for name, expected in vector.expect.items():
+        marks.append(_mark_of(name, expected, vector, out))
+    return np.concatenate(marks)
+
+
+def _mark_of(name: str, expected: Expected, vector: Vector, out: dict[str, Any]) -> np.ndarray:
+    nothing = np.full(expected.value.size, np.nan)
+    bar = bar_of(expected, "float64")
+    if bar is None:
+        return nothing
+    try:
+        got = np.asarray(result(name, out, vector.branch), float)
+    except (Missing, TypeError, ValueError, IndexError):
+        return nothing
+    return mark(got, expected.value, bar) if got.shape == expected.value.shape else nothing
+
+
+def of_window(name: str, out: dict[str, Any]) -> np.ndarray:
+    """The marks of one window."""
+    t = trajectory(name)
+    expected, bars = expected_columns(t, "float64")
+    marks = []
+    for key in SHOWN:
+        right = expected[key][::STRIDE]
+        try:
+            got = np.asarray(out[key], float)[::STRIDE]
+        except (KeyError, TypeError, ValueError, IndexError):
+            got = None
+        if got is None or got.shape != right.shape:
+            marks.append(np.full(right.size, np.nan))
+            continue
+        bar = bars[key][::STRIDE].reshape((-1,) + (1,) * (right.ndim - 1))
+        marks.append(mark(got, right, np.broadcast_to(bar, right.shape)))
+    return np.concatenate(marks)
+
+
+def fingerprint(backend: Any) -> np.ndarray:
+    """All marks of a backend, in a fixed order; not a number where it shows nothing."""
+    short = vectors.layer("L5s")
+    names = vectors.window_names()
+    problems = [problem_of(v.inputs) for v in short] + [trajectory(name).problem for name in names]
+    answers: list[Any] = [None] * len(problems)
+    for group in grouped(problems):
+        for i, answer in zip(group, simulate(backend, [problems[i] for i in group]), strict=True):
+            answers[i] = {} if isinstance(answer, Exception) else as_mapping(answer, "simulate")
+    marks = [of_short_run(v, answers[i]) for i, v in enumerate(short)]
+    return np.concatenate(marks + [of_window(name, answers[len(short) + i]) for i, name in enumerate(names)])
+
+
+def code(marks: np.ndarray) -> np.ndarray:
+    """Marks as small whole numbers."""
+    return np.rint(np.nan_to_num(marks) * TENTHS).astype(int)
+
+
+@lru_cache
+def library() -> tuple[tuple[str, ...], np.ndarray]:
+    """Ids of the mistakes, and their fingerprints (mistakes, marks)."""
+    text = gzip.decompress(read_bytes("fingerprints.csv.gz")).decode()
+    rows = list(csv.reader(io.StringIO(text)))
+    return tuple(row[0] for row in rows), np.array([row[1:] for row in rows], float) / TENTHS
+
+
+def neighbours(marks: np.ndarray, without: tuple[str, ...] = (), count: int = 2) -> list[tuple[str, float]]:
+    """The mistakes whose fingerprints are most similar: id and cosine, best first; `without` some ids."""
+    ids, known = library()
+    seen = np.isfinite(marks)
+    a, B = np.where(seen, marks, 0.0), np.where(seen, known, 0.0)
+    length = np.sqrt(np.sum(B * B, axis=1)) * np.sqrt(np.sum(a * a))
+    cosine = np.where(length > 0, np.sum(B * a, axis=1) / np.where(length > 0, length, 1), 0.0)
+    order = [i for i in np.argsort(-cosine, kind="stable") if ids[i] not in without]
+    return [(ids[i], float(cosine[i])) for i in order[:count]]

@@ -1,0 +1,141 @@
+"""One answer against one vector: by how many bars it is off, and which rule that speaks of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance.fields import Missing, result
+from rockref.conformance.rules import ORDER
+from rockref.conformance.vectors import Expected, Vector
+
+GRADES = ("bitwise", "inside", "look", "outside", "not shown", "not judged")
+#: A result within ten bars is inside "look": it passes, and is pointed out.
+LOOK = 10.0
+FLAGS = ("touching", "sliding", "anchored")
+
+
+@dataclass(frozen=True)
+class Check:
+    """One expected result of one vector, judged.
+
+    worst : deviation in bars where it is largest, at `index`; expected, bar, got : the numbers there
+    follows : a decision in the same vector is wrong, so that this result says nothing about its own rule
+    """
+
+    vector: str
+    layer: str
+    rule: str
+    name: str
+    grade: str
+    worst: float = 0.0
+    index: tuple[int, ...] = ()
+    expected: float | bool | None = None
+    bar: float | None = None
+    got: float | bool | None = None
+    note: str = ""
+    follows: bool = False
+
+    @property
+    def failed(self) -> bool:
+        """Whether it is outside."""
+        return self.grade == "outside"
+
+    @property
+    def rank(self) -> float:
+        """Place in the order of the rules; the threshold itself is looked at before the decision that it makes."""
+        return ORDER["T2"] - 0.5 if self.name == "trace.threshold" else ORDER[self.rule]
+
+
+def bar_of(expected: Expected, profile: str) -> np.ndarray | None:
+    """The bar in a profile; None where the profile does not judge this number."""
+    return expected.bar_float32 if profile == "float32" else expected.bar
+
+
+def grade_of(worst: float) -> str:
+    """The grade of a deviation in bars."""
+    if worst == 0:
+        return "bitwise"
+    return "inside" if worst <= 1 else "look" if worst <= LOOK else "outside"
+
+
+def in_bars(got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
+    """|got - expected| / bar, the difference taken in the wider of the two precisions; infinite where not a number."""
+    wide = np.longdouble if np.asarray(got).dtype == np.longdouble else np.float64
+    with np.errstate(all="ignore"):
+        apart = np.abs(np.asarray(got, wide) - expected.astype(wide)).astype(float)
+        ratio = np.where(apart == 0, 0.0, apart / bar)
+    return np.where(np.isfinite(np.asarray(got, float)) & ~np.isnan(ratio), ratio, np.inf)
+
+
+def compare_number(got: Any, expected: Expected, bar: np.ndarray) -> dict[str, Any]:
+    """Grade, worst place and numbers there."""
+    ratio = in_bars(got, expected.value, bar)
+    index = np.unravel_index(int(np.argmax(ratio)), ratio.shape) if ratio.ndim else ()
+    at = tuple(int(i) for i in index)
+    found = float(np.asarray(got)[at])
+    note = "" if np.isfinite(found) else "not a finite number"
+    worst = float(ratio[at])
+    return {
+        "grade": grade_of(worst), "worst": worst, "index": at, "expected": float(expected.value[at]),
+        "bar": float(bar[at]), "got": found, "note": note,
+    }  # fmt: skip
+
+
+def compare_flag(got: Any, expected: np.ndarray) -> dict[str, Any]:
+    """Flags are equal or not."""
+    wrong = np.asarray(got, bool) != expected
+    if not np.any(wrong):
+        return {"grade": "bitwise"}
+    index = tuple(int(i) for i in np.argwhere(wrong)[0]) if wrong.ndim else ()
+    return {
+        "grade": "outside", "worst": float("inf"), "index": index,
+        "expected": bool(expected[index]), "got": bool(np.asarray(got)[index]),
+    }  # fmt: skip
+
+
+def compare_one(name: str, vector: Vector, out: dict[str, Any], profile: str) -> Check:
+    """One expected result."""
+    expected = vector.expect[name]
+    traced = expected.rule != expected.rule_traced and bool(out.get("trace"))
+    rule = expected.rule_traced if traced else expected.rule
+    common: dict[str, Any] = {"vector": vector.id, "layer": vector.layer, "rule": rule, "name": name}
+    try:
+        got = np.asarray(result(name, out, vector.branch))
+    except Missing:
+        return Check(**common, grade="not shown")
+    except (TypeError, ValueError, IndexError) as e:
+        return Check(**common, grade="outside", worst=float("inf"), note=f"unusable answer: {e}")
+    flag = expected.value.dtype == bool
+    bar = np.zeros(()) if flag and profile == "float64" else bar_of(expected, profile)
+    if bar is None:
+        return Check(**common, grade="not judged")
+    if got.shape != expected.value.shape or (got.dtype.kind not in "bfiu"):
+        note = (
+            f"has shape {got.shape}, not {expected.value.shape}"
+            if got.shape != expected.value.shape
+            else "is no number"
+        )
+        return Check(**common, grade="outside", worst=float("inf"), note=note)
+    found = compare_flag(got, expected.value) if flag else compare_number(got, expected, bar)
+    return Check(**common, **found)
+
+
+def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> list[Check]:
+    """All expected results of a vector against one answer."""
+    checks = [compare_one(name, vector, out, profile) for name in vector.expect]
+    decided_wrongly = any(c.failed for c in checks if c.name.partition("@")[0] in FLAGS)
+    if not decided_wrongly:
+        return checks
+    dependent = ("F_T", "s", "F_stick", "F_slip", "s_stick", "s_slip")
+    return [Check(**{**vars(c), "follows": True}) if c.failed and c.name in dependent else c for c in checks]
+
+
+def no_answer(vector: Vector, note: str) -> list[Check]:
+    """The checks of a vector to which there was no usable answer."""
+    return [
+        Check(vector.id, vector.layer, e.rule, name, "outside", float("inf"), note=note)
+        for name, e in vector.expect.items()
+    ]

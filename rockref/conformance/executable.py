@@ -1,0 +1,184 @@
+"""A backend that is a program: it may crash, hang, print rubbish; each question to which it does so counts as
+failed."""
+
+from __future__ import annotations
+
+import json
+import queue
+import shlex
+import subprocess
+import threading
+from typing import Any
+
+from rockref.conformance import jsonlines
+from rockref.conformance.rules import PIECES
+from rockref.model.errors import InputError
+from rockref.model.problem import Problem
+
+#: Seconds that a program may take to start, to answer a small question, and to finish a run; decided, to be changed on
+#: the command line.
+START, SMALL, LONG = 20.0, 10.0, 600.0
+#: A piece whose questions have ended so many times in a crash or a silence is not asked again.
+PATIENCE = 3
+#: Longer lines are rubbish: the longest honest answer, a run of some thousand rows, has a few megabytes.
+LONGEST_LINE = 200_000_000
+
+
+class Misbehaved(Exception):
+    """What the program did in place of answering."""
+
+
+class Executable:
+    """A program that speaks JSON lines. Its pieces appear as methods, as it has named them."""
+
+    def __init__(self, command: list[str], small: float = SMALL, long: float = LONG):
+        self.command, self.small, self.long = command, small, long
+        self.process: subprocess.Popen[str] | None = None
+        self.lines: queue.Queue[str | None] = queue.Queue()
+        self.complaints: list[str] = []
+        self.failures: dict[str, int] = {}
+        self.asked = 0
+        try:
+            facts = self._started()
+        except Misbehaved as e:
+            raise InputError(
+                "E-BACKEND", shlex.join(command), str(e), 'It must answer {"cmd":"start"} with one JSON line.'
+            ) from e
+        self.name = str(facts.get("name", command[0]))
+        self.version, self.language = str(facts.get("version", "")), str(facts.get("language", "executable"))
+        self.precision = str(facts.get("precision", "float64"))
+        shown = [p for p in facts.get("capabilities", []) if p in PIECES]
+        for piece in shown:
+            setattr(self, piece, self._piece(piece))
+
+    def _piece(self, piece: str) -> Any:
+        if piece == "step":
+            return lambda problem: self._run(jsonlines.of_problem(self._new_id(), piece, problem), self.small)
+        return lambda **inputs: self._run(jsonlines.question(self._new_id(), piece, inputs), self.small)
+
+    def _new_id(self) -> str:
+        self.asked += 1
+        return f"q{self.asked}"
+
+    def simulate(self, problem: Problem) -> dict[str, Any]:
+        """A run."""
+        return self._run(jsonlines.of_problem(self._new_id(), "simulate", problem), self.long)
+
+    def _run(self, request: dict[str, Any], patience: float) -> dict[str, Any]:
+        piece = request["piece"]
+        if self.failures.get(piece, 0) >= PATIENCE:
+            raise Misbehaved(f"not asked any more: {PATIENCE} questions to {piece} ended in a crash or in silence")
+        if self.process is None:
+            self._started()
+        try:
+            reply = self._asked(request, patience)
+        except Misbehaved:
+            self.failures[piece] = self.failures.get(piece, 0) + 1
+            self.close()
+            raise
+        if reply.get("id") != request["id"]:
+            self.close()
+            raise Misbehaved(f"answered to id {reply.get('id')!r}, not {request['id']!r}")
+        if "error" in reply:
+            raise Misbehaved(f"says: {reply['error']}")
+        try:
+            return jsonlines.readable(reply.get("out"), piece)
+        except ValueError as e:
+            raise Misbehaved(str(e)) from e
+
+    def _started(self) -> dict[str, Any]:
+        self.lines, self.complaints = queue.Queue(), []
+        try:
+            self.process = subprocess.Popen(
+                self.command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+                errors="replace",
+            )
+        except OSError as e:
+            raise InputError(
+                "E-BACKEND", shlex.join(self.command), f"cannot be started ({e.strerror})", "Give a program."
+            ) from e
+        threading.Thread(target=_pump, args=(self.process.stdout, self.lines), daemon=True).start()
+        threading.Thread(target=_keep, args=(self.process.stderr, self.complaints), daemon=True).start()
+        facts = self._asked({"cmd": "start", "protocol": jsonlines.PROTOCOL}, START)
+        if facts.get("protocol") != jsonlines.PROTOCOL:
+            raise Misbehaved(f"speaks protocol {facts.get('protocol')!r}, not {jsonlines.PROTOCOL}")
+        return facts
+
+    def _asked(self, request: dict[str, Any], patience: float) -> dict[str, Any]:
+        assert self.process is not None and self.process.stdin is not None
+        # Written beside: a program that does not read would block us once the pipe is full.
+        threading.Thread(target=_write, args=(self.process.stdin, jsonlines.line(request)), daemon=True).start()
+        try:
+            text = self.lines.get(timeout=patience)
+        except queue.Empty:
+            self.close()
+            raise Misbehaved(f"no answer within {patience:g} s") from None
+        if text is None:
+            raise Misbehaved(self._end())
+        if len(text) >= LONGEST_LINE:
+            raise Misbehaved(f"printed {len(text)} characters without an end of line")
+        try:
+            reply = json.loads(text)
+        except (ValueError, RecursionError):
+            raise Misbehaved(f"printed rubbish: {text[:80]!r}") from None
+        if not isinstance(reply, dict):
+            raise Misbehaved(f"printed {text[:80]!r}, no JSON object")
+        return reply
+
+    def _end(self) -> str:
+        assert self.process is not None
+        try:
+            code: Any = self.process.wait(timeout=2)
+        except subprocess.TimeoutExpired:
+            code = "closed its output"
+        self.close()
+        said = " ".join(self.complaints[-3:]).strip()[-200:]
+        return f"ended (exit code {code})" + (f", saying {said!r}" if said else "")
+
+    def close(self) -> None:
+        """End the program, if it runs."""
+        if self.process is None:
+            return
+        process, self.process = self.process, None
+        if process.poll() is None:
+            process.kill()
+        process.wait()
+        for pipe in (process.stdin, process.stdout, process.stderr):
+            try:
+                if pipe is not None:
+                    pipe.close()
+            except OSError:
+                pass
+
+
+def _write(pipe: Any, text: str) -> None:
+    """A request into a program."""
+    try:
+        pipe.write(text)
+        pipe.flush()
+    except (OSError, ValueError):
+        pass
+
+
+def _pump(pipe: Any, lines: queue.Queue[str | None]) -> None:
+    """Lines of a program into a queue, then None."""
+    try:
+        while text := pipe.readline(LONGEST_LINE):
+            lines.put(text)
+    except (OSError, ValueError):
+        pass
+    lines.put(None)
+
+
+def _keep(pipe: Any, complaints: list[str]) -> None:
+    """The last complaints of a program."""
+    try:
+        for text in pipe:
+            complaints.append(text.strip())
+            del complaints[:-20]
+    except (OSError, ValueError):
+        pass

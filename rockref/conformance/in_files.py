@@ -1,0 +1,121 @@
+"""The verdict as files: JUnit XML, a badge, and a page with the divergence drawn."""
+
+from __future__ import annotations
+
+import math
+from html import escape
+from xml.etree import ElementTree
+
+import numpy as np
+
+from rockref.conformance.in_words import numbers, rule_lines, text
+from rockref.conformance.runs import RunCheck
+from rockref.conformance.verdict import Verdict
+
+#: Colours of the badge and of the page; the page is readable without them.
+GOOD, BAD, INK = "#2e7d32", "#c62828", "#1f2933"
+
+
+def junit(v: Verdict) -> bytes:
+    """JUnit XML: a test suite per layer, a test case per vector; what is not shown is skipped."""
+    root = ElementTree.Element("testsuites", name=f"rockref conform {v.findings.backend['name']}")
+    by_layer: dict[str, dict[str, list]] = {}
+    for check in v.findings.checks:
+        by_layer.setdefault(check.layer, {}).setdefault(check.vector, []).append(check)
+    for layer, vectors in by_layer.items():
+        bad = sum(any(c.failed for c in checks) for checks in vectors.values())
+        suite = ElementTree.SubElement(root, "testsuite", name=layer, tests=str(len(vectors)), failures=str(bad))
+        for name, checks in vectors.items():
+            case = ElementTree.SubElement(suite, "testcase", classname=f"{layer}.{checks[0].rule}", name=name)
+            failed = [c for c in checks if c.failed]
+            if failed:
+                said = "; ".join(map(numbers, failed))
+                ElementTree.SubElement(case, "failure", message=said[:500]).text = said
+            elif all(c.grade in ("not shown", "not judged") for c in checks):
+                ElementTree.SubElement(case, "skipped")
+    if v.findings.runs:
+        _runs(root, v.findings.runs)
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
+
+
+def _runs(root: ElementTree.Element, runs: list[RunCheck]) -> None:
+    bad = sum(r.failed for r in runs)
+    suite = ElementTree.SubElement(root, "testsuite", name="L5", tests=str(len(runs)), failures=str(bad))
+    for r in runs:
+        case = ElementTree.SubElement(suite, "testcase", classname="L5", name=r.id)
+        if r.failed:
+            at = f" from t = {r.first['t_s']:.6g} s" if r.first else ""
+            ElementTree.SubElement(case, "failure", message=r.note or f"{r.worst:.3g} bars{at}")
+
+
+def badge(v: Verdict) -> str:
+    """A badge, SVG."""
+    profile = "" if v.findings.profile == "float64" else f" ({v.findings.profile})"
+    left, right = "rockref", f"conforms{profile}" if v.passed else f"fails {v.rule or ''}".strip()
+    # Widths: 6.6 pixels a letter in 11-pixel Verdana, and 5 on either side.
+    a, b = (round(6.6 * len(t)) + 10 for t in (left, right))
+    colour = GOOD if v.passed else BAD
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{a + b}" height="20" role="img" '
+        f'aria-label="{left}: {escape(right)}">'
+        f'<rect width="{a}" height="20" fill="#555"/><rect x="{a}" width="{b}" height="20" fill="{colour}"/>'
+        f'<g fill="#fff" font-family="Verdana,sans-serif" font-size="11" text-anchor="middle">'
+        f'<text x="{a / 2}" y="14">{left}</text><text x="{a + b / 2}" y="14">{escape(right)}</text></g></svg>\n'
+    )
+
+
+def curve(run: RunCheck, width: int = 640, height: int = 160) -> str:
+    """The deviation of a run in bars over time, logarithmic, with the bar itself as a line; SVG."""
+    low, high = -3.0, max(2.0, math.ceil(np.log10(np.clip(run.ratios, 1e-3, 1e12).max())))
+    left, bottom = 48, height - 24
+    span = max(run.t[-1] - run.t[0], 1e-12) if len(run.t) else 1.0
+
+    def x(t: float) -> float:
+        return left + (t - run.t[0]) / span * (width - left - 8)
+
+    def y(ratio: float) -> float:
+        return bottom - (np.log10(np.clip(ratio, 1e-3, 1e12)) - low) / (high - low) * (bottom - 8)
+
+    points = " ".join(f"{x(t):.1f},{y(r):.1f}" for t, r in zip(run.t, run.ratios, strict=True))
+    marks = [
+        f'<text x="{left - 6}" y="{y(10**k) + 4:.1f}" text-anchor="end">1e{k}</text>'
+        for k in range(int(low), int(high) + 1, 3)
+    ]
+    lines = [
+        f'<line x1="{left}" x2="{width - 8}" y1="{y(1):.1f}" y2="{y(1):.1f}" stroke="{GOOD}" stroke-dasharray="4 3"/>'
+    ]
+    if run.first is not None:
+        t = run.first["t_s"]
+        lines.append(f'<line x1="{x(t):.1f}" x2="{x(t):.1f}" y1="8" y2="{bottom}" stroke="{BAD}"/>')
+        lines.append(f'<text x="{x(t) + 4:.1f}" y="18" fill="{BAD}">first outside: {t:.5g} s</text>')
+    axis = (
+        f'<text x="{width - 8}" y="{height - 6}" text-anchor="end">t = {run.t[-1]:.4g} s</text>' if len(run.t) else ""
+    )
+    return (
+        f'<svg viewBox="0 0 {width} {height}" width="{width}" role="img" '
+        f'aria-label="deviation of {escape(run.id)} in bars" '
+        f'font-family="sans-serif" font-size="11" fill="{INK}">{"".join(marks)}{"".join(lines)}'
+        f'<polyline points="{points}" fill="none" stroke="{INK}" stroke-width="1.2"/>{axis}</svg>'
+    )
+
+
+def page(v: Verdict) -> str:
+    """One self-contained page."""
+    colour = GOOD if v.passed else BAD
+    runs = "".join(
+        f"<h3>{escape(r.id)}: {escape(r.grade)}</h3><p>{escape(r.title)}{'. ' + escape(r.note) if r.note else ''}</p>"
+        + (curve(r) if len(r.t) else "")
+        for r in v.findings.runs
+        if r.failed or not any(x.failed for x in v.findings.runs)
+    )
+    rules = "\n".join(rule_lines(v))
+    drawn = f"<h2>Deviation in bars (dashed: one bar)</h2>{runs}" if runs else ""
+    return (
+        '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>rockref conform</title>'
+        f"<style>body{{font:16px/1.5 sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:{INK}}}"
+        "pre{background:#f4f5f7;padding:1rem;overflow-x:auto;font-size:13px}svg{max-width:100%}"
+        f"h1{{border-left:8px solid {colour};padding-left:.6rem}}</style></head><body>"
+        f"<h1>{escape(v.findings.backend['name'])}: {v.status}{f' ({v.rule})' if v.rule else ''}</h1>"
+        f"<pre>{escape(text(v))}</pre><h2>Rules</h2><pre>{escape(rules)}</pre>{drawn}</body></html>\n"
+    )

@@ -1,0 +1,157 @@
+"""The verdict in words, for a terminal."""
+
+from __future__ import annotations
+
+import math
+
+from rockref.conformance.compare import Check
+from rockref.conformance.rules import BY_ID, RULES
+from rockref.conformance.runs import RunCheck
+from rockref.conformance.vectors import layer, manifest
+from rockref.conformance.verdict import Verdict, downstream_of, grades
+
+RED, GREEN, YELLOW, BOLD, PLAIN = "\x1b[31m", "\x1b[32m", "\x1b[33m", "\x1b[1m", "\x1b[0m"
+
+
+def painted(text: str, *codes: str, colour: bool) -> str:
+    """Text in colour, or as it is."""
+    return "".join(codes) + text + PLAIN if colour else text
+
+
+def number(value: float | bool | None) -> str:
+    """A number as far as it is worth reading."""
+    if value is None or isinstance(value, bool):
+        return str(value)
+    return f"{value:.10g}" if math.isfinite(value) else str(value)
+
+
+def bars(value: float) -> str:
+    """A deviation in bars."""
+    return f"{value:.3g} bars" if math.isfinite(value) else "not comparable"
+
+
+def numbers(check: Check) -> str:
+    """Expected, bar and got of a check."""
+    at = f"[{', '.join(map(str, check.index))}]" if check.index else ""
+    if check.expected is None:
+        return f"{check.name}: {check.note}"
+    bar = "" if check.bar is None else f" +- {check.bar:.2g}"
+    off = "" if check.bar is None else f" ({bars(check.worst)})"
+    return f"{check.name}{at} expected {number(check.expected)}{bar}, got {number(check.got)}{off}" + (
+        f"; {check.note}" if check.note else ""
+    )
+
+
+def flags_of(id_: str, name: str) -> str:
+    """What a vector shows, in its own flags."""
+    found = next((v for v in layer(name) if v.id == id_), None)
+    return ", ".join(found.flags) if found else ""
+
+
+def rule_lines(v: Verdict) -> list[str]:
+    """A rule a line, with its status."""
+    words = {
+        "pass": "pass",
+        "look": "pass (within ten bars)",
+        "fail": "FAIL",
+        "follows": "follows",
+        "not shown": "not shown",
+    }
+    return [
+        f"  {r.id:3} {words[v.rules[r.id]]:22} {r.says}  {r.equation}" for r in RULES if v.rules[r.id] != "not shown"
+    ]
+
+
+def divergence(v: Verdict, colour: bool) -> list[str]:
+    """The first wrong rule, and what shows it."""
+    lines = []
+    if v.rule is not None:
+        rule = BY_ID[v.rule]
+        lines.append(
+            painted(f"FIRST DIVERGENCE  rule {rule.id} - {rule.says}, {rule.equation}", BOLD, RED, colour=colour)
+        )
+    if v.check is not None:
+        lines.append(f"  vector {v.check.vector} ({flags_of(v.check.vector, v.check.layer)}): {numbers(v.check)}")
+    if v.says:
+        lines.append(f"  {v.says}")
+    if v.rule is not None:
+        lines.append(_upstream(v))
+    if v.consequences:
+        after = [r for r in downstream_of(v.rule) if v.rules.get(r) in ("fail", "follows")] if v.rule else []
+        named = f" (rules {' '.join(after)})" if after else ""
+        lines.append(
+            f"  {len(v.consequences)} other results are outside{named}; look at the first one before the others"
+        )
+    return lines
+
+
+def _upstream(v: Verdict) -> str:
+    assert v.rule is not None
+    before = [r.id for r in RULES[: [r.id for r in RULES].index(v.rule)] if v.rules[r.id] in ("pass", "look")]
+    return f"  rules before it that pass: {' '.join(before) or 'none is shown'}"
+
+
+def run_line(r: RunCheck) -> str:
+    """A run in one line."""
+    if r.note:
+        return f"  {r.id:34} {r.grade:8} {r.note}"
+    return f"  {r.id:34} {r.grade:8} {bars(r.worst)} up to {r.horizon_s:.4g} s"
+
+
+def run_lines(v: Verdict) -> list[str]:
+    """The runs, and where the first one parts."""
+    runs = v.findings.runs
+    if not runs:
+        return []
+    failed = [r for r in runs if r.failed]
+    lines = [f"Runs (L5): {len(runs) - len(failed)} of {len(runs)} inside"]
+    lines += [run_line(r) for r in runs if r.failed or r.grade == "look"]
+    if v.run is not None and v.run.first is not None:
+        f = v.run.first
+        lines.append(
+            f"  first divergent sample of {v.run.id}: t = {f['t_s']:.6g} s, {f['quantity']}{f['index']} expected "
+            f"{number(f['expected'])} +- {f['bar']:.2g}, got {number(f['got'])}"
+        )
+        event = v.run.event
+        lines.append(
+            f"  the event before it: point {event[1]} {event[2]} at {event[0]:.6g} s"
+            if event
+            else "  no event before it"
+        )
+    return lines
+
+
+def neighbour_lines(v: Verdict) -> list[str]:
+    """Similar mistakes of the zoo."""
+    known = manifest()["mistakes"]
+    return [
+        f"  resembles {id_}, rule {known[id_]['rule']}: {known[id_]['says']} (cosine {cosine:.3f})"
+        for id_, cosine in v.neighbours
+    ]
+
+
+def text(v: Verdict, colour: bool = False) -> str:
+    """The whole verdict."""
+    f = v.findings
+    who = " ".join(p for p in (f.backend["name"], f.backend["version"]) if p)
+    lines = [
+        f"{who} ({f.backend['language']}, {f.backend['precision']}), profile {f.profile}, layers {' '.join(f.layers)}"
+    ]
+    lines.append("pieces shown: simulate " + " ".join(f.pieces))
+    lines += divergence(v, colour) + run_lines(v) + neighbour_lines(v)
+    broken = [p for p in f.properties if not p.holds]
+    if f.properties:
+        lines.append(f"Properties (L6): {len(f.properties) - len(broken)} of {len(f.properties)} hold")
+    lines += [f"  {p.name}: {p.note}" for p in broken]
+    lines += ["Rules:"] + rule_lines(v) if not v.passed else []
+    lines += [f"Remark: {r}" for r in f.remarks]
+    counted = grades(v)
+    told = ", ".join(
+        f"{counted[g]} {g}" for g in ("bitwise", "inside", "look", "outside", "not judged") if g in counted
+    )
+    lines.append(f"Results: {told}; {f.seconds:.1f} s")
+    word = "PASS" if v.passed else f"FAIL ({v.rule})" if v.rule else "FAIL"
+    if v.passed and f.profile != "float64":
+        word = f"PASS ({f.profile})"
+    lines.append(painted(word, BOLD, GREEN if v.passed else RED, colour=colour))
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,103 @@
+"""The protocol of executables: one JSON object a line, asked on standard input, answered on standard output.
+
+start -> who it is and which pieces it shows;  run -> the answer to one question;  stop -> nothing. docs: "Judge your
+backend".
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable
+from typing import Any, TextIO
+
+import numpy as np
+
+from rockref.conformance.asking import as_mapping, has
+from rockref.conformance.rules import PIECES
+from rockref.conformance.vectors import Vector, flat, problem_of
+from rockref.model.problem import Problem
+
+PROTOCOL = 1
+WHOLE = ("step", "simulate")
+
+
+def plain(value: Any) -> Any:
+    """Arrays and NumPy's numbers as nested lists and plain numbers; doubles keep every bit (shortest decimal)."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = np.asarray(value)
+        return (value if value.dtype.kind in "bi" else value.astype(float)).tolist()
+    if isinstance(value, dict):
+        return {k: plain(v) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(v) for v in value]
+    return value
+
+
+def line(thing: Any) -> str:
+    """One line."""
+    return json.dumps(plain(thing), separators=(",", ":")) + "\n"
+
+
+def question(id_: str, piece: str, inputs: dict[str, Any]) -> dict[str, Any]:
+    """A run request."""
+    return {"cmd": "run", "id": id_, "piece": piece, "in": inputs}
+
+
+def of_vector(vector: Vector) -> dict[str, Any]:
+    """The request of a vector; the keys are those of its inputs."""
+    return question(vector.id, vector.piece, vector.inputs)
+
+
+def of_problem(id_: str, piece: str, problem: Problem) -> dict[str, Any]:
+    """The request of a problem."""
+    return question(id_, piece, flat(problem))
+
+
+def readable(answer: Any, piece: str) -> dict[str, Any]:
+    """The results of an answer as arrays where they are lists of numbers."""
+    if not isinstance(answer, dict):
+        raise ValueError(f"'out' is {type(answer).__name__}, not an object")
+    return {k: readable(v, piece) if isinstance(v, dict) else _array(v) for k, v in answer.items()}
+
+
+def _array(value: Any) -> Any:
+    if not isinstance(value, list):
+        return value
+    try:
+        return np.array(value)
+    except ValueError:
+        return value
+
+
+def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
+    """What a Python backend says to one request."""
+    command = request.get("cmd")
+    if command == "start":
+        shown = ["simulate", *(p for p in PIECES if has(backend, p))]
+        facts = {
+            k: str(getattr(backend, k, "")) for k in ("name", "version", "language", "precision") if hasattr(backend, k)
+        }
+        return {"protocol": PROTOCOL, "name": type(backend).__name__, **facts, "capabilities": shown}
+    if command != "run":
+        return {"error": f"unknown command {command!r}"}
+    piece = request["piece"]
+    try:
+        q = request["in"]
+        out = getattr(backend, piece)(problem_of(q)) if piece in WHOLE else getattr(backend, piece)(**q)
+        return {"id": request["id"], "out": as_mapping(out, piece)}
+    except Exception as e:
+        return {"id": request["id"], "error": f"{type(e).__name__}: {e}"}
+
+
+def serve(backend: Any, lines: Iterable[str] | None = None, out: TextIO | None = None) -> None:
+    """Answer requests until `stop` or the end: this makes an executable of any Python backend."""
+    out = sys.stdout if out is None else out
+    for text in sys.stdin if lines is None else lines:
+        if not text.strip():
+            continue
+        request = json.loads(text)
+        if request.get("cmd") == "stop":
+            return
+        out.write(line(answer(backend, request)))
+        out.flush()

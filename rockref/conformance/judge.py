@@ -1,0 +1,142 @@
+"""The judge: puts all questions to a backend and collects what is wrong."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from rockref.conformance import asking, vectors
+from rockref.conformance.compare import Check, compare, no_answer
+from rockref.conformance.rules import PIECES
+from rockref.conformance.runs import RunCheck, judge_runs
+from rockref.conformance.vectors import Vector
+from rockref.model.errors import InputError
+
+LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "L5", "L6", "L7")
+PROFILES = ("float64", "float32", "scheme")
+#: What a backend with another integrator is not asked: its own step is its own.
+NOT_OF_THE_SCHEME = {"integrate", "step", "simulate"}
+
+
+@dataclass
+class Findings:
+    """Everything that was seen of one backend."""
+
+    backend: dict[str, Any]
+    profile: str
+    layers: tuple[str, ...]
+    checks: list[Check] = field(default_factory=list)
+    runs: list[RunCheck] = field(default_factory=list)
+    properties: list[Any] = field(default_factory=list)
+    remarks: list[str] = field(default_factory=list)
+    pieces: tuple[str, ...] = ()
+    seconds: float = 0.0
+
+    @property
+    def failures(self) -> list[Check]:
+        """The checks that are outside."""
+        return [c for c in self.checks if c.failed]
+
+
+def described(backend: Any) -> dict[str, Any]:
+    """Name, language, precision and version of a backend, as far as it says."""
+    name = getattr(backend, "name", type(backend).__name__)
+    found = {"name": str(name), "language": str(getattr(backend, "language", "Python"))}
+    found["precision"] = str(getattr(backend, "precision", "float64"))
+    return found | {"version": str(getattr(backend, "version", ""))}
+
+
+def chosen_layers(layers: Iterable[str] | None) -> tuple[str, ...]:
+    """Layers by name, in order; all of them by default. Raises InputError (E-LAYER)."""
+    if layers is None:
+        return LAYERS
+    wanted = tuple(layers)
+    for name in wanted:
+        if name not in LAYERS:
+            raise InputError("E-LAYER", "layers", f"has {name!r}", f"Use some of {', '.join(LAYERS)}.")
+    return tuple(name for name in LAYERS if name in wanted)
+
+
+def judge(
+    backend: Any,
+    layers: Iterable[str] | None = None,
+    profile: str = "float64",
+    progress: Callable[[str, float], None] | None = None,
+    examples: int = 100,
+) -> Findings:
+    """Judge a backend.
+
+    Parameters
+    ----------
+    backend : an object with `simulate`, and as many of the other pieces as it likes to show (`rules.PIECES`).
+    layers : some of L0 .. L4, L5s (short runs), L5 (trajectories), L6 (properties), L7; all by default.
+    profile : "float64", "float32", or "scheme" (the same physics by another integrator).
+    progress : called with the layer and the share of it that is done.
+    examples : drawn for each property of L6.
+
+    Raises
+    ------
+    InputError
+        E-LAYER, E-PROFILE; E-BACKEND, where there is no `simulate`.
+    """
+    if profile not in PROFILES:
+        raise InputError("E-PROFILE", "profile", f"is {profile!r}", f"Use one of {', '.join(PROFILES)}.")
+    if not asking.has(backend, "simulate"):
+        raise InputError(
+            "E-BACKEND", described(backend)["name"], "has no simulate(problem)", "It is the one mandatory piece."
+        )
+    wanted = chosen_layers(layers)
+    pieces = tuple(p for p in PIECES if asking.has(backend, p))
+    findings = Findings(described(backend), profile, wanted, pieces=pieces)
+    begin = time.perf_counter()
+    for layer in wanted:
+        report = None if progress is None else (lambda share, layer=layer: progress(layer, share))
+        if layer == "L5":
+            findings.runs = judge_runs(backend, profile, report)
+        elif layer == "L6":
+            _properties(backend, findings, examples)
+        else:
+            _small(backend, findings, vectors.layer(layer), report)
+    findings.seconds = time.perf_counter() - begin
+    return findings
+
+
+def _small(backend: Any, findings: Findings, asked: tuple[Vector, ...], report: Callable[[float], None] | None) -> None:
+    """One of the small layers."""
+    for i, vector in enumerate(asked):
+        if findings.profile == "scheme" and vector.piece in NOT_OF_THE_SCHEME:
+            continue
+        if asking.has(backend, vector.piece):
+            findings.checks += answered(backend, vector, findings.profile)
+        if report is not None and i % max(1, len(asked) // 50) == 0:
+            report((i + 1) / len(asked))
+
+
+def answered(backend: Any, vector: Vector, profile: str) -> list[Check]:
+    """The checks of one vector; whatever the backend raises is its answer."""
+    try:
+        out = asking.ask(backend, vector)
+    except Exception as e:  # the backend is a stranger's: anything may come
+        return no_answer(vector, f"{type(e).__name__}: {e}".splitlines()[0][:200])
+    return compare(vector, out, profile)
+
+
+def _properties(backend: Any, findings: Findings, examples: int) -> None:
+    """L6, where hypothesis is installed."""
+    if findings.profile != "float64":
+        findings.remarks.append(f"L6 (properties) is not judged in the profile {findings.profile}.")
+        return
+    try:
+        from rockref.conformance.properties import judge_properties
+    except ImportError:
+        findings.remarks.append("L6 (properties) needs hypothesis: pip install hypothesis.")
+        return
+    findings.properties = judge_properties(backend, examples)
+
+
+def finite(value: float) -> float | None:
+    """A number as JSON can hold it."""
+    return value if math.isfinite(value) else None

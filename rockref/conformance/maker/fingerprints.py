@@ -1,0 +1,14 @@
+"""The fingerprints of the zoo: how every mistake shows in short runs and windows, for whoever shows `simulate` only."""
+
+from __future__ import annotations
+
+import gzip
+
+from rockref.conformance.blackbox import code, fingerprint
+from rockref.conformance.zoo.mistakes import MISTAKES
+
+
+def file() -> bytes:
+    """Gzipped CSV: a row per mistake, id and numbers."""
+    lines = [",".join([m.id, *map(str, code(fingerprint(m.backend())).tolist())]) for m in MISTAKES]
+    return gzip.compress(("\n".join(lines) + "\n").encode(), 9, mtime=0)

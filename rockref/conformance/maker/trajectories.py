@@ -1,0 +1,180 @@
+"""The files of L5: trajectories and windows, with bars for every profile, events and main impacts."""
+
+from __future__ import annotations
+
+import gzip
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance.maker import runs
+from rockref.conformance.maker.bars import FACTOR
+from rockref.conformance.maker.drawing import orthonormal
+from rockref.conformance.maker.runs import HORIZON, Rows
+from rockref.conformance.maker.scenes import WINDOW_DURATION, WINDOW_RATE, WINDOWS, Window, scenes
+from rockref.conformance.maker.small import rounded_up, stored
+from rockref.conformance.runs import SHOWN
+from rockref.conformance.vectors import SCHEMA, problem_of
+from rockref.engines import run
+
+#: Steps of the converged solution [s]; the difference of the two is how far it is converged.
+FINE, LESS_FINE = 1e-7, 2e-7
+#: Bar of the profile "scheme": so many times the larger deviation from the converged solution of two schemes at the
+#: stated step
+#: (the law's own, and kick and drift). Decided: another scheme of the same order may be as much worse again, and its
+#: double.
+SCHEME_FACTOR = 4
+STATE = ("x", "v", "Lambda", "W", "s", "anchored", "sliding")
+
+
+def window_id(window: Window) -> str:
+    """Name of a window: scene and instant in milliseconds."""
+    return f"window_{window.scene}_{round(window.instant * 1000):04d}ms"
+
+
+def names() -> tuple[list[str], list[str]]:
+    """Names of the trajectories and of the windows."""
+    return list(scenes()), [window_id(w) for w in WINDOWS]
+
+
+def events(q: dict[str, Any]) -> list[list[Any]]:
+    """[t, point, what it does]: touches, lifts, slides, sticks, step by step in the float64 law."""
+    problem = problem_of(q)
+    r = run(replace(problem, output_rate=1 / problem.step), engine="auto")
+    code = r.anchored.astype(int) + (r.anchored & r.sliding)
+    found = []
+    for row, point in np.argwhere(code[1:] != code[:-1]):
+        before, after = code[row, point], code[row + 1, point]
+        what = "lifts" if after == 0 else "touches" if before == 0 else "slides" if after == 2 else "sticks"
+        found.append([float(f"{r.t[row + 1]:.7g}"), problem.points.names[point], what])
+    return found
+
+
+def table(columns: dict[str, np.ndarray]) -> bytes:
+    """Columns as gzipped CSV; the same bytes for the same numbers."""
+    header, flat = [], []
+    for name, values in columns.items():
+        values = values.reshape(len(values), -1)
+        header += [name] if values.shape[1] == 1 else [f"{name}[{i}]" for i in range(values.shape[1])]
+        flat.append(values)
+    rows = np.concatenate(flat, axis=1)
+    lines = [",".join(header)] + [",".join(shortest(v) for v in row) for row in rows.tolist()]
+    return gzip.compress(("\n".join(lines) + "\n").encode(), 9, mtime=0)
+
+
+def shortest(value: float) -> str:
+    """The shortest decimal that reads back to the same double; nothing where there is no number."""
+    return "" if not np.isfinite(value) else repr(value).removesuffix(".0")
+
+
+@dataclass
+class Item:
+    """A run to be made: its name and inputs, and the runs from which its bars are measured."""
+
+    name: str
+    title: str
+    kind: str
+    q: dict[str, Any]
+    converged: bool = False
+    members: list[Any] = field(default_factory=list)
+    single: list[Any] = field(default_factory=list)
+    other_scheme: Any = None
+
+
+def items() -> list[Item]:
+    """All windows and trajectories."""
+    found = [Item(window_id(w), f"{w.scene}: {w.shows}", "window", window_inputs(w)) for w in WINDOWS]
+    return found + [Item(s.id, s.title, "trajectory", s.inputs, s.converged) for s in scenes().values()]
+
+
+def measure(group: list[Item], seed: int) -> None:
+    """Fill in the runs of items that can be computed side by side."""
+    qs = [item.q for item in group]
+    rounding, single = runs.rounding_members(qs, seed), runs.single_members(qs, seed)
+    converging = [item for item in group if item.converged]
+    others = runs.other_scheme([item.q for item in converging]) if converging else []
+    for i, item in enumerate(group):
+        item.members, item.single = runs.double_members(item.q, seed + 1 + i) + rounding[i], single[i]
+    for item, other in zip(converging, others, strict=True):
+        item.other_scheme = other
+
+
+def barred(item: Item) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """Columns and facts of one run."""
+    truth = runs.exactly(item.q)
+    bars, single = runs.bars(item.members, truth), runs.bars(item.single, truth, dtype=np.float32)
+    columns: dict[str, np.ndarray] = {"t_s": truth.t}
+    columns |= {column: np.asarray(getattr(truth, k), float) for k, column in SHOWN.items()}
+    columns |= {f"bar_{column}": np.array(rounded_up(bars[k])) for k, column in SHOWN.items()}
+    columns |= {f"bar_float32_{column}": np.array(rounded_up(single[k])) for k, column in SHOWN.items()}
+    horizon = {
+        "float64": runs.horizon(bars, truth, HORIZON[""]),
+        "float32": runs.horizon(single, truth, HORIZON["float32_"]),
+    }
+    impacts = runs.impact_bars(item.members, truth, horizon["float64"])
+    meta: dict[str, Any] = {"horizon_s": horizon, "impacts": impacts, "events": events(item.q)}
+    if item.converged:
+        more, facts = converged(item, truth)
+        columns |= more
+        meta["horizon_s"]["scheme"] = facts.pop("horizon_s")
+        meta["converged"] = facts
+    return columns, meta
+
+
+def converged(item: Item, truth: Rows) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """The converged solution, and how far two schemes at the stated step are from it."""
+    fine, less = (runs.converged(problem_of(item.q), step) for step in (FINE, LESS_FINE))
+    right = Rows(truth.t, fine.W, fine.x, fine.Lambda)
+    schemes = [item.members[0], item.other_scheme]
+    width = {
+        k: SCHEME_FACTOR * runs.deviation(schemes, right, k) + FACTOR * runs.deviation([less], right, k) for k in SHOWN
+    }
+    width = {k: w + np.finfo(float).eps for k, w in width.items()}
+    columns = {f"converged_{column}": rounded(getattr(right, k)) for k, column in SHOWN.items()}
+    columns |= {f"bar_scheme_{column}": np.array(rounded_up(width[k])) for k, column in SHOWN.items()}
+    facts = {"step_s": FINE, "bar_step_s": item.q["step"], "factor": SCHEME_FACTOR}
+    return columns, facts | {"horizon_s": runs.horizon(width, right, HORIZON["scheme_"])}
+
+
+def rounded(a: np.ndarray) -> np.ndarray:
+    """Twelve digits: far below the bar of a converged solution."""
+    return np.vectorize(lambda v: float(f"{v:.12g}"))(np.asarray(a, float))
+
+
+def window_inputs(window: Window) -> dict[str, Any]:
+    """Inputs of a window: the state of the float64 law at its instant, without the last force evaluation."""
+    scene = scenes()[window.scene]
+    q = scene.q | {"step": scene.step, "duration": WINDOW_DURATION, "output_rate": WINDOW_RATE}
+    if window.instant == 0:
+        return q
+    before = run(
+        replace(problem_of(scene.inputs), duration=window.instant, output_rate=1 / window.instant), engine="auto"
+    )
+    state = {k: np.array(getattr(before.final_state, k)) for k in STATE}
+    return q | state | {"Lambda": orthonormal(state["Lambda"])}
+
+
+def document(name: str, title: str, kind: str, q: dict[str, Any], meta: dict[str, Any]) -> bytes:
+    """The JSON beside the rows."""
+    problem = {k: stored(v) for k, v in q.items()}
+    head = {"schema": SCHEMA, "id": name, "layer": "L5", "kind": kind, "title": title, "route": "longdouble"}
+    return (json.dumps(head | meta | {"problem": problem}, ensure_ascii=False, separators=(",", ":")) + "\n").encode()
+
+
+def files(say: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
+    """All files of L5: name and bytes."""
+    made = items()
+    groups: dict[tuple[str, float], list[Item]] = {}
+    for item in made:
+        groups.setdefault((item.kind, item.q["step"]), []).append(item)
+    for number, group in enumerate(groups.values()):
+        measure(group, 1000 * (number + 1))
+        for item in group:
+            columns, meta = barred(item)
+            item.members, item.single, item.other_scheme = [], [], None
+            say(f"{item.name}: {meta['horizon_s']}, impacts {meta['impacts']}, {len(meta['events'])} events")
+            yield f"L5/{item.name}.json", document(item.name, item.title, item.kind, item.q, meta)
+            yield f"L5/{item.name}.csv.gz", table(columns)

@@ -1,0 +1,133 @@
+"""The judge from afar: all questions as one file, answered anywhere, judged here."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from rockref.conformance import jsonlines, vectors
+from rockref.conformance.executable import Misbehaved
+from rockref.conformance.rules import PIECES
+from rockref.model.errors import InputError
+from rockref.model.problem import Problem
+
+SMALL = ("L0", "L1", "L2", "L3", "L4", "L5s", "L7")
+
+
+def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[str, Any]]:
+    """All requests of some layers, the first one `start`."""
+    yield {"cmd": "start", "protocol": jsonlines.PROTOCOL}
+    wanted = tuple(layers)
+    for layer in SMALL:
+        if layer in wanted:
+            yield from map(jsonlines.of_vector, vectors.layer(layer))
+    if "L5" in wanted:
+        names = (
+            vectors.trajectory_names() if profile == "scheme" else vectors.window_names() + vectors.trajectory_names()
+        )
+        for name in names:
+            yield jsonlines.of_problem(name, "simulate", vectors.trajectory(name).problem)
+
+
+def text(layers: Iterable[str], profile: str = "float64") -> str:
+    """The requests as JSON lines."""
+    return "".join(map(jsonlines.line, questions(layers, profile)))
+
+
+class Recorded:
+    """A backend that looks its answers up in a file of responses."""
+
+    language = "offline"
+
+    def __init__(self, path: Path):
+        self.answers: dict[str, dict[str, Any]] = {}
+        facts: dict[str, Any] = {}
+        for number, reply in _replies(path):
+            if "id" in reply:
+                self.answers[str(reply["id"])] = reply
+            elif "protocol" in reply:
+                facts = reply
+            else:
+                raise InputError(
+                    "E-RESPONSE",
+                    f"{path}, line {number}",
+                    "has neither id nor protocol",
+                    "Answer one line per request.",
+                )
+        if not self.answers:
+            raise InputError("E-RESPONSE", str(path), "has no answers", "Answer the lines of `rockref conform export`.")
+        self.name, self.version = str(facts.get("name", path.name)), str(facts.get("version", ""))
+        self.precision = str(facts.get("precision", "float64"))
+        self.questions = self._by_content()
+        for piece in self._shown(facts):
+            setattr(self, piece, self._piece(piece))
+
+    def _shown(self, facts: dict[str, Any]) -> list[str]:
+        answered = {v.piece for layer in SMALL for v in vectors.layer(layer) if v.id in self.answers}
+        return [p for p in PIECES if p in answered or p in facts.get("capabilities", [])]
+
+    @property
+    def layers(self) -> set[str]:
+        """The layers to which the file has at least one answer."""
+        found = {layer for layer in SMALL if any(v.id in self.answers for v in vectors.layer(layer))}
+        runs = {*vectors.window_names(), *vectors.trajectory_names()}
+        return found | ({"L5"} if runs & self.answers.keys() else set())
+
+    def _by_content(self) -> dict[str, str]:
+        """Which id a question has, by its content."""
+        every = questions((*SMALL, "L5"))
+        return {_key(q["piece"], q["in"]): q["id"] for q in every if q["cmd"] == "run"}
+
+    def _piece(self, piece: str) -> Any:
+        if piece == "step":
+            return lambda problem: self._answer(piece, vectors.flat(problem))
+        return lambda **inputs: self._answer(piece, inputs)
+
+    def simulate(self, problem: Problem) -> dict[str, Any]:
+        """The recorded run."""
+        return self._answer("simulate", vectors.flat(problem))
+
+    def _answer(self, piece: str, inputs: dict[str, Any]) -> dict[str, Any]:
+        id_ = self.questions.get(_key(piece, inputs), "")
+        if id_ not in self.answers:
+            raise Misbehaved(f"no answer to {id_ or 'this question'} in the file")
+        reply = self.answers[id_]
+        if "out" not in reply:
+            raise Misbehaved(f"says: {reply.get('error', 'nothing')}")
+        try:
+            return jsonlines.readable(reply["out"], piece)
+        except ValueError as e:
+            raise Misbehaved(str(e)) from e
+
+
+def _key(piece: str, inputs: dict[str, Any]) -> str:
+    if piece not in jsonlines.WHOLE:
+        return piece + json.dumps(jsonlines.plain(inputs), sort_keys=True)
+    known = vectors.flat(vectors.problem_of(inputs))
+    return piece + json.dumps(jsonlines.plain(known), sort_keys=True)
+
+
+def _replies(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Numbered answers. Raises InputError (E-RESPONSE) that names the line."""
+    try:
+        content = path.read_text(encoding="utf-8", errors="replace")
+    except OSError as e:
+        raise InputError(
+            "E-RESPONSE", str(path), f"cannot be read ({e.strerror})", "Give the file of responses."
+        ) from e
+    for number, row in enumerate(content.splitlines(), 1):
+        if not row.strip():
+            continue
+        try:
+            reply = json.loads(row)
+        except (ValueError, RecursionError) as e:
+            raise InputError(
+                "E-RESPONSE", f"{path}, line {number}", "is no JSON", "Write one JSON object a line."
+            ) from e
+        if not isinstance(reply, dict):
+            raise InputError(
+                "E-RESPONSE", f"{path}, line {number}", "is no JSON object", "Write one JSON object a line."
+            )
+        yield number, reply

@@ -1,0 +1,180 @@
+"""Judging whole runs: rows against rows, up to the horizon, and the instants of the main impacts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance.asking import as_mapping
+from rockref.conformance.compare import grade_of, in_bars
+from rockref.conformance.vectors import Trajectory, trajectory, trajectory_names, window_names
+from rockref.model.problem import Problem
+
+#: Column of the values, and of the bars, by profile.
+VALUES = {"float64": "", "float32": "", "scheme": "converged_"}
+BARS = {"float64": "bar_", "float32": "bar_float32_", "scheme": "bar_scheme_"}
+SHOWN = {"W": "W_rad_s", "x": "x_m", "Lambda": "Lambda"}
+
+
+@dataclass
+class RunCheck:
+    """One run, judged.
+
+    worst : largest deviation in bars; ratios : (rows,) largest deviation of each row; first : the first row outside,
+    with
+    what was expected there; event : the last event of the expected run before it; impacts : instants with deviation in
+    bars
+    """
+
+    id: str
+    title: str
+    grade: str
+    worst: float = 0.0
+    horizon_s: float = 0.0
+    t: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    ratios: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    first: dict[str, Any] | None = None
+    event: list[Any] | None = None
+    impacts: list[dict[str, Any]] = field(default_factory=list)
+    note: str = ""
+
+    @property
+    def failed(self) -> bool:
+        """Whether the run is outside."""
+        return self.grade == "outside"
+
+
+def expected_columns(t: Trajectory, profile: str) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Expected W, x, Lambda (rows first) and their bars (rows,)."""
+    value = {k: t.columns[VALUES[profile] + column] for k, column in SHOWN.items()}
+    value["Lambda"] = value["Lambda"].reshape(-1, 3, 3)
+    return value, {k: t.columns[BARS[profile] + column] for k, column in SHOWN.items()}
+
+
+def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
+    """One run against one trajectory."""
+    expected, bars = expected_columns(t, profile)
+    horizon = float(t.meta["horizon_s"][profile])
+    instants = t.columns["t_s"]
+    check = RunCheck(t.id, t.title, "bitwise", horizon_s=horizon)
+    rows = int(np.sum(instants <= horizon * (1 + 1e-12)))
+    ratios = {}
+    for key, right in expected.items():
+        got = out.get(key)
+        if got is None:
+            continue
+        got = np.asarray(got)
+        if got.dtype.kind not in "fiu" or got.shape != right.shape:
+            return replace(check, grade="outside", worst=np.inf, note=f"{key} has shape {got.shape}, not {right.shape}")
+        bar = bars[key].reshape((-1,) + (1,) * (right.ndim - 1))
+        ratios[key] = in_bars(got[:rows], right[:rows], np.broadcast_to(bar[:rows], right[:rows].shape))
+    if "W" not in ratios:
+        return replace(check, grade="outside", worst=np.inf, note="gives no W")
+    by_row = np.max([r.reshape(rows, -1).max(axis=1) for r in ratios.values()], axis=0)
+    check.t, check.ratios, check.worst = instants[:rows], by_row, float(by_row.max())
+    check.grade = grade_of(check.worst)
+    if check.failed:
+        check.first = first_outside(ratios, expected, bars, out, instants)
+        before = [e for e in t.meta["events"] if e[0] <= check.first["t_s"]]
+        check.event = before[-1] if before else None
+    if profile == "float64":
+        check.impacts = judge_impacts(t, out, instants, rows)
+        if any(i["grade"] == "outside" for i in check.impacts):
+            check.grade = "outside"
+    return check
+
+
+def first_outside(
+    ratios: dict, expected: dict, bars: dict, out: dict[str, Any], instants: np.ndarray
+) -> dict[str, Any]:
+    """The first row that is more than ten bars off, and the quantity that is most off in it."""
+    outside = {k: np.flatnonzero(r.reshape(len(r), -1).max(axis=1) > 10) for k, r in ratios.items()}
+    row = min(int(i[0]) for i in outside.values() if len(i))
+    key = max((k for k, i in outside.items() if len(i) and i[0] == row), key=lambda k: float(np.max(ratios[k][row])))
+    index = np.unravel_index(int(np.argmax(ratios[key][row])), ratios[key][row].shape)
+    return {
+        "row": row,
+        "t_s": float(instants[row]),
+        "quantity": key,
+        "index": [int(i) for i in index],
+        "expected": float(expected[key][row][index]),
+        "bar": float(bars[key][row]),
+        "got": float(np.asarray(out[key])[row][index]),
+        "bars": float(ratios[key][row][index]),
+    }
+
+
+def upright(t: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
+    """Instants [s] at which the block passes upright, linear between rows; swings below 0.01 rad (decided) do not
+    count."""
+    tilt = np.arctan2(np.asarray(Lambda[:, 2, 1], float), np.asarray(Lambda[:, 2, 2], float))
+    found, last = [], 0
+    for i in np.flatnonzero(np.signbit(tilt[1:]) != np.signbit(tilt[:-1])):
+        if np.max(np.abs(tilt[last : i + 1])) > 0.01:
+            found.append(t[i] + tilt[i] / (tilt[i] - tilt[i + 1]) * (t[i + 1] - t[i]))
+            last = int(i) + 1
+    return np.array(found)
+
+
+def judge_impacts(t: Trajectory, out: dict[str, Any], instants: np.ndarray, rows: int) -> list[dict[str, Any]]:
+    """The main impacts, each with its deviation in bars."""
+    if out.get("Lambda") is None:
+        return []
+    with np.errstate(all="ignore"):
+        got = upright(instants[:rows], np.asarray(out["Lambda"])[:rows])
+    judged = []
+    for i, impact in enumerate(t.meta["impacts"]):
+        off = abs(got[i] - impact["t_s"]) / impact["bar_s"] if i < len(got) else np.inf
+        judged.append({**impact, "got_s": float(got[i]) if i < len(got) else None, "bars": off, "grade": grade_of(off)})
+    return judged
+
+
+def simulate(backend: Any, problems: list[Problem]) -> list[Any]:
+    """The answers of a backend to some runs, side by side where it can; an exception stands for the answer that it
+    spoiled."""
+    if hasattr(backend, "simulate_many") and len({alike(p) for p in problems}) == 1:
+        try:
+            return list(backend.simulate_many(problems))
+        except Exception:  # one of them spoils all: ask one by one
+            pass
+    answers: list[Any] = []
+    for problem in problems:
+        try:
+            answers.append(backend.simulate(problem))
+        except Exception as e:
+            answers.append(e)
+    return answers
+
+
+def alike(p: Problem) -> tuple[Any, ...]:
+    """What runs must share to be computed side by side."""
+    return p.step, p.duration, p.output_rate, p.points.n
+
+
+def grouped(problems: list[Problem]) -> list[list[int]]:
+    """Indices of the problems that can be computed side by side."""
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for i, p in enumerate(problems):
+        groups.setdefault(alike(p), []).append(i)
+    return list(groups.values())
+
+
+def judge_runs(backend: Any, profile: str, report: Callable[[float], None] | None = None) -> list[RunCheck]:
+    """All windows and trajectories of L5."""
+    names = trajectory_names() if profile == "scheme" else window_names() + trajectory_names()
+    asked = [t for t in map(trajectory, names) if profile in t.meta["horizon_s"]]
+    found: dict[int, RunCheck] = {}
+    for group in grouped([t.problem for t in asked]):
+        answers = simulate(backend, [asked[i].problem for i in group])
+        for i, answer in zip(group, answers, strict=True):
+            if isinstance(answer, Exception):
+                note = f"{type(answer).__name__}: {answer}".splitlines()[0][:200]
+                found[i] = RunCheck(asked[i].id, asked[i].title, "outside", np.inf, note=note)
+            else:
+                found[i] = judge_rows(asked[i], as_mapping(answer, "simulate"), profile)
+        if report is not None:
+            report(len(found) / len(asked))
+    return [found[i] for i in range(len(asked))]

@@ -1,0 +1,199 @@
+"""From findings to a verdict: pass, or the first rule that is wrong, with equation, vector, numbers, and what follows
+from it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from rockref.conformance.compare import Check
+from rockref.conformance.judge import Findings, finite
+from rockref.conformance.rules import BY_ID, PIECES, RULES, downstream
+from rockref.conformance.runs import RunCheck
+
+SMALL = ("L0", "L1", "L2", "L3", "L7")
+
+
+@dataclass
+class Verdict:
+    """What the judge says.
+
+    status : "PASS", or "FAIL"; rule : the first wrong rule, None where it cannot be told; check : the vector that
+    shows it
+    run : the first run that diverges; rules : status of every rule; consequences : failed checks that come after
+    neighbours : mistakes of the zoo with a similar fingerprint, for a backend of which the pieces do not tell the rule
+    """
+
+    status: str
+    findings: Findings
+    rule: str | None = None
+    check: Check | None = None
+    run: RunCheck | None = None
+    says: str = ""
+    rules: dict[str, str] = field(default_factory=dict)
+    consequences: list[Check] = field(default_factory=list)
+    neighbours: list[tuple[str, float]] = field(default_factory=list)
+
+    @property
+    def passed(self) -> bool:
+        """Whether everything that was judged is inside."""
+        return self.status == "PASS"
+
+
+def status_of_rules(checks: Sequence[Check]) -> dict[str, str]:
+    """By rule: fail, look, pass, or "not shown"."""
+    found = {}
+    for rule in RULES:
+        own = [c for c in checks if c.rule == rule.id and c.grade not in ("not shown", "not judged")]
+        if not own:
+            found[rule.id] = "not shown"
+        elif any(c.failed for c in own):
+            found[rule.id] = "fail"
+        else:
+            found[rule.id] = "look" if any(c.grade == "look" for c in own) else "pass"
+    return found
+
+
+def with_consequences(rules: dict[str, str], named: str | None, checks: Sequence[Check]) -> dict[str, str]:
+    """The statuses with "follows" where a failure can be a consequence of the rule that is named: the rule feeds on
+    it, or all its
+    failures hang on a wrong decision or are those of whole steps."""
+    if named is None:
+        return rules
+    after, found = downstream(named), dict(rules)
+    for rule, status in rules.items():
+        if status != "fail" or rule == named:
+            continue
+        own = [c for c in checks if c.failed and c.rule == rule]
+        if rule in after or all(c.follows or c.layer not in SMALL for c in own):
+            found[rule] = "follows"
+    return found
+
+
+def first(checks: Sequence[Check]) -> Check | None:
+    """The failure that comes first in the order of the rules, wrong decisions before what follows from them."""
+    failed = [c for c in checks if c.failed and not c.follows] or [c for c in checks if c.failed]
+    return min(failed, key=lambda c: (c.rank, c.vector)) if failed else None
+
+
+def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
+    """The layers in the order in which a failure in them is believed: small before long.
+
+    Who shows a step but not the contact law is first asked by short runs, which tell the contact rules apart.
+    """
+    shown = {"kinematics", "contact_law"} <= set(pieces)
+    return (SMALL, ("L4",), ("L5s",)) if shown else (SMALL, ("L5s",), ("L4",))
+
+
+def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None, Check | None, str]:
+    """The first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
+    good = {r for r, s in status_of_rules([c for c in checks if c.layer in SMALL]).items() if s in ("pass", "look")}
+    for layers in stages(pieces):
+        check = first([c for c in checks if c.layer in layers])
+        if check is None:
+            continue
+        if layers == SMALL or check.rule not in good:
+            return check.rule, check, ""
+        if layers == ("L4",):
+            return check.rule, check, "The piece by itself passes: look at what the step hands to it."
+        others = [c for c in checks if c.layer == "L5s" and c.rule not in good]
+        unproved = first(others)
+        whole = {"step", "integrate"} & set(pieces)
+        if unproved is not None and not whole:
+            return unproved.rule, unproved, ""
+        return "S2", check, "All pieces pass by themselves; the run that is made of them does not."
+    return None, None, ""
+
+
+def verdict(findings: Findings, backend: Any = None) -> Verdict:
+    """Weigh the findings. `backend` is asked once more for its fingerprint, where the pieces do not name the rule."""
+    rules = status_of_rules(findings.checks)
+    rule, check, says = suspect(findings.checks, findings.pieces)
+    bad_run = next((r for r in findings.runs if r.failed), None)
+    bad_properties = [p for p in findings.properties if not p.holds]
+    status = "FAIL" if check or bad_run or bad_properties else "PASS"
+    found = Verdict(status, findings, rule, check, bad_run, says, rules)
+    if status == "PASS":
+        return found
+    found.consequences = [c for c in findings.checks if c.failed and c is not check]
+    found.rules = with_consequences(rules, rule, findings.checks)
+    if (
+        rule is None
+        and bad_run is not None
+        and {"step", "contact_law"} <= set(findings.pieces)
+        and findings.profile != "scheme"
+    ):
+        found.rule, found.says = "S2", "All pieces pass by themselves; the run that is made of them does not."
+    if backend is not None and findings.profile == "float64" and not (set(findings.pieces) & set(PIECES)):
+        from rockref.conformance.blackbox import fingerprint, neighbours
+
+        found.neighbours = neighbours(fingerprint(backend))
+    return found
+
+
+def grades(verdict: Verdict) -> dict[str, int]:
+    """How many results have each grade."""
+    found: dict[str, int] = {}
+    for grade in [*(c.grade for c in verdict.findings.checks), *(r.grade for r in verdict.findings.runs)]:
+        found[grade] = found.get(grade, 0) + 1
+    return found
+
+
+def check_as_json(check: Check) -> dict[str, Any]:
+    """A check for JSON."""
+    fields = ("vector", "layer", "rule", "name", "grade", "index", "expected", "bar", "got", "note", "follows")
+    entry = {k: getattr(check, k) for k in fields} | {
+        "equation": BY_ID[check.rule].equation,
+        "bars": finite(check.worst),
+    }
+    entry["index"] = list(check.index)
+    return {k: finite(v) if isinstance(v, float) else v for k, v in entry.items()}
+
+
+def run_as_json(run: RunCheck) -> dict[str, Any]:
+    """A run for JSON, without its curve."""
+    impacts = [{k: finite(v) if isinstance(v, float) else v for k, v in i.items()} for i in run.impacts]
+    entry = {"id": run.id, "grade": run.grade, "bars": finite(run.worst), "horizon_s": run.horizon_s, "note": run.note}
+    first_ = None if run.first is None else {k: finite(v) if isinstance(v, float) else v for k, v in run.first.items()}
+    return entry | {"first_divergence": first_, "event_before": run.event, "impacts": impacts}
+
+
+def as_json(v: Verdict) -> dict[str, Any]:
+    """The verdict as one object for machines."""
+    f = v.findings
+    return {
+        "verdict": v.status,
+        "rule": v.rule,
+        "equation": None if v.rule is None else BY_ID[v.rule].equation,
+        "says": None if v.rule is None else BY_ID[v.rule].says,
+        "remark": v.says,
+        "backend": f.backend,
+        "profile": f.profile,
+        "layers": list(f.layers),
+        "pieces": list(f.pieces),
+        "first_divergence": None if v.check is None else check_as_json(v.check),
+        "first_divergent_run": None if v.run is None else run_as_json(v.run),
+        "neighbours": [neighbour(id_, cosine) for id_, cosine in v.neighbours],
+        "rules": v.rules,
+        "grades": grades(v),
+        "consequences": {"count": len(v.consequences), "rules": sorted({c.rule for c in v.consequences}),
+                         "vectors": sorted({c.vector for c in v.consequences})[:50]},
+        "runs": [run_as_json(r) for r in f.runs],
+        "properties": [vars(p) for p in f.properties],
+        "remarks": f.remarks,
+        "seconds": round(f.seconds, 2),
+    }  # fmt: skip
+
+
+def neighbour(id_: str, cosine: float) -> dict[str, Any]:
+    """A similar mistake of the zoo, for JSON."""
+    from rockref.conformance.vectors import manifest
+
+    return {"mistake": id_, "cosine": round(cosine, 3), **manifest()["mistakes"][id_]}
+
+
+def downstream_of(rule: str) -> list[str]:
+    """Rules that feed on a rule, in order."""
+    after = downstream(rule)
+    return [r.id for r in RULES if r.id in after]

@@ -1,0 +1,12 @@
+"""All mistakes and controls of the zoo, by id."""
+
+from rockref.conformance.rules import ORDER
+from rockref.conformance.zoo.controls import CONTROLS
+from rockref.conformance.zoo.mistake import Mistake
+from rockref.conformance.zoo.of_bodies import OF_BODIES
+from rockref.conformance.zoo.of_flow import OF_FLOW
+from rockref.conformance.zoo.of_points import OF_POINTS
+
+MISTAKES: tuple[Mistake, ...] = tuple(sorted(OF_BODIES + OF_POINTS + OF_FLOW, key=lambda m: (ORDER[m.rule], m.id)))
+BY_ID: dict[str, Mistake] = {m.id: m for m in MISTAKES}
+__all__ = ["BY_ID", "CONTROLS", "MISTAKES"]

@@ -1,0 +1,145 @@
+"""The judge judged: every mistake and every control of the zoo run as a backend."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rockref.conformance import blackbox
+from rockref.conformance.judge import finite, judge
+from rockref.conformance.runs import judge_rows, simulate
+from rockref.conformance.vectors import trajectory, window_names
+from rockref.conformance.verdict import verdict
+from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
+
+#: Small before long: the short runs are asked only where the pieces have nothing to object.
+LAYERS = ("L0", "L1", "L2", "L3", "L4", "L7")
+
+
+def case_of_mistake(mistake: Any, black_box: bool) -> dict[str, Any]:
+    """One mistake: whether it is found, and what is named, by its pieces and (as a black box) by its runs."""
+    backend = mistake.backend()
+    found = verdict(judge(backend, LAYERS))
+    if found.passed:
+        found = verdict(judge(backend, (*LAYERS, "L5s")))
+    check = found.check
+    hit = [c for c in found.findings.checks if c.failed and c.rule == mistake.rule]
+    case: dict[str, Any] = {
+        "id": mistake.id,
+        "kind": "mistake",
+        "rule": mistake.rule,
+        "says": mistake.says,
+        "detected": not found.passed,
+        "named": found.rule,
+        "attributed": found.rule == mistake.rule,
+        "vector": None if check is None else check.vector,
+        "layer": None if check is None else check.layer,
+        "bars": finite(max((c.worst for c in hit), default=0.0)),
+        "failed_vectors": len({c.vector for c in found.findings.failures}),
+    }
+    return case | (seen_as_black_box(mistake, backend) if black_box else {"black_box": None})
+
+
+def seen_as_black_box(mistake: Any, backend: Any) -> dict[str, Any]:
+    """The two nearest mistakes by fingerprint; and the two nearest when this one is not in the library itself."""
+    marks = blackbox.fingerprint(backend)
+    near = blackbox.neighbours(marks)
+    others = blackbox.neighbours(marks, without=(mistake.id,))
+    visible = bool((abs(marks) > 0).any())
+    return {
+        "black_box": {
+            "visible": visible,
+            "neighbours": [{"mistake": i, "rule": BY_ID[i].rule, "cosine": round(c, 3)} for i, c in near],
+            "attributed": visible and mistake.rule in {BY_ID[i].rule for i, _ in near},
+            "without_itself": [{"mistake": i, "rule": BY_ID[i].rule, "cosine": round(c, 3)} for i, c in others],
+            "attributed_without_itself": visible and mistake.rule in {BY_ID[i].rule for i, _ in others},
+        }
+    }
+
+
+def case_of_control(control: Any, runs: bool) -> dict[str, Any]:
+    """One control: whether it is let through, by its pieces and, with `runs`, by the windows."""
+    backend = control.backend()
+    found = verdict(judge(backend, (*LAYERS, "L5s")))
+    worst = max((c.worst for c in found.findings.checks), default=0.0)
+    rejected = not found.passed
+    if runs:
+        asked = [trajectory(name) for name in window_names()]
+        answers = simulate(backend, [t.problem for t in asked])
+        judged = [
+            judge_rows(t, vars(a) if hasattr(a, "__dict__") else a, "float64")
+            for t, a in zip(asked, answers, strict=True)
+        ]
+        rejected = rejected or any(r.failed for r in judged)
+        worst = max(worst, *(r.worst for r in judged))
+    return {
+        "id": control.id,
+        "kind": "control",
+        "says": control.says,
+        "rejected": rejected,
+        "named": found.rule,
+        "bars": finite(worst),
+    }
+
+
+def run_zoo(black_box: bool = True, progress: Callable[[str, float], None] | None = None) -> dict[str, Any]:
+    """The whole zoo; counts, and a case for every mistake and control. Without `black_box`, no runs: seconds, not
+    minutes."""
+    cases = []
+    total = len(MISTAKES) + len(CONTROLS)
+    for inmate in (*MISTAKES, *CONTROLS):
+        cases.append(case_of_control(inmate, black_box) if inmate in CONTROLS else case_of_mistake(inmate, black_box))
+        if progress is not None:
+            progress("zoo", len(cases) / total)
+    return summary(cases)
+
+
+def summary(cases: list[dict[str, Any]]) -> dict[str, Any]:
+    """Counts, and the cases."""
+    mistakes = [c for c in cases if c["kind"] == "mistake"]
+    controls = [c for c in cases if c["kind"] == "control"]
+    seen = [c for c in mistakes if c["black_box"]]
+    return {
+        "detected": sum(c["detected"] for c in mistakes),
+        "attributed": sum(c["attributed"] for c in mistakes),
+        "attributed_black_box": sum(c["black_box"]["attributed"] for c in seen) if seen else None,
+        "planted": len(mistakes),
+        "controls": len(controls),
+        "controls_rejected": sum(c["rejected"] for c in controls),
+        "cases": cases,
+    }
+
+
+def row(case: dict[str, Any]) -> list[str]:
+    """A case as cells of a table: id, rule, what, where caught, bars, named, as a black box."""
+    if case["kind"] == "control":
+        verdict_ = "REJECTED" if case["rejected"] else "passes"
+        return [case["id"], "", case["says"], "", _bars(case["bars"]), verdict_, ""]
+    box = case["black_box"]
+    near = "" if not box else ", ".join(n["mistake"] for n in box["neighbours"]) if box["visible"] else "not visible"
+    named = case["named"] or "none"
+    return [case["id"], case["rule"], case["says"], case["vector"] or "not caught", _bars(case["bars"]), named, near]
+
+
+def _bars(value: float | None) -> str:
+    return "decision" if value is None else f"{value:.1e}" if value >= 1000 else f"{value:.2g}"
+
+
+HEAD = ["id", "rule", "mistake", "first vector", "bars", "named", "nearest by runs alone"]
+
+
+def in_words(found: dict[str, Any]) -> str:
+    """The zoo as lines."""
+    lines = ["  ".join(row(c)) for c in found["cases"]]
+    box = "" if found["attributed_black_box"] is None else f", {found['attributed_black_box']} by runs alone (top two)"
+    lines.append(
+        f"detected {found['detected']}/{found['planted']}, attributed {found['attributed']}/{found['planted']}{box}"
+    )
+    lines.append(f"controls rejected {found['controls_rejected']}/{found['controls']}")
+    return "\n".join(lines)
+
+
+def in_markdown(found: dict[str, Any]) -> str:
+    """The zoo as a table for the documentation."""
+    rows = [HEAD, ["---"] * len(HEAD), *map(row, found["cases"])]
+    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in r) + " |" for r in rows) + "\n"
