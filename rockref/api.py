@@ -62,7 +62,7 @@ class Model:
         return cls(points="four_points", origin={"source": "Table 3.1, four points"})
 
     @classmethod
-    def from_chromosome_54(cls, genes: np.ndarray, **changes) -> Model:
+    def from_chromosome_54(cls, genes: np.ndarray, **changes: Any) -> Model:
         """A model from 54 genes (see `rockref.model.parameters.chromosome_54`)."""
         properties, delta_long, delta_diag, theta_0 = split_54(genes)
         parameters = Parameters(delta_diag=delta_diag, theta_0=theta_0).replace(delta_long=delta_long)
@@ -77,7 +77,7 @@ class Model:
         """Write the model to a TOML file, whole or not at all."""
         model_file.save(self, path)
 
-    def replace(self, **changes) -> Model:
+    def replace(self, **changes: Any) -> Model:
         """A copy with some values changed: fields of the model, or parameters by name (K_N=..., theta_0=...)."""
         own = {f.name for f in fields(self)}
         known = set(Parameters.__dataclass_fields__) - own
@@ -161,8 +161,8 @@ def simulate(
     output_rate: float = 2000.0,
     engine: str = "numpy",
     progress: Callable[[float], None] | None = None,
-    dtype=None,
-    **start,
+    dtype: Any = None,
+    **start: Any,
 ) -> Response:
     """Simulate a model from release, or a problem as it is.
 

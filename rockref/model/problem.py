@@ -80,7 +80,7 @@ class State:
     memory: tuple[dict[str, np.ndarray], ...] = ()
 
     @classmethod
-    def at_rest(cls, x, Lambda, n: int, v=None, W=None) -> State:
+    def at_rest(cls, x: Any, Lambda: Any, n: int, v: Any = None, W: Any = None) -> State:
         """A state without contact history: x (..., 3), Lambda (..., 3, 3), n points, rates zero where not given."""
         x = np.asarray(x)
         batch = x.shape[:-1]
@@ -122,7 +122,7 @@ class Problem:
     effects: tuple[Any, ...] = ()
     labels: dict[str, Any] = field(default_factory=dict)
 
-    def replace(self, **changes) -> Problem:
+    def replace(self, **changes: Any) -> Problem:
         """A copy with some fields changed."""
         return replace(self, **changes)
 
