@@ -1,0 +1,116 @@
+"""Many evaluations on any `concurrent.futures.Executor`: here, in processes, or on a Dask cluster.
+
+A chunk that is lost with its worker is computed again. The results do not depend on who computed them, nor in what
+pieces: each chromosome is evaluated by itself.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from multiprocessing import get_context
+from typing import Any
+
+from rockref.model.errors import InputError
+
+#: How often a lost piece is tried again before the campaign gives up; decided.
+ATTEMPTS = 3
+
+
+class Campaign:
+    """Calls a function on the pieces of a list, in order, on an executor that it makes anew where it breaks.
+
+    make : gives an executor, or None to compute here;  workers : pieces at a time.
+    """
+
+    def __init__(self, make: Callable[[], Executor | None], workers: int):
+        self.make, self.workers = make, workers
+        self.executor = make()
+
+    def __call__(self, function: Callable[..., Sequence], shared: tuple, items: Sequence) -> list:
+        """The concatenated results of `function(*shared, piece)` over pieces of `items`, in the order of the items."""
+        pieces = [list(p) for p in split(items, self.workers)]
+        executor = self.executor
+        if executor is None:
+            return [result for piece in pieces for result in function(*shared, piece)]
+        done: dict[int, Sequence] = {}
+        for attempt in range(ATTEMPTS):
+            try:
+                jobs = {i: executor.submit(function, *shared, p) for i, p in enumerate(pieces) if i not in done}
+                for i, job in jobs.items():
+                    done[i] = job.result()
+                break
+            except BrokenProcessPool:
+                # A worker was killed: what is done stays done, the rest goes to new ones.
+                if attempt == ATTEMPTS - 1:
+                    raise
+                self.close()
+                self.executor = executor = self.make()
+                assert executor is not None
+        return [result for i in range(len(pieces)) for result in done[i]]
+
+    def close(self) -> None:
+        """Let the workers go."""
+        if self.executor is not None:
+            self.executor.shutdown(wait=True, cancel_futures=True)
+
+
+def split(items: Sequence, pieces: int) -> list[Sequence]:
+    """`items` in at most `pieces` pieces whose lengths differ by one at most."""
+    n = max(1, min(pieces, len(items)))
+    edges = [round(i * len(items) / n) for i in range(n + 1)]
+    return [items[a:b] for a, b in zip(edges[:-1], edges[1:], strict=True)]
+
+
+@contextmanager
+def campaign(
+    workers: int | None = None, dask: str | None = None, executor: Executor | None = None
+) -> Iterator[Campaign]:
+    """A campaign on `workers` local processes (1: in this one; None: one a core), on the Dask cluster at address
+    `dask`, or on an executor of the caller's, which is left open.
+
+    Raises
+    ------
+    InputError
+        E-WORKERS, for a number below one; E-DASK, where the extra is missing or the cluster does not answer.
+    """
+    if executor is not None:
+        yield Campaign(lambda: executor, workers or os.cpu_count() or 1)
+        return
+    if dask is not None:
+        with _cluster(dask) as made:
+            yield made
+        return
+    n = (os.cpu_count() or 1) if workers is None else workers
+    if n < 1:
+        raise InputError("E-WORKERS", "--workers", f"is {n}", "Give one or more.")
+    made = Campaign((lambda: None) if n == 1 else (lambda: _processes(n)), n)
+    try:
+        yield made
+    finally:
+        made.close()
+
+
+def _processes(n: int) -> ProcessPoolExecutor:
+    # Fresh processes: a forked one would inherit threads of numba and BLAS in an unknown state.
+    return ProcessPoolExecutor(n, mp_context=get_context("spawn"))
+
+
+@contextmanager
+def _cluster(address: str) -> Iterator[Campaign]:
+    try:
+        from dask.distributed import Client
+    except ImportError as e:
+        cure = "pip install 'rockref[distributed]'"
+        raise InputError("E-DASK", "--dask", "the extra `distributed` is not installed", cure) from e
+    try:
+        client: Any = Client(address, timeout="20s", set_as_default=False)
+    except (OSError, ValueError) as e:
+        raise InputError("E-DASK", f"--dask {address}", f"does not answer ({e})", "Start the scheduler first.") from e
+    try:
+        yield Campaign(client.get_executor, max(1, len(client.scheduler_info()["workers"])))
+    finally:
+        client.close()

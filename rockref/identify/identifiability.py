@@ -1,0 +1,106 @@
+"""What the data determine: errors and correlations from the Fisher information, and profiles where that is not
+believed.
+
+At the end of a least-squares fit with white noise the covariance of the unknowns is chi2 (J^T J)^-1, J the slope of the
+residual over the noise (Cramer-Rao; for example S. M. Kay, Fundamentals of Statistical Signal Processing, 1993, ch. 3).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.identify.genes import Space
+from rockref.identify.polish import Polished, Unknowns, residuals
+from rockref.identify.target import Target
+from rockref.model.parameters import TABLE_3_1
+
+#: Unknowns trade off where their errors correlate by more than this; decided.
+TRADE_OFF = 0.9
+
+
+@dataclass(frozen=True, eq=False)
+class Identifiability:
+    """names (Z,); values and errors (Z,) one standard deviation, in the genes' units; correlation (Z, Z);
+    pairs: (name, name, correlation) of those that trade off; weakest: the combination that the data see least, by
+    name."""
+
+    names: tuple[str, ...]
+    values: np.ndarray
+    errors: np.ndarray
+    correlation: np.ndarray
+    pairs: tuple[tuple[str, str, float], ...]
+    weakest: dict[str, float]
+
+    def digits(self) -> dict[str, float]:
+        """Errors in parts of the last significant digit of Table 3.1, for the unknowns that it has."""
+        last = {name: given.precision for name, given in TABLE_3_1.items()}
+        owners = [name.split(" of ")[0] for name in self.names]
+        return {n: float(e / last[o]) for n, o, e in zip(self.names, owners, self.errors, strict=True) if o in last}
+
+    def determined(self) -> dict[str, bool]:
+        """Whether an unknown is known within half its last digit, two standard deviations."""
+        return {name: 2 * error < 0.5 for name, error in self.digits().items()}
+
+
+def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> Identifiability:
+    """Errors, correlations and trade-offs at the end of a polish."""
+    unknowns = Unknowns(space, targets)
+    information = end.jacobian.T @ end.jacobian
+    # A direction that the data do not see at all has no information; the pseudo-inverse would call it certain.
+    w, v = np.linalg.eigh(information)
+    w = np.maximum(w, 1e-12 * w[-1])
+    covariance = max(1.0, end.chi2) * (v / w) @ v.T
+    sd = np.sqrt(np.diag(covariance))
+    correlation = covariance / np.outer(sd, sd)
+    slopes, values = _in_units(space, unknowns, end.z)
+    names = unknowns.names
+    pairs = [
+        (names[i], names[j], float(correlation[i, j]))
+        for i in range(len(names))
+        for j in range(i + 1, len(names))
+        if abs(correlation[i, j]) > TRADE_OFF
+    ]
+    order = np.argsort(-np.abs(v[:, 0]))
+    weakest = {names[i]: float(v[i, 0]) for i in order if abs(v[i, 0]) > 0.1}
+    pairs.sort(key=lambda p: -abs(p[2]))
+    return Identifiability(names, values, sd * slopes, correlation, tuple(pairs), weakest)
+
+
+def _in_units(space: Space, unknowns: Unknowns, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """d(value)/dz and values of the unknowns, (Z,) each, in the genes' units."""
+    n, tilt = len(unknowns.shared), unknowns.tilt_gene
+    slopes, values = np.empty(len(z)), np.empty(len(z))
+    for k in range(len(unknowns.targets)):
+        u = unknowns.chromosome(z, k)
+        s, v = space.slopes(u), space.values(u)
+        slopes[:n], values[:n] = s[unknowns.shared], v[unknowns.shared]
+        slopes[n + k], values[n + k] = s[tilt], v[tilt]
+    return slopes, values
+
+
+def profile(
+    space: Space, targets: Sequence[Target], end: Polished, name: str, reach: float, points: int = 5
+) -> tuple[np.ndarray, np.ndarray]:
+    """Values (P,) of one unknown about its end, up to `reach` in its unit, and the least chi2 (P,) of each by one
+    Gauss-Newton step of all others: a valley that stays flat is not determined.
+
+    Raises ValueError for a name that is no unknown.
+    """
+    unknowns = Unknowns(space, targets)
+    i = unknowns.names.index(name)
+    slopes, values = _in_units(space, unknowns, end.z)
+    shifts = np.linspace(-reach, reach, points)
+    J, others = end.jacobian, np.arange(len(end.z)) != i
+    r = residuals(space, targets, end.z[None])[0]
+    trials = []
+    for shift in shifts:
+        z = end.z.copy()
+        z[i] += shift / slopes[i]
+        answer = np.linalg.lstsq(J[:, others], -(r + J[:, i] * (z[i] - end.z[i])), rcond=1e-10)[0]
+        z[others] += answer
+        trials.append(np.clip(z, 0.0, 1.0))
+    rs = residuals(space, targets, np.array(trials))
+    return values[i] + shifts, np.mean(np.square(rs), axis=1)
