@@ -6,4 +6,17 @@ it imports only Typer and the standard library; what a command needs is imported
 """
 
 # The order is the order in `rockref --help`. A name here without its module is an error at once, never skipped.
-MODULES: tuple[str, ...] = ("demo", "simulate", "compare", "fit", "diagnose", "add", "plan", "effects", "blind", "conform", "version_info")
+MODULES: tuple[str, ...] = (
+    "demo",
+    "simulate",
+    "compare",
+    "fit",
+    "identify",
+    "diagnose",
+    "add",
+    "plan",
+    "effects",
+    "blind",
+    "conform",
+    "version_info",
+)

@@ -81,6 +81,19 @@ def targets_of(experiment: Experiment, runs: tuple[Run, ...] | None = None) -> t
     return tuple(found)
 
 
+def chosen_runs(targets: tuple[Target, ...], names: str | None) -> tuple[Target, ...]:
+    """The targets with these names, written as "01,06"; without names the first. Raises InputError (E-RUN)."""
+    if names is None:
+        return targets[:1]
+    known = {t.name: t for t in targets}
+    for name in names.split(","):
+        if name.strip() not in known:
+            raise InputError(
+                "E-RUN", "--search-runs", f"there is no fit run {name!r}", f"There are {', '.join(known)}."
+            )
+    return tuple(known[name.strip()] for name in names.split(","))
+
+
 def twin(model: Model, step: float, seed: int | None, gyro: Gyro = GYRO, duration: float = 1.6) -> Target:
     """A reference simulated with another step, recorded with the noise that `seed` draws (None: no noise)."""
     from rockref.engines import run

@@ -1,0 +1,96 @@
+"""`rockref identify`: the parameters of the model from measured runs."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``identify`` to `app`."""
+    app.command("identify")(identify)
+
+
+def identify(
+    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder for the result, the model and the checkpoints.")
+    ] = Path("identified"),
+    model: Annotated[
+        str, typer.Option("--model", "-m", help="table_3_1 or a model.toml: block and what is not searched.")
+    ] = "table_3_1",
+    genes: Annotated[int, typer.Option(help="12 or 54 parameters.")] = 12,
+    search_runs: Annotated[
+        str | None, typer.Option("--search-runs", help="Runs of the evolutionary search, as 01,06; default: the first.")
+    ] = None,
+    generations: Annotated[int, typer.Option(min=1, help="Generations of the search.")] = 250,
+    population: Annotated[int, typer.Option(min=4, help="Chromosomes a generation.")] = 40,
+    seed: Annotated[int, typer.Option(help="Seed of the search.")] = 0,
+    workers: Annotated[int | None, typer.Option(help="Local processes; default: one per core.")] = None,
+    dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler instead (extra `distributed`).")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on from the checkpoints in the output folder.")] = False,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A line for every generation.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")] = False,
+) -> None:
+    """Find the parameters of the law from the fit runs: evolutionary search, then least squares on the signals.
+
+    Every run has a release angle of its own. Holdout runs are looked at when the parameters are fixed, and are in the
+    table. Interrupted at any moment, --resume gives the same end. Exit code 1 if the fit is not at the noise floor.
+
+    \b
+    Example:
+      rockref identify data/experiments/mystery-08 -o identified
+      rockref identify data/experiments/mystery-08 -o identified --resume
+      rockref identify data/experiments/mystery-08 --dask tcp://127.0.0.1:8786
+    """
+    from rockref.commands._models import named_model
+    from rockref.commands._searching import searching
+    from rockref.identify.campaign import campaign
+    from rockref.identify.genes import space_12, space_54
+    from rockref.identify.identifiability import identifiability
+    from rockref.identify.identification import identify as run
+    from rockref.identify.outcome import files_in, found_model, record
+    from rockref.identify.runs import run_errors
+    from rockref.identify.search import Settings
+    from rockref.identify.target import chosen_runs, targets_of
+    from rockref.measure.experiment import load_experiment
+    from rockref.model.errors import InputError
+    from rockref.model.storage import write_text
+    from rockref.report.output import made_folder
+
+    if genes not in (12, 54):
+        raise InputError("E-KEY", "--genes", f"is {genes}", "Use 12 or 54.")
+    folder = made_folder(output)
+    data = load_experiment(experiment, uses=("fit",))
+    targets = targets_of(data)
+    base = named_model(model).replace(
+        mass=data.mass, width=data.width, depth=data.width, height=data.height, points="eight_points", effects=()
+    )
+    chosen = chosen_runs(targets, search_runs)
+    space = (space_12 if genes == 12 else space_54)(base, chosen[0].tilt)
+    settings = Settings(population, generations, seed)
+    with searching(space, verbose) as say, campaign(workers, dask) as work:
+        end = run(space, chosen, targets, settings, work, folder, resume, say)
+    known = identifiability(space, targets, end.polished)
+    # Only now, with the parameters fixed, are the holdout runs opened.
+    everything = load_experiment(experiment)
+    holdout = targets_of(everything, everything.holdout_runs())
+    errors = run_errors(space, end.polished, targets, holdout)
+    result = record(end, known, errors, chosen, targets, settings, everything.digests)
+    files = files_in(folder)
+    text = json.dumps(result, indent=1)
+    write_text(files["result"], text + "\n")
+    found_model(end, known, everything.digests, seed).save(files["model"])
+    if as_json:
+        typer.echo(text)
+    else:
+        from rich.console import Console
+
+        from rockref.report.identification_text import print_identification
+
+        print_identification(Console(), result)
+        for path in files.values():
+            typer.echo(f"wrote {path}")
+    if not end.at_floor:
+        raise typer.Exit(1)
