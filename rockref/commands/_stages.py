@@ -6,6 +6,20 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+# decided: where no terminal sets a width, tables of seven columns fit without being cut.
+WIDE = 120
+
+
+def console() -> Console:
+    """Return where words and tables go: standard output, as wide as the terminal, or WIDE where there is none."""
+    from rich.console import Console
+
+    return Console() if sys.stdout.isatty() else Console(width=WIDE)
 
 
 @contextmanager

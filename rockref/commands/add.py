@@ -59,10 +59,9 @@ def add(
         record = found.to_dict() | {"written": [str(path) for path in written]}
         typer.echo(json.dumps(plain(record), indent=1, allow_nan=False))
     else:
-        from rich.console import Console
-
+        from rockref.commands._stages import console
         from rockref.report.addition_text import print_addition
 
-        print_addition(Console(), found)
+        print_addition(console(), found)
         for path in written:
             typer.echo(f"wrote {path}")

@@ -66,11 +66,10 @@ def diagnose(
     if as_json:
         typer.echo(text)
     else:
-        from rich.console import Console
-
+        from rockref.commands._stages import console
         from rockref.report.diagnosis_text import print_diagnosis
 
-        print_diagnosis(Console(), record)
+        print_diagnosis(console(), record)
         for path in written:
             typer.echo(f"wrote {path}")
     if record["verdict"] == "not_trustworthy":

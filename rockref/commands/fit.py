@@ -50,11 +50,10 @@ def fit(
     if as_json:
         typer.echo(json.dumps(found.to_dict() | {"written": [str(output)]}, indent=1))
     else:
-        from rich.console import Console
-
+        from rockref.commands._stages import console
         from rockref.report.fit_text import print_fit
 
-        print_fit(Console(), found)
+        print_fit(console(), found)
         typer.echo(f"wrote {output}")
     if not found.passed:
         raise typer.Exit(1)

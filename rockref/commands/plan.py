@@ -53,10 +53,9 @@ def plan(
     if as_json:
         typer.echo(text)
     else:
-        from rich.console import Console
-
+        from rockref.commands._stages import console
         from rockref.report.plan_text import print_plan
 
-        print_plan(Console(), found)
+        print_plan(console(), found)
         if output is not None:
             typer.echo(f"wrote {output}")

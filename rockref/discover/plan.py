@@ -19,15 +19,16 @@ import numpy as np
 
 from rockref.api import Model, simulate
 from rockref.discover import verdict as rules
-from rockref.discover.candidates import SHAPES, kinds, parameters_of
+from rockref.discover.candidates import SHAPES, kinds, parameters_of, value_of
 from rockref.discover.fit import Fit, Parameter, baseline_parameters
 from rockref.discover.information import eliminated, information, own_parameters
 from rockref.discover.search import MIDDLE, PROBE
-from rockref.discover.windows import series
+from rockref.discover.windows import Cut, Series, series
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import measured
 from rockref.measure.experiment import Experiment, Gyro, Run
 from rockref.measure.gyroscope import record
+from rockref.measure.impacts import main_impacts
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 
@@ -39,6 +40,9 @@ TILT_UNCERTAINTY = 0.0014
 LEFT_OUT = ("base_vibration", "gyro_saturation")
 #: Seconds of each run that are simulated and used; decided: what the diagnosis uses.
 DURATION = 3.0
+#: Finite differences over a whole run are smaller by this factor; decided: what is a small change over a window is
+#: a large one after fifteen times as long.
+FINE = 0.1
 #: Cosines above which two effects are not told apart; decided: a tenth of either is then left for itself.
 CONFUSED = 0.95
 #: An effect counts as seen when its gain reaches what the diagnosis demands.
@@ -129,6 +133,8 @@ class Plan:
     outlook: Outlook
     repeats: Outlook
     varied: Outlook
+    unbroken_repeats: Outlook
+    unbroken_varied: Outlook
     further: list[dict[str, Any]]
     seconds: float
 
@@ -157,20 +163,31 @@ class Plan:
         return {a: dict(zip(o.effects, row, strict=True)) for a, row in zip(o.effects, rows, strict=True)}
 
     def comparison(self) -> dict[str, Any]:
-        """Limits of as many repeats of one release and of as many varied ones, and their ratio."""
+        """Limits of as many repeats of one release and of as many varied ones, and their ratio.
+
+        By restarted windows, and from release to the second main impact without a restart.
+        """
         ratio = {id: self.repeats.sizes[id] / self.varied.sizes[id] for id in self.varied.effects}
+        whole = {id: self.unbroken_repeats.sizes[id] / self.unbroken_varied.sizes[id] for id in self.varied.effects}
         return {
             "repeats": [str(r) for r in self.repeats.runs],
             "varied": [str(r) for r in self.varied.runs],
             "ratio_of_limits": ratio,
             "median_ratio": float(np.median(list(ratio.values()))),
+            "without_restarts": {
+                "ratio_of_limits": whole,
+                "median_ratio": float(np.median(list(whole.values()))),
+                "confused_pairs": [len(self.unbroken_repeats.confused()), len(self.unbroken_varied.confused())],
+            },
             "confused_pairs": [len(self.repeats.confused()), len(self.varied.confused())],
         }
 
 
-def switches_of(kind: type[Effect]) -> tuple[Parameter, ...]:
+def switches_of(kind: type[Effect], finer: float = 1.0) -> tuple[Parameter, ...]:
     """The numbers of an effect that bring it in, with a step that shows laws which do nothing at zero."""
-    return tuple(replace(p, step=PROBE) for p in parameters_of(kind, 1) if tuple(p.name.split(".")) not in SHAPES)
+    return tuple(
+        replace(p, step=finer * PROBE) for p in parameters_of(kind, 1) if tuple(p.name.split(".")) not in SHAPES
+    )
 
 
 def recorded(model: Model, release: Release, gyro: Gyro, seed: int, duration: float) -> Run:
@@ -210,18 +227,33 @@ def says(
     seed: int = 0,
     duration: float = DURATION,
     workers: int | None = None,
+    restarted: bool = True,
 ) -> Says:
     """Simulate one release, linearise its windows about the truth, eliminate their starts and the run's tilt."""
     run = recorded(model, release, gyro, seed, duration)
     experiment = campaign(model, run, gyro, tilt_uncertainty)
-    windows = series(experiment, (run,), *MIDDLE, duration, workers=workers)
     own = baseline_parameters(model, 1, tilt_uncertainty)
+    if restarted:
+        windows = series(experiment, (run,), *MIDDLE, duration, workers=workers)
+    else:
+        windows = unbroken(experiment, run, workers)
+        # Over a second and a half a per cent of a stiffness is no small change any more.
+        own = tuple(replace(p, step=FINE * p.step) for p in own)
     fit = Fit(windows, model, own)
-    point = fit.relax_states(fit.begin(), 2)
-    wide = Fit(windows, model, (*own, *(p for kind in effects for p in switches_of(kind))))
-    found = information(fit, point, wide, np.zeros(len(wide.parameters)), weighted=True)
+    point = fit.relax_states(fit.begin(), 2) if restarted else fit.begin()
+    wide = Fit(windows, model, (*own, *(p for kind in effects for p in switches_of(kind, 1.0 if restarted else FINE))))
+    found = information(fit, point, wide, np.zeros(len(wide.parameters)), weighted=False)
     H, _ = eliminated(found.H[0], found.g[0], own_parameters(wide.parameters), wide.prior)
     return Says(release, H)
+
+
+def unbroken(experiment: Experiment, run: Run, workers: int | None) -> Series:
+    """One window from the release to shortly before the second main impact: nothing is restarted."""
+    assert run.t is not None and run.crv is not None and experiment.gyro is not None
+    times = main_impacts(run.t, run.crv).times
+    end = float(times[1]) - 0.02 if len(times) > 1 else float(run.t[-1])
+    cut = Cut(np.array([0]), np.array([int(end * experiment.gyro.sample_rate)]))
+    return Series(experiment, (run,), (cut,), workers=workers)
 
 
 def outlook(
@@ -243,10 +275,16 @@ def outlook(
         blocks.append(block)
         z = NEEDED_Z / np.sqrt(np.maximum(np.diag(S)[block], 1e-12))
         for p, size in zip(own, z, strict=True):
-            change = abs(p.value(float(size)) - p.value(0.0))
-            limits[p.name] = {"limit": float(change), "unit": p.unit, "in_typical_sizes": float(size)}
+            limits[p.name] = {"limit": amplitude(p, float(size)), "unit": p.unit, "in_typical_sizes": float(size)}
         sizes[kind.id] = float(z.max())
     return Outlook(tuple(runs), tuple(k.id for k in effects), limits, sizes, cosines(S, blocks))
+
+
+def amplitude(p: Parameter, size: float) -> float:
+    """How far a number is from its absence at this size; the number itself where it is absent at infinity or rigid."""
+    if p.name in ("compliant_support.frequency", "gyro_bandwidth.frequency"):
+        return value_of(p, size)
+    return abs(p.value(size) - p.value(0.0))
 
 
 def cosines(S: np.ndarray, blocks: Sequence[np.ndarray]) -> np.ndarray:
@@ -308,10 +346,11 @@ def plan(
     chosen = kinds(baseline, (*LEFT_OUT, *has)) if effects is None else tuple(catalogue.find(id) for id in effects)
     wanted = alternatives(runs)
     every = sorted({*runs, *wanted})
-    known = {}
+    known, whole = {}, {}
     for k, release in enumerate(every):
         say(f"release {release} ({k + 1} of {len(every)})")
-        known[release] = says(model, release, chosen, gyro, tilt_uncertainty, seed + k, duration, workers)
+        given = (model, release, chosen, gyro, tilt_uncertainty, seed + k, duration, workers)
+        known[release], whole[release] = says(*given), says(*given, restarted=False)
     now = outlook(model, known, runs, chosen)
     repeats, varied = against(runs, wanted)
     return Plan(
@@ -319,6 +358,8 @@ def plan(
         outlook=now,
         repeats=outlook(model, known, repeats, chosen),
         varied=outlook(model, known, varied, chosen),
+        unbroken_repeats=outlook(model, whole, repeats, chosen),
+        unbroken_varied=outlook(model, whole, varied, chosen),
         further=further(model, known, runs, wanted, chosen, now),
         seconds=time.perf_counter() - begun,
     )

@@ -30,14 +30,13 @@ def print_addition(console: Console, a: Addition) -> None:
 def lines(a: Addition) -> list[str]:
     """The error before and after in sentences."""
     found = []
-    for use, words in (("fit", "fit runs"), ("holdout", "held-out runs")):
+    for use, words in (("fit", "Fit runs"), ("holdout", "Held-out runs")):
         before, after = getattr(a.before, use), getattr(a.after, use)
         if before is None or after is None:
             continue
         closed = a.closed(use)
         tail = "" if closed is None else f"; {100 * closed:.0f} % of the gap to the noise floor closed"
         found.append(f"{words}: {before.total:.4f} to {after.total:.4f} deg/s RMS with {a.effect}{tail}.")
-    found[0] = f"{a.experiment.name}, {found[0]}" if found else a.experiment.name
     return found
 
 

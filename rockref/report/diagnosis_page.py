@@ -127,7 +127,7 @@ def add_shares(page: Page, states: Sequence[tuple[str, dict[str, float]]]) -> No
     for k, (name, shares) in enumerate(states):
         y = np.array([shares.get(a) or 0.0 for a in AXES])
         x = np.arange(3.0) + 0.12 * (k - 0.5 * (len(states) - 1))
-        lines.append(Line(name, x, 100 * y, style.colour(k), style.dash(k), dots=True))
+        lines.append(Line(name, x, 100 * y, style.colour(k), dots=True))
     svg = chart(
         [Panel("share (%)", lines, height=120.0, limits=(0.0, 105.0))],
         title="Shares of the axes in the misfit",
@@ -146,7 +146,7 @@ def add_tried(page: Page, record: dict[str, Any]) -> None:
         page.add_text("No candidate was refitted.")
         return
     gains = np.array([max(r["gain"], 1.0) for r in ranking])
-    lines = [Line("gain", np.arange(float(len(gains))), gains, style.colour(0), style.dash(0), dots=True)]
+    lines = [Line("gain", np.arange(float(len(gains))), gains, style.colour(0), dots=True)]
     svg = chart(
         [Panel("gain", lines, log=True, height=150.0)],
         title="Gain of the candidates",
@@ -181,7 +181,7 @@ def physics(id: str) -> list[str]:
         return ["An effect of the user's own."]
     words = [kind.sentence]
     if kind.equation:
-        words.append(f"Equation: {kind.equation}")
+        words.append(f"Equation (TeX): {kind.equation}")
     if kind.source:
         words.append(f"Source: {kind.source}")
     return words
@@ -214,7 +214,7 @@ def add_falling_error(page: Page, record: dict[str, Any]) -> None:
     lines = [levels("noise floor", [e["noise_floor"]] * len(places), (2, 2))]
     for k, (use, name) in enumerate((("fit", "fit runs"), ("holdout", "held-out runs"))):
         y = np.array([np.nan if e[key].get(use) is None else e[key][use] for _, key in places], float)
-        lines.append(Line(name, np.arange(float(len(y))), y, style.colour(k), style.dash(k), dots=True))
+        lines.append(Line(name, np.arange(float(len(y))), y, style.colour(k), dots=True))
     top = max(float(np.nanmax(line.y)) for line in lines if np.isfinite(line.y).any())
     svg = chart(
         [Panel("error (deg/s)", lines, height=170.0, limits=(0.0, 1.15 * top))],

@@ -151,6 +151,8 @@ def in_words(value: Any) -> str:
         return ", ".join(f"{k} {in_words(v)}" for k, v in value.items())
     if isinstance(value, (list, tuple)):
         return ", ".join(map(in_words, value))
+    if isinstance(value, bool):
+        return "yes" if value else "no"
     if isinstance(value, float):
         return f"{value:.3g}"
     return "–" if value is None else str(value)

@@ -31,7 +31,7 @@ def falling_figure(
         lines.append(levels("two repeated runs", [*spread] * len(STRETCHES), style.HOUSNER_DASH))
     for k, (name, values) in enumerate(states):
         places = np.arange(len(names)) + 0.16 * (k - 0.5 * (len(states) - 1))
-        lines.append(Line(name, places, np.asarray(values, float), style.colour(k), style.dash(k), dots=True))
+        lines.append(Line(name, places, np.asarray(values, float), style.colour(k), dots=True))
     svg = chart(
         [Panel("error (deg/s)", lines, log=True, height=200.0)],
         title=title,
@@ -65,7 +65,7 @@ def history_figure(history: Sequence[dict], noise: float) -> tuple[str, str]:
     lines = []
     for k, (use, words) in enumerate((("fit", "fit runs"), ("holdout", "held-out runs"))):
         y = np.array([entry.get(f"{use}_deg_s", np.nan) for entry in history], float)
-        lines.append(Line(words, np.arange(len(y), dtype=float), y, style.colour(k), style.dash(k), dots=True))
+        lines.append(Line(words, np.arange(len(y), dtype=float), y, style.colour(k), dots=True))
     lines.insert(0, levels("noise floor", [noise] * len(history), (2, 2)))
     names = [" + ".join(entry["effects"]) or "baseline" for entry in history]
     svg = chart(

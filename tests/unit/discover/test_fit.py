@@ -1,0 +1,96 @@
+"""The reduced normal equations held to the whole ones, on a small made-up problem."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from rockref.discover.fit import CAP, Fit, Parameter
+from rockref.discover.information import by_run, eliminated
+from rockref.discover.windows import STATES
+
+B, G, M = 6, 4, 5
+
+
+@pytest.fixture
+def problem():
+    """A Fit without simulator, with residuals, Jacobians and weights of its own."""
+    rng = np.random.default_rng(3)
+    fit = object.__new__(Fit)
+    fit.series = SimpleNamespace(B=B, run_of=np.array([0, 0, 1, 1, 2, 2]), count=np.full(B, 3 * M))
+    fit.runs = 3
+    fit.state_prior = rng.uniform(0.5, 2.0, (B, STATES))
+    r, Js, Jg = rng.normal(size=(B, M, 3)), rng.normal(size=(B, STATES, M, 3)), rng.normal(size=(B, G, M, 3))
+    w, c = rng.uniform(0.2, 1.0, (B, M, 3)), 0.1 * rng.normal(size=(B, STATES))
+    return fit, r, Js, Jg, w, c
+
+
+def dense(fit, r, Js, Jg, w, c):
+    """Hessian and gradient of half the weighted squares and the priors, all corrections and parameters together."""
+    J = np.zeros((B * M * 3, B * STATES + G))
+    for b in range(B):
+        rows = slice(b * M * 3, (b + 1) * M * 3)
+        J[rows, b * STATES : (b + 1) * STATES] = Js[b].reshape(STATES, -1).T
+        J[rows, B * STATES :] = Jg[b].reshape(G, -1).T
+    W = w.ravel()
+    prior = np.concatenate([(1 / fit.state_prior**2).ravel(), np.zeros(G)])
+    H = J.T @ (W[:, None] * J) + np.diag(prior)
+    g = J.T @ (W * r.ravel()) + prior * np.concatenate([c.ravel(), np.zeros(G)])
+    return H, g
+
+
+def test_reduced_step_is_the_step_of_everything(problem):
+    fit, r, Js, Jg, w, c = problem
+    H, g = dense(*problem)
+    step = -np.linalg.solve(H, g)
+    h, k, (H_ss, H_sg, g_s, _) = fit.reduced(r, Js, Jg, w, c, np.zeros(G))
+    dz = -np.linalg.solve(h, k)
+    dc = -np.linalg.solve(H_ss, (g_s + H_sg @ dz)[..., None])[..., 0]
+    # Both solve the same linear system; it is well conditioned.
+    np.testing.assert_allclose(dz, step[B * STATES :], rtol=1e-9)
+    np.testing.assert_allclose(dc.ravel(), step[: B * STATES], rtol=1e-8, atol=1e-12)
+
+
+def test_uncertainty_of_parameters_includes_that_of_the_starts(problem):
+    fit, r, Js, Jg, w, c = problem
+    H, _ = dense(*problem)
+    h, _, _ = fit.reduced(r, Js, Jg, w, c, np.zeros(G))
+    np.testing.assert_allclose(np.linalg.inv(h), np.linalg.inv(H)[B * STATES :, B * STATES :], rtol=1e-9)
+
+
+def test_runs_add_up_to_the_whole(problem):
+    fit, r, Js, Jg, w, c = problem
+    h, k, _ = fit.reduced(r, Js, Jg, w, c, np.zeros(G))
+    found = by_run(fit, r, Js, Jg, w, c)
+    assert found.H.shape == (3, G, G)
+    np.testing.assert_allclose(found.total, h, rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(found.g.sum(axis=0), k, rtol=1e-10, atol=1e-12)
+
+
+def test_eliminating_a_parameter_leaves_the_step_of_the_others(problem):
+    fit, r, Js, Jg, w, c = problem
+    h, k, _ = fit.reduced(r, Js, Jg, w, c, np.zeros(G))
+    out, prior = np.array([False, True, False, False]), np.array([np.inf, 0.5, np.inf, np.inf])
+    H, g = eliminated(h, k, out, prior)
+    whole = np.linalg.solve(h + np.diag(1 / prior**2), k)
+    np.testing.assert_allclose(np.linalg.solve(H, g), whole[~out], rtol=1e-9)
+
+
+def test_weights_are_the_slope_of_the_loss(problem):
+    fit = problem[0]
+    rng = np.random.default_rng(1)
+    # One window like noise, one far off (beyond the cap): both must be descended along the right slope.
+    r = rng.normal(size=(B, M, 3)) * np.array([1, 1, 1, 30, 30, 30])[:, None, None]
+    d = rng.normal(size=r.shape)
+    mean = 2 * fit.window_loss(r) / fit.series.count
+    assert mean[:3].max() < CAP < mean[3:].min()
+    e = 1e-6
+    slope = (fit.window_loss(r + e * d) - fit.window_loss(r - e * d)) / (2 * e)
+    np.testing.assert_allclose(np.sum(fit.weights(r) * r * d, axis=(1, 2)), slope, rtol=1e-5)
+
+
+def test_parameter_values():
+    log = Parameter("a", None, 2.0, 0.5, log=True)
+    assert log.value(0.0) == 2.0 and log.value(2.0) == pytest.approx(2.0 * np.e)
+    bounded = Parameter("b", None, 0.0, 3.0, low=0.0)
+    assert bounded.value(-1.0) == 0.0 and bounded.value(1.0) == 3.0
