@@ -17,8 +17,9 @@ DETECTED = 350.0
 SECOND, SECOND_SIZE = 900.0, 0.25
 #: Size, in typical sizes, below which an effect is not named: on controls gains come with sizes of 1 to 10 %.
 LEAST_SIZE = 0.2
-#: Rivals whose gain is above this share of the best one are not told apart from it.
-RIVAL = 0.80
+#: Rivals whose gain is above this share of the best one are not told apart from it: on controls no candidate gains more
+#: than some 200 units by luck, a tenth of what a plain effect gains.
+RIVAL = 0.92
 #: Rivals above this share of the best gain are fitted again from short windows on before the verdict.
 RIVAL_BEFORE_DUEL = 0.55
 #: Share of windows that stay structured above which nothing of the catalogue explains the runs.
