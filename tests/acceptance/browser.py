@@ -7,6 +7,7 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
@@ -23,6 +24,14 @@ FLAGS = (
     # Frames come on request, so that a busy machine makes no difference.
     "--run-all-compositor-stages-before-draw",
 )
+#: The protocol reads commands from descriptor 3 and answers on 4; a shell cannot name descriptors above 9.
+LAUNCH = """
+import os, sys
+a, b = os.dup(int(sys.argv[1])), os.dup(int(sys.argv[2]))
+os.dup2(a, 3), os.dup2(b, 4)
+os.set_inheritable(3, True), os.set_inheritable(4, True)
+os.execv(sys.argv[3], sys.argv[3:])
+"""
 
 
 def find_browser() -> str | None:
@@ -38,13 +47,15 @@ class Browser:
         assert program is not None
         to_child, self._write = os.pipe()
         self._read, from_child = os.pipe()
-        # The protocol reads commands from descriptor 3 and answers on 4.
-        shell = f'exec "$0" "$@" 3<&{to_child} 4>&{from_child}'
+        own = (f"--window-size={width},{height}", f"--user-data-dir={profile}")
+        browser = (program, *FLAGS, *own, "--remote-debugging-pipe", "about:blank")
         self._process = subprocess.Popen(
-            ["/bin/sh", "-c", shell, program, *FLAGS, f"--window-size={width},{height}", f"--user-data-dir={profile}",
-             "--remote-debugging-pipe", "about:blank"],
-            pass_fds=(to_child, from_child), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-        )  # fmt: skip
+            [sys.executable, "-c", LAUNCH, str(to_child), str(from_child), *browser],
+            pass_fds=(to_child, from_child),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         os.close(to_child)
         os.close(from_child)
         self._buffer, self._number, self.events = b"", 0, []

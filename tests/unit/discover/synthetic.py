@@ -31,7 +31,7 @@ def experiment(
     noisy: bool = False,
     name: str = "synthetic",
 ) -> Experiment:
-    """An experiment whose runs are releases of `model`; a run is {"tilt", "true_tilt", "turned", "use"}, all optional."""
+    """An experiment whose runs are releases of `model`; a run may have tilt, true_tilt, turned, use."""
     made = []
     for k, given in enumerate(runs):
         tilt = given.get("tilt", 0.117)

@@ -1,0 +1,100 @@
+"""`rockref simulate`: files whole or not at all, facts for people and machines."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rockref import Model, api, cli
+from rockref.model.rotation import exponential
+
+
+def run(capsys, *arguments):
+    """Exit code, standard output and standard error of `rockref ARGUMENTS`."""
+    with pytest.raises(SystemExit) as end:
+        cli.main([str(a) for a in arguments])
+    out, err = capsys.readouterr()
+    return end.value.code, out, err
+
+
+def test_table_and_summary(capsys, tmp_path):
+    path = tmp_path / "out.csv"
+    code, out, err = run(capsys, "simulate", "-o", path, "--duration", 0.6, "--rate", 1000)
+    assert (code, err) == (0, "")
+    # The source's block meets the plate at 0.5104 s (1e-4 s: the step's own error is 3e-5).
+    assert "main impacts (s)      0.5104" in out
+    rows = path.read_text(encoding="ascii").splitlines()
+    assert rows[0].startswith("t_s,wx_deg_s,wy_deg_s,wz_deg_s,x_m") and len(rows) == 602
+
+
+def test_json_says_everything(capsys, tmp_path):
+    path = tmp_path / "out.csv.gz"
+    code, out, _ = run(capsys, "simulate", "four_points", "--duration", 0.05, "--turned", "--json", "-o", path)
+    facts = json.loads(out)
+    assert code == 0
+    assert facts["turned"] is True and facts["overturned"] is False and facts["overturned_at_s"] is None
+    assert facts["output"]["rows"] == 101 and facts["main_impacts_s"] == []
+    assert path.is_file()
+
+
+def test_model_file_and_effects(capsys, tmp_path):
+    file = tmp_path / "model.toml"
+    Model.table_3_1().replace(mass=27.0).save(file)
+    arguments = ("simulate", file, "--duration", 0.05, "--effect", "gyro_scale:x=1.1,y=1,z=1", "--json")
+    code, out, _ = run(capsys, *arguments, "--effect", "gyro_drift:bias_x=0.01")
+    assert code == 0
+    assert set(json.loads(out)["effects"]) == {"gyro_scale", "gyro_drift"}
+
+
+def test_effect_on_the_command_line_replaces_that_of_the_file(capsys, tmp_path):
+    from rockref.effects.catalogue import parse
+
+    file = tmp_path / "model.toml"
+    Model.table_3_1().replace(effects=(parse("gyro_scale:x=1.1,y=1,z=1"),)).save(file)
+    _, out, _ = run(capsys, "simulate", file, "--duration", 0.05, "--effect", "gyro_scale:x=1,y=1,z=1.2", "--json")
+    assert json.loads(out)["effects"]["gyro_scale"]["z"] == 1.2
+    assert json.loads(out)["effects"]["gyro_scale"]["x"] == 1.0
+
+
+def test_overturned_block_is_a_result_and_is_said(capsys, monkeypatch):
+    standing = api.simulate(Model.table_3_1(), duration=0.05, output_rate=1000.0, engine="auto")
+    leaning = np.stack([exponential(np.array([a, 0.0, 0.0])) for a in np.linspace(0.0, 1.5, len(standing.t))])
+    monkeypatch.setattr(api, "simulate", lambda *a, **k: replace(standing, Lambda=leaning))
+    code, out, _ = run(capsys, "simulate")
+    assert code == 0
+    # The first row beyond 45 degrees of 1.5 rad over 50 rows is the 27th.
+    assert "The block overturned: beyond 45 degrees at 0.0270 s." in out
+
+
+@pytest.mark.parametrize(
+    "arguments, said",
+    [
+        (("simulate", "no_such.toml"), "no_such.toml"),
+        (("simulate", "--effect", "gyro_scal"), "gyro_scale"),
+        (("simulate", "--effect", "gyro_scale:q=1"), "E-KEY"),
+        (("simulate", "--duration", "-1"), "E-RANGE"),
+        (("simulate", "--step", "0.0004"), "E-STEP"),
+        (("simulate", "--engine", "abacus"), "E-ENGINE"),
+        (("simulate", "-o", "out.txt"), "E-PATH"),
+        (("simulate", "-o", "no_folder/out.csv"), "E-PATH"),
+    ],
+)
+def test_bad_input_ends_with_2_and_leaves_nothing(capsys, tmp_path, monkeypatch, arguments, said):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert said in err and err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_lost_numbers_leave_no_file(capsys, tmp_path, monkeypatch):
+    from rockref.model.errors import NumericalError
+
+    def lose(*arguments, **options):
+        raise NumericalError("E-NAN", "step 7", "lost", "Use a smaller step.")
+
+    monkeypatch.setattr(api, "simulate", lose)
+    code, _, err = run(capsys, "simulate", "-o", tmp_path / "out.csv")
+    assert code == 2 and "step 7" in err
+    assert list(tmp_path.iterdir()) == []
