@@ -7,11 +7,17 @@ from typing import Annotated
 import typer
 
 
+HELP = """Test the discoverer on sealed hidden effects.
+
+Example:
+  rockref blind make blind --seed 7 --cases 12
+  rockref blind score blind
+"""
+
+
 def register(app: typer.Typer) -> None:
     """Add ``blind make`` and ``blind score`` to `app`."""
-    group = typer.Typer(
-        no_args_is_help=True, rich_markup_mode=None, help="Test the discoverer on sealed hidden effects."
-    )
+    group = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help=HELP)
     group.command("make")(make)
     group.command("score")(score)
     app.add_typer(group, name="blind")
