@@ -6,7 +6,6 @@ from typing import Annotated
 
 import typer
 
-
 HELP = """Test the discoverer on sealed hidden effects.
 
 Example:
