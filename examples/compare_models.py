@@ -1,6 +1,6 @@
 """Two models beside one experiment, from Python: sentences, numbers, a page.
 
-Run it in the folder of the project: ``python examples/compare_models.py`` (half a minute, the first time with compiling).
+Run it in the folder of the project: ``python examples/compare_models.py`` (half a minute, with compiling).
 """
 
 from pathlib import Path
