@@ -25,7 +25,7 @@ RIVAL_BEFORE_DUEL = 0.55
 #: Share of windows that stay structured above which nothing of the catalogue explains the runs.
 UNEXPLAINED = 0.30
 #: Share above which no second effect is looked for: the runs do not look like anything in the catalogue.
-HOPELESS = 0.6
+HOPELESS = 0.9
 #: Factor on the linear standard deviation of an amplitude; calibrated so that 90 % intervals cover 90 %.
 INTERVAL = 2.0
 #: Part of the amplitude itself that is added to the interval: the parameters of the law that windows cannot see (common
