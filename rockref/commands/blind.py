@@ -93,8 +93,8 @@ def score(
         typer.echo(table.as_text(found["scores"]))
         for line in found["failures"]:
             typer.echo(f"- {line}")
-        for name, rows in found["rivals"].items():
-            typer.echo("\n" + table.as_text(rows, name))
+        if found["rivals"]:
+            typer.echo("\n" + table.beside({"discoverer": found["scores"], **found["rivals"]}))
         for what, whole in found["sealed"].items():
             if not whole:
                 typer.echo(f"rockref: not as it was sealed: {what}", err=True)

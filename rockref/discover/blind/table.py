@@ -76,15 +76,24 @@ def _row(score: str, value: float | None, n: int, least: float | None, most: flo
     return {"score": score, "value": value, "n": n, "goal": " and ".join(goals), "met": met}
 
 
-def as_text(rows: list[dict[str, Any]], title: str = "") -> str:
+def as_text(rows: list[dict[str, Any]]) -> str:
     """The table in Markdown. Intervals are 95 % Wilson of a share, quartiles of a median."""
-    lines = [f"**{title}**", ""] if title else []
-    lines += ["| score | value | interval | n | goal | met |", "| --- | --- | --- | --- | --- | --- |"]
+    lines = ["| score | value | interval | n | goal | met |", "| --- | --- | --- | --- | --- | --- |"]
     for row in rows:
         met = {True: "yes", False: "**no**", None: ""}[row["met"]]
         value, low, high = (_shown(row[k], row["percent"]) for k in ("value", "low", "high"))
         interval = f"{low} to {high}" if row["n"] else ""
         lines.append(f"| {row['score']} | {value} | {interval} | {row['n']} | {row['goal']} | {met} |")
+    return "\n".join(lines)
+
+
+def beside(methods: dict[str, list[dict[str, Any]]]) -> str:
+    """Scores of several methods side by side, in Markdown; rows that no method has a case or a goal for are left out."""
+    lines = ["| score | " + " | ".join(methods) + " | n |", "| --- |" + " --- |" * (len(methods) + 1)]
+    for rows in zip(*methods.values(), strict=True):
+        if rows[0]["goal"] and any(row["value"] is not None for row in rows) and "seconds" not in rows[0]["score"]:
+            shown = " | ".join(_shown(row["value"], row["percent"]) for row in rows)
+            lines.append(f"| {rows[0]['score']} | {shown} | {rows[0]['n']} |")
     return "\n".join(lines)
 
 

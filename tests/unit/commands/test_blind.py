@@ -46,5 +46,6 @@ def test_check_ends_with_1_where_a_goal_is_missed(capsys, tmp_path, monkeypatch)
     monkeypatch.setattr(scoring, "score", lambda *a, **k: found)
     code, printed = run(capsys, "score", tmp_path, "--check")
     assert code == 1 and "| a | 50.0 % | 30.0 % to 70.0 % | 4 | >= 0.9 | **no** |" in printed.out
+    assert "| score | discoverer | r | n |" in printed.out and "| a | 50.0 % | 50.0 % | 4 |" in printed.out
     assert "not as it was sealed: truth" in printed.err
     assert run(capsys, "score", tmp_path)[0] == 0
