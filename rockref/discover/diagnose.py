@@ -15,7 +15,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.candidates import SHAPES, kinds, value_of
 from rockref.discover.evidence import HeldOut, clipped_gain, held_out, rms_deg_s
 from rockref.discover.fit import Fit, Point
-from rockref.discover.presearch import suspects
+from rockref.discover.presearch import STRONG, suspects
 from rockref.discover.search import Setup, Trial, baseline, screen
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
@@ -23,7 +23,8 @@ from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
 REFITTED, ITERATIONS = 6, 3
-#: The plain baseline is built on unless a suspect of the presearch fits better by this factor of mean loss (decided).
+#: The plain baseline is built on unless a suspect of the presearch, on windows of its own, fits better by this factor of
+#: mean loss (decided).
 NO_WORSE = 1.1
 #: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
 WORTH_A_REFIT = 120.0
@@ -161,7 +162,7 @@ def diagnose(
     setup, sets, seen = suspects(setup)
     families = []
     for effects in sets:
-        hopeless = not effects and bool(seen.get("starts"))
+        hopeless = not effects and bool(seen.get("starts")) and seen["loss"] > STRONG
         z = np.zeros(len(setup.parameters(effects)))
         known = np.clip(seen.get("starts", {}).get(effects, seen["z"]), -3, 3)
         z[: len(known)] = 0 if hopeless else known
@@ -169,8 +170,11 @@ def diagnose(
         families.append(Family(effects, fit, point))
     null = families[0]
     start = min(families, key=mean_loss)
-    if mean_loss(null) < NO_WORSE * mean_loss(start):
-        start = null
+    if same_windows(null, start):
+        better = gain_over(null, start) > rules.DETECTED
+    else:
+        better = mean_loss(start) * NO_WORSE < mean_loss(null)
+    start = start if better else null
     looks = []
     while len(start.effects) < rules.MOST_EFFECTS:
         look = look_further(setup, experiment, start, seed, say)

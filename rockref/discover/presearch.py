@@ -115,4 +115,8 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
         if share > EXPLAINED:
             sets.append(("base_vibration",))
             seen.setdefault("starts", {})["base_vibration",] = trial.z
+    if setup.experiment.baseline == "four_points" and setup.base.points == "four_points":
+        sets.append(("foot_defects",))
+        typical = np.ones(len(setup.parameters(("foot_defects",))) - len(seen["z"]))
+        seen.setdefault("starts", {})["foot_defects",] = np.concatenate([seen["z"], typical])
     return setup, sets, seen
