@@ -23,8 +23,8 @@ from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
 REFITTED, ITERATIONS = 6, 3
-#: The plain baseline is built on unless a suspect of the presearch, on windows of its own, fits better by this factor of
-#: mean loss (decided).
+#: The plain baseline is built on unless a suspect of the presearch, on windows of its own, fits better by this factor
+#: of mean loss (decided).
 NO_WORSE = 1.1
 #: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
 WORTH_A_REFIT = 120.0
