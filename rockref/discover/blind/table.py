@@ -88,7 +88,7 @@ def as_text(rows: list[dict[str, Any]]) -> str:
 
 
 def beside(methods: dict[str, list[dict[str, Any]]]) -> str:
-    """Scores of several methods side by side, in Markdown; rows that no method has a case or a goal for are left out."""
+    """Scores of several methods side by side, in Markdown; only those that have a goal and a case."""
     lines = ["| score | " + " | ".join(methods) + " | n |", "| --- |" + " --- |" * (len(methods) + 1)]
     for rows in zip(*methods.values(), strict=True):
         if rows[0]["goal"] and any(row["value"] is not None for row in rows) and "seconds" not in rows[0]["score"]:
