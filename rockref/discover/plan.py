@@ -292,10 +292,12 @@ def cosines(S: np.ndarray, blocks: Sequence[np.ndarray]) -> np.ndarray:
 
     S (C, C): information about the numbers of all effects, everything else eliminated; blocks: whose number is whose.
     """
+    size = np.sqrt(np.maximum(np.diag(S), 1e-300))
+    S = S / np.outer(size, size)  # units of the numbers must not decide what counts as zero
     roots = []
     for b in blocks:
         value, vector = np.linalg.eigh(S[np.ix_(b, b)])
-        value = np.maximum(value, 1e-9 * max(value.max(), 1e-300))
+        value = np.maximum(value, 1e-9 * value.max())
         roots.append(vector / np.sqrt(value) @ vector.T)
     found = np.eye(len(blocks))
     for i, a in enumerate(blocks):

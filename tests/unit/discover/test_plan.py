@@ -1,0 +1,103 @@
+"""Plans: releases from words, information that adds up, cosines, and what a varied run is worth."""
+
+import numpy as np
+import pytest
+
+from rockref import Model
+from rockref.discover import plan as planning
+from rockref.discover.fit import baseline_parameters
+from rockref.discover.plan import Release, Says, against, alternatives, cosines, further, outlook, releases_from
+from rockref.effects import catalogue
+from rockref.model.errors import InputError
+
+TABLE = Model.table_3_1()
+DRAG, ROLLING = catalogue.find("quadratic_drag"), catalogue.find("rolling_resistance")
+SHARED = len(baseline_parameters(TABLE, 0, 0.0014))
+
+
+def test_releases_from_words():
+    found = releases_from("0.117x2, 0.098 ,0.117t")
+    assert found == [Release(0.117), Release(0.117), Release(0.098), Release(0.117, True)]
+    assert [str(r) for r in found] == ["0.117", "0.117", "0.098", "0.117t"]
+
+
+@pytest.mark.parametrize("text", ["", "abc", "0.117x0", "0.117xx", "2.0", "-0.1", "0.117x1000", "nan"])
+def test_what_is_no_release_is_refused(text):
+    with pytest.raises(InputError, match="E-RUNS"):
+        releases_from(text)
+
+
+def says(release: Release, direction: np.ndarray, own: float) -> Says:
+    """A run that sees the first nuisance, and two effects: along `direction` together with it, and by themselves."""
+    H = np.zeros((SHARED + 2, SHARED + 2))
+    v = np.zeros(SHARED + 2)
+    v[0], v[SHARED:] = 1.0, direction
+    H += 1e6 * np.outer(v, v)
+    H[np.arange(SHARED, SHARED + 2), np.arange(SHARED, SHARED + 2)] += own
+    return Says(release, H)
+
+
+A, B = Release(0.117), Release(0.098)
+KNOWN = {A: says(A, np.array([1.0, 0.5]), 1.0), B: says(B, np.array([0.2, 0.9]), 1.0)}
+
+
+def see(*runs):
+    return outlook(TABLE, KNOWN, runs, (DRAG, ROLLING))
+
+
+def test_as_many_repeats_average_the_noise_only():
+    KNOWN_FREE = {A: Says(A, np.diag([0.0] * SHARED + [4.0, 9.0]))}
+    one, four = (outlook(TABLE, KNOWN_FREE, [A] * n, (DRAG, ROLLING)) for n in (1, 4))
+    for id in ("quadratic_drag", "rolling_resistance"):
+        assert one.sizes[id] / four.sizes[id] == pytest.approx(2.0, rel=1e-12)
+    assert one.sizes["quadratic_drag"] / one.sizes["rolling_resistance"] == pytest.approx(1.5, rel=1e-12)
+
+
+def test_a_varied_run_frees_effects_from_a_nuisance_that_repeats_leave_in_the_way():
+    repeats, varied = see(A, A), see(A, B)
+    for id in repeats.effects:
+        assert varied.sizes[id] < 0.1 * repeats.sizes[id]
+
+
+def test_the_next_run_is_the_varied_one():
+    found = further(TABLE, KNOWN, [A], [A, B], (DRAG, ROLLING), see(A))
+    assert [f["run"] for f in found] == ["0.098", "0.117"]
+    assert [f["repeat"] for f in found] == [False, True]
+    assert found[1]["limits_fall_by"] < 1.5 < found[0]["limits_fall_by"]
+
+
+def test_cosines_of_known_subspaces():
+    # Columns e1, e2 for the first effect; one column in their plane, one at 60 degrees to e1 out of it.
+    columns = np.array([[1, 0, 0], [0, 1, 0], [0.6, 0.8, 0], [0.5, 0, np.sqrt(0.75)]], float)
+    S = columns @ columns.T
+    found = cosines(S, [np.array([0, 1]), np.array([2]), np.array([3])])
+    assert found[0, 1] == pytest.approx(1.0) and found[0, 2] == pytest.approx(0.5)
+    assert found[1, 2] == pytest.approx(0.3)
+    np.testing.assert_array_equal(found, found.T)
+
+
+def test_cosines_do_not_depend_on_the_scale_of_a_number():
+    rng = np.random.default_rng(0)
+    J = rng.normal(size=(5, 20))
+    scale = np.array([1e3, 1e-2, 1.0, 7.0, 1e-4])
+    blocks = [np.array([0, 1]), np.array([2, 3, 4])]
+    np.testing.assert_allclose(
+        cosines(J @ J.T, blocks), cosines((J * scale[:, None]) @ (J * scale[:, None]).T, blocks), atol=1e-6
+    )
+
+
+def test_comparison_is_between_as_many_runs():
+    wanted = alternatives([A, B])
+    assert len(wanted) == len(set(wanted)) == 6 and wanted[0] == A
+    repeats, varied = against([A, B, A, A], wanted)
+    assert repeats == [A] * 4 and len(varied) == 4 and len(set(varied)) == 4
+
+
+def test_a_simulated_release_sees_a_sensor_scale_to_a_fraction_of_a_per_cent():
+    # One second: the first arc and half of the second. The scale of the main axis multiplies 40 deg/s; the noise is
+    # 0.05 deg/s in each of a thousand samples, so that its limit is far below its typical 2 or 3 per cent.
+    kind = catalogue.find("gyro_scale")
+    known = {A: planning.says(TABLE, A, (kind,), duration=1.0)}
+    found = outlook(TABLE, known, [A], (kind,))
+    assert found.limits["gyro_scale.x"]["limit"] < 0.02
+    assert found.limits["gyro_scale.x"]["limit"] < found.limits["gyro_scale.z"]["limit"]

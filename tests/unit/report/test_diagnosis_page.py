@@ -1,0 +1,61 @@
+"""The page of a diagnosis: every part of the story, in its order, whole, escaped and small."""
+
+import pytest
+
+from rockref.discover.compare import compare
+from rockref.report.diagnosis_page import compared, diagnosis_page, write_diagnosis
+from rockref.report.page import MAX_BYTES
+from tests.unit.discover import fakes
+from tests.unit.report.page_checks import Reader
+
+STORY = [
+    "The verdict", "What was measured", "Where the baseline fails", "What was tried", "What explains it",
+    "What would make it sure", "The error falling", "Run by run", "In motion", "Where the numbers come from",
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def named():
+    d = fakes.diagnosis("named")
+    return d, compared(d)
+
+
+def test_story_in_its_order(named):
+    page = diagnosis_page(*named)
+    assert [s.title for s in page.sections] == STORY
+
+
+def test_measured_and_both_models_move(named):
+    d, c = named
+    assert c.names == ("baseline", "with quadratic_drag")
+    page = diagnosis_page(d, c)
+    ((_, block),) = [b for b in page.sections[8].blocks if b[0] == "player"]
+    assert [b["name"] for b in block["player"].data["bodies"]] == ["measured", "baseline", "with quadratic_drag"]
+
+
+def test_page_is_whole_escaped_and_small(named, tmp_path):
+    d, c = named
+    path = write_diagnosis(d, tmp_path, c)
+    text = path.read_text(encoding="utf-8")
+    assert len(text.encode()) < MAX_BYTES
+    assert "&lt;by half a turn&gt; &amp; repeat." in text and "<by half" not in text
+    reader = Reader()
+    reader.feed(text)
+    assert not reader.faults and not reader.open
+    assert len(reader.ids) == len(set(reader.ids))
+    assert {link[1:] for link in reader.links if link.startswith("#")} <= set(reader.ids)
+    for number in ("0.2500", "0.0800", "0.38", "512"):
+        assert number in text, number
+
+
+@pytest.fixture(scope="module")
+def plain_comparison(named):
+    d, c = named
+    return compare(d.experiment, [c.models[0]], ["baseline"])
+
+
+@pytest.mark.parametrize("verdict", ["none", "something_else", "not_trustworthy"])
+def test_without_an_effect_there_is_one_model_and_no_amplitude(named, plain_comparison, verdict):
+    d = fakes.diagnosis(verdict, named[0].experiment)
+    text = diagnosis_page(d, plain_comparison).html()
+    assert "How large" not in text and "Nothing of the catalogue." in text
