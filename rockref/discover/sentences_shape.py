@@ -200,6 +200,15 @@ def error_size(c: Comparison, model: int) -> list[Finding]:
     return finding(c, model, "error_size", text, fit=fit, holdout=kept, noise=c.noise())
 
 
+def _motionless(c: Comparison, model: int) -> bool:
+    """Return whether the median envelope of the model is missing about an axis about which the block moves."""
+    for axis in AXES[1:]:
+        widths = [e.width for r in c.results[model] for e in r.envelopes if e.axis == axis and e.width is not None]
+        if widths and float(np.median(widths)) < MISSING:
+            return True
+    return False
+
+
 def side_by_side(c: Comparison) -> list[Finding]:
     """Which of the models is closest, stretch by stretch."""
     found = []
@@ -214,6 +223,8 @@ def side_by_side(c: Comparison) -> list[Finding]:
         else:
             head = f"{words.capitalize()} {c.names[best]} and {c.names[second]} are about as close"
         text = f"{head} (deg/s, all axes and runs: {each}; noise {DEGREES * c.noise():.2f})."
+        if stretch == "between" and _motionless(c, best):
+            text += " It has no motion out of the plane there, which counts for less than motion out of step."
         found.append(
             Finding("side_by_side", None, text, {"stretch": stretch, "errors": dict(zip(c.names, errors, strict=True))})
         )

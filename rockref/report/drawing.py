@@ -9,11 +9,21 @@ from html import escape
 
 import numpy as np
 
-from rockref.report.style import GREY, IMPACT, INK
+from rockref.report.style import COLOURS, GREY, IMPACT, INK
 
 LEFT, RIGHT, TOP, BOTTOM = 62.0, 12.0, 8.0, 34.0
 # decided: half the width of a line; what is left out is not seen.
 TOLERANCE = 0.6
+
+
+#: Outlines about the origin, as different as they can be at six pixels.
+MARKERS = (
+    "M-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0Z",
+    "M-2.8-2.8h5.6v5.6h-5.6Z",
+    "M0-4L4 0L0 4L-4 0Z",
+    "M0-3.6L3.6 3H-3.6Z",
+    "M-1-3.5h2v2.5h2.5v2h-2.5v2.5h-2v-2.5h-2.5v-2h2.5Z",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,13 +175,18 @@ def _line(line: Line, across: _Scale, up: _Scale, inner: float) -> str:
     px, py = across(x), np.clip(up(y), up.end - 1.0, up.start + 1.0)
     if line.dots:
         px, py = px[np.isfinite(py)], py[np.isfinite(py)]
-        dots = "".join(f'<circle cx="{a:.1f}" cy="{b:.1f}" r="3"/>' for a, b in zip(px, py, strict=True))
-        return f'<g fill="{line.colour}" stroke="none">{dots}</g>'
+        return "".join(marker(a, b, line.colour) for a, b in zip(px, py, strict=True))
     dash = f' stroke-dasharray="{" ".join(map(str, line.dash))}"' if line.dash else ""
     gaps = np.flatnonzero(~np.isfinite(py))
     bounds = zip([0, *(gaps + 1)], [*gaps, len(py)], strict=True)
     path = "".join(_path(*thinned(px[a:b], py[a:b])) for a, b in bounds if b > a) or "M0 0"
     return f'<path d="{path}" stroke="{line.colour}" stroke-width="{line.width:g}"{dash}/>'
+
+
+def marker(x: float, y: float, colour: str) -> str:
+    """Return a dot at x, y in pixels: circle, square, diamond, triangle or cross for the first to the fifth model."""
+    shape = MARKERS[COLOURS.index(colour)] if colour in COLOURS else MARKERS[0]
+    return f'<path transform="translate({x:.1f} {y:.1f})" d="{shape}" style="fill:{colour}" stroke="none"/>'
 
 
 def thinned(px: np.ndarray, py: np.ndarray, tolerance: float = TOLERANCE) -> tuple[np.ndarray, np.ndarray]:
@@ -252,11 +267,13 @@ def _number(value: float) -> str:
 
 
 def key(entries: Sequence[tuple[str, str, tuple[int, ...]]]) -> str:
-    """Return a legend as HTML: (name, colour, dash) with a piece of each line."""
+    """Return a legend as HTML: (name, colour, dash) with a piece of each line, or its dot where a model has no dash."""
     items = []
     for name, colour, dash in entries:
         dashes = f' stroke-dasharray="{" ".join(map(str, dash))}"' if dash else ""
         path = f'<path d="M1 4h28" stroke="{colour}" stroke-width="2"{dashes}/>'
+        if colour in COLOURS and not dash:
+            path = marker(15.0, 4.0, colour)
         sample = f'<svg viewBox="0 0 30 8" aria-hidden="true">{path}</svg>'
         items.append(f'<span class="key">{sample}{escape(name)}</span>')
     return f'<p class="keys">{"".join(items)}</p>'

@@ -101,5 +101,15 @@ def test_ticks_are_round(low, high, expected):
     assert nice_ticks(low, high, 6) == pytest.approx(expected, abs=1e-12)
 
 
+def test_models_have_dots_of_their_own_and_the_legend_shows_them():
+    from rockref.report.style import COLOURS
+
+    lines = [Line(str(k), X[:3], X[:3] + k, colour, dots=True) for k, colour in enumerate(COLOURS)]
+    svg = ET.fromstring(chart([Panel("y", lines)], title="t", x_label="x", x_limits=(-1.0, 1.0)))
+    shapes = {p.get("style"): p.get("d") for p in svg.iter("path") if p.get("transform")}
+    assert len(set(shapes.values())) == len(COLOURS)
+    assert shapes[f"fill:{COLOURS[1]}"] in key([("1", COLOURS[1], ())])
+
+
 def test_legend_escapes_names():
     assert re.search(r"<svg[^>]*>.*</svg>a&lt;b", key([("a<b", "#000", (1, 2))]))
