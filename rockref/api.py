@@ -14,7 +14,16 @@ from rockref.effects.base import Effect
 from rockref.effects.catalogue import in_step_order
 from rockref.engines import run
 from rockref.model.errors import InputError
-from rockref.model.geometry import EXTERNAL, INTERNAL, check_cuboid, cuboid_inertia, eight_points, four_points
+from rockref.model.geometry import (
+    EXTERNAL,
+    INTERNAL,
+    check_cuboid,
+    check_inertia,
+    check_number,
+    cuboid_inertia,
+    eight_points,
+    four_points,
+)
 from rockref.model.parameters import BLOCK, PROPERTIES, Parameters, point_properties, split_54
 from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, State
 from rockref.model.release import release_posture
@@ -96,13 +105,22 @@ class Model:
         if self.points not in POINT_SETS:
             raise InputError("E-KEY", "points", f"is {self.points!r}", f"Use one of {', '.join(POINT_SETS)}.")
         for key in ("K_N", "K_T"):
-            if not (np.isfinite(getattr(p, key)) and getattr(p, key) > 0):
-                raise InputError("E-RANGE", key, f"is {getattr(p, key)!r} N/m", "Give a positive stiffness.")
-        for key in ("beta_int", "beta_ext", "mu_int", "mu_ext"):
-            if not (np.isfinite(getattr(p, key)) and getattr(p, key) >= 0):
-                raise InputError("E-RANGE", key, f"is {getattr(p, key)!r}", "Give a number that is not negative.")
-        if not (np.isfinite(self.g) and self.g > 0):
-            raise InputError("E-RANGE", "g", f"is {self.g!r} m/s2", "Give a positive gravity.")
+            check_number(key, getattr(p, key), more_than_least=True)
+        for key in ("beta_int", "beta_ext", "mu_int", "mu_ext", "theta_0"):
+            check_number(key, getattr(p, key))
+        check_number("g", self.g, more_than_least=True)
+        check_number("foot_radius", self.foot_radius)
+        if self.inertia is not None:
+            check_inertia(self.inertia)
+        if self.points == "custom" and self.custom_points is None:
+            raise InputError("E-KEY", "custom_points", "is missing", 'Give the points, or points = "eight_points".')
+        enough = 4 if self.points == "four_points" else 8
+        for key in PROPERTIES if self.properties is not None else ():
+            values = np.asarray((self.properties or {}).get(key, ()))
+            if values.ndim != 1 or len(values) < enough:
+                raise InputError(
+                    "E-SHAPE", f"properties[{key!r}]", "is not one number a point", f"Give {enough} numbers."
+                )
 
     def body(self) -> tuple[Block, ContactPoints]:
         """Block and contact points as arrays, with the effects on geometry and mass applied."""
@@ -112,8 +130,7 @@ class Model:
         inertia = cuboid_inertia(self.mass, *sides) if self.inertia is None else self.inertia
         block = Block(np.array(float(self.mass)), np.array(inertia, float), np.array(float(self.g)))
         if self.points == "custom":
-            if self.custom_points is None:
-                raise InputError("E-KEY", "custom_points", "is missing", 'Give the points, or points = "eight_points".')
+            assert self.custom_points is not None  # checked above
             points = self.custom_points
         else:
             names: tuple[str, ...]

@@ -194,7 +194,8 @@ def save(model, path: str | os.PathLike) -> None:
         tables["custom_points"] = {"names": c.names, "P_m": c.P, **{k: getattr(c, n) for k, n in PROPERTY_KEYS.items()}}
         if c.radius is not None:
             tables["custom_points"]["radius_m"] = c.radius
-    tables["effects"] = catalogue.to_table(model.effects)
+    # In the order of the step, in which they are read back: a model has one text.
+    tables["effects"] = catalogue.to_table(catalogue.in_step_order(model.effects))
     tables |= {"uncertainty": model.uncertainty, "origin": model.origin}
     for key, value in tables.items():
         if isinstance(value, dict):

@@ -53,18 +53,46 @@ def four_points(width: float, depth: float, height: float) -> np.ndarray:
     return np.array([(sx * width / 2, sy * depth / 2, -height / 2) for sx, sy in CORNER_SIGNS])
 
 
+def check_number(key: str, value, least: float = 0.0, more_than_least: bool = False) -> None:
+    """Refuse what is no finite number (E-TYPE, E-RANGE), or too small (E-RANGE)."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise InputError("E-TYPE", key, f"is {value!r}"[:120], "Give one real number.")
+    if not np.isfinite(value) or value < least or (more_than_least and value == least):
+        limit = f"{'above' if more_than_least else 'not below'} {least:g}"
+        raise InputError("E-RANGE", key, f"is {value!r}", f"Give a finite number, {limit}.")
+
+
+def check_inertia(inertia: np.ndarray) -> None:
+    """Refuse (..., 3, 3) [kg m2] that no body can have (E-RANGE): not symmetric, or not positive.
+
+    The triangle inequality of the principal moments is not asked for: fitted values may break it a little.
+    """
+    J = np.asarray(inertia, float)
+    good = J.shape[-2:] == (3, 3) and np.all(np.isfinite(J))
+    if not good or not np.array_equal(J, J.swapaxes(-1, -2)) or np.min(np.linalg.eigvalsh(J)) <= 0:
+        raise InputError(
+            "E-RANGE",
+            "inertia",
+            f"is {J.tolist()!r}"[:200],
+            "Give a symmetric, positive definite 3 x 3 matrix in kg m2.",
+        )
+
+
 def check_cuboid(mass: float, width: float, depth: float, height: float, delta_long, delta_diag: float) -> None:
     """Refuse sizes that are no block (E-RANGE): zero or negative sides, defects larger than the block."""
     for key, value in (("mass", mass), ("width", width), ("depth", depth), ("height", height)):
-        if not (np.isfinite(value) and value > 0):
-            raise InputError("E-RANGE", key, f"is {value!r}", "Give a positive, finite number.")
+        check_number(key, value, more_than_least=True)
+    check_number("delta_diag", delta_diag)
+    if len(delta_long) != 4:
+        raise InputError("E-SHAPE", "delta_long", f"has {len(delta_long)} values", "Give four heights in metres.")
     for i, value in enumerate(delta_long):
-        if not (np.isfinite(value) and abs(value) < height):
+        check_number(f"delta_long[{i}]", value, least=-np.inf)
+        if abs(value) >= height:
             raise InputError(
                 "E-RANGE", f"delta_long[{i}]", f"is {value!r} m, larger than the block", "Give heights in metres."
             )
     half = np.sqrt(width * width + depth * depth) / 2
-    if not (np.isfinite(delta_diag) and 0 <= delta_diag < half):
+    if delta_diag >= half:
         raise InputError(
             "E-RANGE",
             "delta_diag",

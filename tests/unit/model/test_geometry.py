@@ -75,8 +75,42 @@ def test_inner_points_beyond_the_centre_are_refused(value):
     with pytest.raises(InputError) as refused:
         geometry.check_cuboid(**SIZES, delta_long=DELTA_LONG, delta_diag=value)
     assert (refused.value.code, refused.value.where) == ("E-RANGE", "delta_diag")
-    assert "0.07071" in refused.value.what
+    assert "0.07071" in refused.value.what or not value > 0
+
+
+@pytest.mark.parametrize("value", ["54", None, True, [54.0], 54j, np.array([1.0, 2])])
+def test_what_is_no_number_is_refused(value):
+    with pytest.raises(InputError) as refused:
+        geometry.check_cuboid(**{**SIZES, "mass": value}, delta_long=DELTA_LONG, delta_diag=DELTA_DIAG)
+    assert (refused.value.code, refused.value.where) == ("E-TYPE", "mass")
+
+
+def test_numbers_of_other_kinds_are_accepted():
+    for value in (54, np.float32(54), np.int64(54), np.longdouble(54)):
+        geometry.check_cuboid(**{**SIZES, "mass": value}, delta_long=DELTA_LONG, delta_diag=DELTA_DIAG)
+
+
+def test_three_foot_heights_are_too_few():
+    with pytest.raises(InputError) as refused:
+        geometry.check_cuboid(**SIZES, delta_long=(0, 0, 0), delta_diag=DELTA_DIAG)
+    assert refused.value.code == "E-SHAPE"
+
+
+def test_limits_belong_or_do_not():
+    geometry.check_number("mu", 0.0)
+    with pytest.raises(InputError):
+        geometry.check_number("K_N", 0.0, more_than_least=True)
+
+
+@pytest.mark.parametrize(
+    "J", [np.zeros((3, 3)), -np.eye(3), np.triu(np.ones((3, 3))), np.eye(2), np.full((3, 3), np.nan)]
+)
+def test_inertias_of_no_body_are_refused(J):
+    with pytest.raises(InputError) as refused:
+        geometry.check_inertia(J)
+    assert refused.value.code == "E-RANGE"
 
 
 def test_the_block_of_the_source_is_accepted():
+    geometry.check_inertia(np.stack([np.eye(3), geometry.cuboid_inertia(**SIZES)]))
     geometry.check_cuboid(**SIZES, delta_long=DELTA_LONG, delta_diag=DELTA_DIAG)

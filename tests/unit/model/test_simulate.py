@@ -93,6 +93,35 @@ class TestRefusals:
         loop.check(MODEL.problem(step=allowed * 0.99))
 
 
+class TestBody:
+    @pytest.mark.parametrize("key, value", [("mass", 0.0), ("mass", np.nan), ("g", -9.81), ("g", np.inf)])
+    def test_mass_and_gravity(self, key, value):
+        problem = MODEL.problem()
+        problem = replace(problem, block=replace(problem.block, **{key: np.array(value)}))
+        assert code_of(lambda: loop.simulate(problem)) == ("E-RANGE", key)
+
+    @pytest.mark.parametrize(
+        "J", [np.zeros((3, 3)), np.diag([1.0, 1, -1]), np.triu(np.ones((3, 3))), np.eye(3) * np.nan]
+    )
+    def test_an_inertia_that_no_body_has(self, J):
+        problem = MODEL.problem()
+        problem = replace(problem, block=replace(problem.block, inertia=J))
+        assert code_of(lambda: loop.simulate(problem)) == ("E-RANGE", "inertia")
+
+    @pytest.mark.parametrize("key", ["x", "v", "W", "Lambda"])
+    def test_a_start_that_is_nowhere(self, key):
+        problem = MODEL.problem()
+        values = getattr(problem.start, key).copy()
+        values.flat[0] = np.nan
+        problem = replace(problem, start=replace(problem.start, **{key: values}))
+        assert code_of(lambda: loop.simulate(problem)) == ("E-START", f"start.{key}")
+
+    def test_a_start_that_is_no_rotation(self):
+        problem = MODEL.problem()
+        problem = replace(problem, start=replace(problem.start, Lambda=2 * problem.start.Lambda))
+        assert code_of(lambda: loop.simulate(problem)) == ("E-START", "start.Lambda")
+
+
 class TestLargestStep:
     @pytest.mark.parametrize("C_T", [0.0, 1e3, 2e4, 2e5])
     def test_is_where_a_damped_spring_begins_to_grow(self, C_T, monkeypatch):
@@ -150,9 +179,9 @@ class TestLostNumbers:
 
     def test_of_a_batch_the_block_is_named(self):
         problem = stack([MODEL.problem(duration=0.002)] * 3)
-        v = problem.start.v.copy()
-        v[1, 0] = np.nan
-        problem = replace(problem, start=replace(problem.start, v=v))
+        s, anchored = problem.start.s.copy(), problem.start.anchored.copy()
+        s[1, 0], anchored[1, 0] = np.nan, True
+        problem = replace(problem, start=replace(problem.start, s=s, anchored=anchored))
         with pytest.raises(NumericalError) as lost:
             loop.simulate(problem)
         assert "block 1" in lost.value.what

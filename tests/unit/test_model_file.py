@@ -1,0 +1,124 @@
+"""model.toml: what is written reads back, and what cannot be read says where and why."""
+
+import numpy as np
+import pytest
+
+from rockref import InputError, Model
+from rockref.model.parameters import chromosome_54
+from rockref.model_file import LARGEST_FILE
+from tests import physics
+
+HEAD = "format = 1\n"
+
+
+def loaded(tmp_path, text):
+    path = tmp_path / "model.toml"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return Model.load(path)
+
+
+def refused(tmp_path, text):
+    with pytest.raises(InputError) as error:
+        loaded(tmp_path, text)
+    return error.value
+
+
+class TestReading:
+    def test_an_empty_file_is_table_3_1(self, tmp_path):
+        assert loaded(tmp_path, "") == Model()
+
+    def test_a_byte_order_mark_is_no_harm(self, tmp_path):
+        assert loaded(tmp_path, "\ufeff[block]\nmass_kg = 60\n").mass == 60.0
+
+    def test_whole_numbers_are_numbers(self, tmp_path):
+        assert loaded(tmp_path, "[parameters]\nK_N_N_m = 70000000\n").parameters.K_N == 7e7
+
+    def test_notes_are_kept(self, tmp_path):
+        model = loaded(tmp_path, '[origin]\nsource = "fit"\n[uncertainty]\nK_N_N_m = 1e6\n')
+        assert model.origin == {"source": "fit"}
+        assert model.uncertainty == {"K_N_N_m": 1e6}
+
+
+class TestRefusals:
+    @pytest.mark.parametrize(
+        "text, code, where",
+        [
+            ("[block]\nmass = 54\n", "E-KEY", "[block]"),
+            ("[blok]\nmass_kg = 54\n", "E-KEY", "model.toml"),
+            ("[parameters]\nK_N = 6e7\n", "E-KEY", "[parameters]"),
+            ("format = 2\n", "E-FORMAT", "format"),
+            ("[block]\nmass_kg = '54'\n", "E-TYPE", "mass_kg"),
+            ("[block]\nmass_kg = true\n", "E-TYPE", "mass_kg"),
+            ("[block]\nmass_kg = [54]\n", "E-TYPE", "mass_kg"),
+            ("[block]\nmass_kg = nan\n", "E-TYPE", "mass_kg"),
+            ("[block]\nmass_kg = inf\n", "E-TYPE", "mass_kg"),
+            ("[block]\nmass_kg = 1" + 400 * "0" + "\n", "E-TYPE", "mass_kg"),
+            ("[block]\nmass_kg = -54\n", "E-RANGE", "mass"),
+            ("[block]\ninertia_kg_m2 = [1, 2, 3]\n", "E-TYPE", "inertia_kg_m2"),
+            ("[block]\ninertia_kg_m2 = [1, 0, 0, 0, 1, 0, 0, 0, -1]\n", "E-RANGE", "inertia"),
+            ("[parameters]\nK_N_N_m = -6e7\n", "E-RANGE", "K_N"),
+            ("[parameters]\ndelta_long_m = [0, 0, 0]\n", "E-TYPE", "delta_long_m"),
+            ("[parameters]\ndelta_long_m = [0, 0, 0, 1]\n", "E-RANGE", "delta_long[3]"),
+            ("[parameters]\ndelta_diag_m = 6.0\n", "E-RANGE", "delta_diag"),
+            ("[parameters]\nmu_ext = -0.25\n", "E-RANGE", "mu_ext"),
+            ("[points]\nset = 'six'\n", "E-KEY", "points"),
+            ("[points]\nset = 6\n", "E-KEY", "points"),
+            ("[points]\nset = 'custom'\n", "E-KEY", "custom_points"),
+            ("[points]\nfoot_radius_m = -1e-3\n", "E-RANGE", "foot_radius"),
+            ("[properties]\nK_N_N_m = [1, 1, 1, 1, 1, 1, 1, 1]\n", "E-KEY", "[properties]"),
+            ("[custom_points]\nnames = []\n", "E-TYPE", "names"),
+            ("[custom_points]\nnames = ['a']\nP_m = [0, 0]\n", "E-TYPE", "P_m"),
+            ("[effects.unheard_of]\nx = 1\n", "E-", "unheard_of"),
+            ("[effects]\nquadratic_drag = 3\n", "E-", "quadratic_drag"),
+            ("[effects.quadratic_drag]\nmist = 1\n", "E-", "quadratic_drag"),
+            ("block = 3\n", "E-TYPE", "block"),
+            ("[block\n", "E-TOML", "model.toml"),
+            ("[block]\nmass_kg = 54\nmass_kg = 55\n", "E-TOML", "model.toml"),
+            (5000 * "[" + "\n", "E-TOML", "model.toml"),
+            (b"[block]\n# \xff\n", "E-ENCODING", "model.toml"),
+            (b"\x00\x01", "E-TOML", "model.toml"),
+        ],
+        ids=lambda value: str(value)[:40],
+    )
+    def test_says_code_and_place(self, tmp_path, text, code, where):
+        error = refused(tmp_path, text)
+        assert error.code.startswith(code)
+        assert "model.toml" in error.where
+        assert where in error.where or where in error.what
+        assert error.cure
+
+    def test_the_nearest_key_is_offered(self, tmp_path):
+        assert "mass_kg" in refused(tmp_path, "[block]\nmass_gk = 54\n").cure
+
+    def test_a_file_that_is_none(self, tmp_path):
+        for path in (tmp_path / "missing.toml", tmp_path):
+            with pytest.raises(InputError) as error:
+                Model.load(path)
+            assert error.value.code == "E-FILE"
+
+    def test_a_file_that_is_too_large_is_not_read(self, tmp_path):
+        assert refused(tmp_path, b"#" * (LARGEST_FILE + 2)).code == "E-SIZE"
+
+
+class TestWriting:
+    def test_a_folder_that_is_missing_leaves_nothing(self, tmp_path):
+        with pytest.raises(InputError) as error:
+            Model().save(tmp_path / "nowhere" / "model.toml")
+        assert error.value.code == "E-WRITE"
+        assert list(tmp_path.iterdir()) == []
+
+    def test_fifty_four_genes(self, tmp_path):
+        model = Model.from_chromosome_54(chromosome_54(Model().parameters, 54.0) * 1.01)
+        model.save(tmp_path / "m.toml")
+        back = Model.load(tmp_path / "m.toml")
+        for key, values in model.properties.items():
+            assert np.array_equal(back.properties[key], values), key
+
+    def test_custom_points(self, tmp_path):
+        own = physics.points(np.random.default_rng(0).normal(size=(3, 3)), radius=1e-3)
+        Model(points="custom", custom_points=own, inertia=np.diag([1.0, 2, 3])).save(tmp_path / "m.toml")
+        back = Model.load(tmp_path / "m.toml")
+        for key in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu", "radius"):
+            assert np.array_equal(getattr(back.custom_points, key), getattr(own, key)), key
+        assert back.custom_points.names == own.names
+        assert np.array_equal(back.inertia, np.diag([1.0, 2, 3]))
