@@ -3,6 +3,8 @@ believed.
 
 At the end of a least-squares fit with white noise the covariance of the unknowns is chi2 (J^T J)^-1, J the slope of the
 residual over the noise (Cramer-Rao; for example S. M. Kay, Fundamentals of Statistical Signal Processing, 1993, ch. 3).
+That holds for one smooth valley. Here there are many dents that are as good; the scatter of the ends found in them is
+added to the errors.
 """
 
 from __future__ import annotations
@@ -13,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.identify.genes import Space
-from rockref.identify.polish import Polished, Unknowns, residuals
+from rockref.identify.polish import Polished
 from rockref.identify.target import Target
+from rockref.identify.unknowns import Unknowns, residuals
 from rockref.model.parameters import TABLE_3_1
 
 #: Unknowns trade off where their errors correlate by more than this; decided.
@@ -53,9 +56,11 @@ def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> I
     w, v = np.linalg.eigh(information)
     w = np.maximum(w, 1e-12 * w[-1])
     covariance = max(1.0, end.chi2) * (v / w) @ v.T
+    scatter = end.alike - end.z
+    covariance = covariance + scatter.T @ scatter / len(scatter)
     sd = np.sqrt(np.diag(covariance))
     correlation = covariance / np.outer(sd, sd)
-    slopes, values = _in_units(space, unknowns, end.z)
+    values, slopes = unknowns.in_units(end.z)
     names = unknowns.names
     pairs = [
         (names[i], names[j], float(correlation[i, j]))
@@ -69,18 +74,6 @@ def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> I
     return Identifiability(names, values, sd * slopes, correlation, tuple(pairs), weakest)
 
 
-def _in_units(space: Space, unknowns: Unknowns, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """d(value)/dz and values of the unknowns, (Z,) each, in the genes' units."""
-    n, tilt = len(unknowns.shared), unknowns.tilt_gene
-    slopes, values = np.empty(len(z)), np.empty(len(z))
-    for k in range(len(unknowns.targets)):
-        u = unknowns.chromosome(z, k)
-        s, v = space.slopes(u), space.values(u)
-        slopes[:n], values[:n] = s[unknowns.shared], v[unknowns.shared]
-        slopes[n + k], values[n + k] = s[tilt], v[tilt]
-    return slopes, values
-
-
 def profile(
     space: Space, targets: Sequence[Target], end: Polished, name: str, reach: float, points: int = 5
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -91,7 +84,7 @@ def profile(
     """
     unknowns = Unknowns(space, targets)
     i = unknowns.names.index(name)
-    slopes, values = _in_units(space, unknowns, end.z)
+    values, slopes = unknowns.in_units(end.z)
     shifts = np.linspace(-reach, reach, points)
     J, others = end.jacobian, np.arange(len(end.z)) != i
     r = residuals(space, targets, end.z[None])[0]

@@ -14,9 +14,10 @@ from rockref.identify.campaign import Campaign
 from rockref.identify.candidates import STEP, evaluate, feature_costs
 from rockref.identify.cost import Terms
 from rockref.identify.genes import Space
-from rockref.identify.polish import Polished, Unknowns, polish, signal_costs
+from rockref.identify.polish import Polished, polish
 from rockref.identify.search import Found, Progress, Settings, search
 from rockref.identify.target import Target
+from rockref.identify.unknowns import Unknowns, signal_costs
 
 #: A fit is at the noise floor below this mean square of the residual over the noise. Decided: 1 is the floor of white
 #: noise; the step of 1e-5 s adds some hundredths to it, a wrong order of landings some units.

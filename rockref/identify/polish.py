@@ -1,7 +1,9 @@
-"""Least squares on the signals: from where the search ended to the least error, with the Fisher information of the end.
+"""Least squares on the signals: from where the search ended to the least error.
 
-The residual is the difference of the recorded and the simulated crv, up to the second main impact, over the noise of a
-sample. Every target has a release angle of its own, since the wire lets go a little differently each time.
+The residual as a function of the parameters is smooth between small jumps: where the order in which two feet land
+changes, the response jumps by some 0.01 deg/s. So the slopes are taken over steps that change the response by about
+the noise, and where the descent ends in a dent between two jumps, each parameter is moved a long way, the others
+following, and the descent begins again from the best of these places.
 """
 
 from __future__ import annotations
@@ -11,15 +13,25 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rockref.identify.candidates import STEP, releases
+from rockref.identify.candidates import STEP
 from rockref.identify.genes import Space
 from rockref.identify.target import Target
+from rockref.identify.unknowns import Unknowns, mean_squares, residuals
 
-#: Finite-difference step in u. Decided: the response has small jumps (0.01 deg/s) where the order of two landings
-#: changes; a step of 1/2000 of the range, some tenths of the last digit of Table 3.1, sees the slope across them.
-DIFFERENCE = 5e-4
-#: Levenberg-Marquardt: first damping, factors down and up, most steps, least relative gain (all decided; usual values).
-DAMPING, DOWN, UP, STEPS, LEAST_GAIN = 1e-2, 0.2, 5.0, 40, 1e-5
+#: Change of the response that a finite difference makes, in parts of the noise (quadratic mean): first large, to see
+#: over the jumps, then small. Decided: a jump is a third of the noise of 0.05 deg/s.
+CHANGES = (3.0, 1.0, 0.3)
+#: Least and largest finite-difference step in z, and the first one; decided: below, jumps only; above, not a slope.
+SMALLEST, LARGEST, FIRST = 2e-4, 0.04, 1e-3
+#: Levenberg-Marquardt: first damping, factors that are tried, most steps of one descent, least relative gain (decided).
+DAMPING, FACTORS, STEPS, LEAST_GAIN = 1e-2, (0.04, 0.2, 1.0, 5.0, 25.0), 12, 1e-3
+#: Shifts of one unknown in a long move, how many of the best places are descended from and with how many steps, and
+#: most rounds of moves. Decided: a twentieth of a range is beyond a dent, two fifths reach anywhere in three rounds.
+SHIFTS, PLACES, SHORT, ROUNDS = (-0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4), 4, 5, 4
+#: Moves end where a round gains less than this share; decided: 4000 samples of noise scatter the mean square by 2 %.
+LEAST_ROUND_GAIN = 5e-3
+#: Two ends are as good as each other where their mean squares differ by less than this share; decided: that scatter.
+ALIKE = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +42,7 @@ class Polished:
     rms : (R, 3) [rad/s] residual per target and axis up to the second main impact
     chi2 : mean square of the residual over the noise (1: at the noise floor)
     z : (Z,) the unknowns in [0, 1];  jacobian : (M, Z) of the scaled residual there;  names : of its columns
-    steps : made
+    alike : (K, Z) where other descents ended that are as good but for `ALIKE`: dents that the data do not tell apart
     """
 
     u: np.ndarray
@@ -40,56 +52,80 @@ class Polished:
     z: np.ndarray
     jacobian: np.ndarray
     names: tuple[str, ...]
-    steps: int
+    alike: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
-class Unknowns:
-    """z = shared genes without theta_0, then one release angle for each target, in u of the gene theta_0."""
+class _Place:
+    """Where a descent stands: unknowns, residual, mean square."""
 
-    space: Space
-    targets: Sequence[Target]
-
-    @property
-    def shared(self) -> list[int]:
-        return [i for i, name in enumerate(self.space.names) if name != "theta_0"]
-
-    @property
-    def tilt_gene(self) -> int:
-        return self.space.names.index("theta_0")
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        return (*(self.space.names[i] for i in self.shared), *(f"theta_0 of {t.name}" for t in self.targets))
-
-    def chromosome(self, z: np.ndarray, k: int) -> np.ndarray:
-        u = np.empty(len(self.space.genes))
-        u[self.shared] = z[: len(self.shared)]
-        u[self.tilt_gene] = z[len(self.shared) + k]
-        return u
-
-    def z(self, u: np.ndarray) -> np.ndarray:
-        """The unknowns of a chromosome: every target has its release angle."""
-        return np.concatenate((u[self.shared], np.full(len(self.targets), u[self.tilt_gene])))
+    z: np.ndarray
+    r: np.ndarray
+    chi2: float
 
 
-def residuals(
-    space: Space, targets: Sequence[Target], zs: np.ndarray, step: float = STEP, workers: int | None = None
-) -> np.ndarray:
-    """(B, M) difference of simulated and recorded crv over the noise, for unknowns zs (B, Z); NaN: a run is lost."""
-    unknowns, columns = Unknowns(space, targets), []
-    for k, target in enumerate(targets):
-        t, crv = releases(space, target, [unknowns.chromosome(z, k) for z in zs], step, workers)
-        n = int(np.searchsorted(target.t, target.until))
-        seen = np.stack([[np.interp(target.t[:n], t, crv[b, :, j]) for j in range(3)] for b in range(len(zs))])
-        columns.append(((seen - target.crv[:n].T) / target.gyro.noise).reshape(len(zs), -1))
-    return np.concatenate(columns, axis=-1)
+class _Descent:
+    """The functions that a polish shares: residuals and slopes of one problem."""
 
+    def __init__(self, unknowns: Unknowns, step: float, workers: int | None, report: Callable[[float], None] | None):
+        self.unknowns, self.step, self.workers = unknowns, step, workers
+        self.report = report or (lambda chi2: None)
+        self.ends: list[_Place] = []
 
-def signal_costs(space: Space, targets: Sequence[Target], step: float, zs: Sequence[np.ndarray]) -> list[float]:
-    """Mean square of the residual over the noise, (B,) of unknowns zs (B, Z); lost runs count as very wrong ones."""
-    r = residuals(space, targets, np.asarray(zs), step, workers=1)
-    return [float(c) for c in np.nan_to_num(np.einsum("bm,bm->b", r, r) / r.shape[1], nan=1e12)]
+    def residuals(self, zs: np.ndarray) -> np.ndarray:
+        return residuals(self.unknowns.space, self.unknowns.targets, zs, self.step, self.workers)
+
+    def place(self, z: np.ndarray) -> _Place:
+        r = self.residuals(z[None])
+        return _Place(z, r[0], float(mean_squares(r)[0]))
+
+    def jacobian(self, z: np.ndarray, h: np.ndarray) -> np.ndarray:
+        """(M, Z) by central differences over h (Z,), one-sided at the end of a range."""
+        up, down = np.minimum(z + h, 1.0), np.maximum(z - h, 0.0)
+        rs = self.residuals(np.concatenate([z + np.diag(up - z), z - np.diag(z - down)]))
+        return np.nan_to_num((rs[: len(z)] - rs[len(z) :]) / (up - down)[:, None]).T
+
+    def slopes(self, z: np.ndarray, change: float, h: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Jacobian (M, Z) over steps that change the response by `change`, and those steps (Z,)."""
+        if h is None:
+            h = np.full(len(z), FIRST)
+            h = _steps(self.jacobian(z, h), change)
+        J = self.jacobian(z, h)
+        return J, _steps(J, change)
+
+    def descend(self, at: _Place, change: float, steps: int = STEPS) -> _Place:
+        """Levenberg-Marquardt from `at`, five dampings a step side by side."""
+        damping, h = DAMPING, None
+        for _ in range(steps):
+            J, h = self.slopes(at.z, change, h)
+            trials = np.array([damped_step(J, at.r, at.z, damping * f) for f in FACTORS])
+            rs = self.residuals(trials)
+            chi2 = mean_squares(rs)
+            k = int(np.argmin(chi2))
+            if not chi2[k] < at.chi2:
+                if damping > 1e4:
+                    break
+                damping *= FACTORS[-1]
+                continue
+            gain = 1 - chi2[k] / at.chi2
+            damping = max(1e-9, 0.3 * damping * FACTORS[k])
+            at = _Place(trials[k], rs[k], float(chi2[k]))
+            self.report(at.chi2)
+            if gain < LEAST_GAIN:
+                break
+        self.ends.append(at)
+        return at
+
+    def long_moves(self, at: _Place) -> _Place:
+        """Each unknown moved a long way, alone and with the others following; a short descent from the best places."""
+        J, _ = self.slopes(at.z, CHANGES[1])
+        trials = np.array([z for i in range(len(at.z)) for shift in SHIFTS for z in _moved(J, at, i, shift)])
+        chi2 = mean_squares(self.residuals(trials))
+        best = at
+        for k in np.argsort(chi2)[:PLACES]:
+            end = self.descend(self.place(trials[k]), CHANGES[1], SHORT)
+            best = end if end.chi2 < best.chi2 else best
+        return best
 
 
 def polish(
@@ -98,61 +134,41 @@ def polish(
     u: np.ndarray,
     step: float = STEP,
     workers: int | None = None,
-    report: Callable[[int, float], None] | None = None,
-    steps: int = STEPS,
+    report: Callable[[float], None] | None = None,
     z: bool = False,
+    rounds: int = ROUNDS,
 ) -> Polished:
-    """Levenberg-Marquardt within the ranges, from the chromosome u (G,), or with `z` from the unknowns u (Z,).
+    """Least squares within the ranges, from the chromosome u (G,), or with `z` from the unknowns u (Z,).
 
-    report : called with (step, chi2) after each step.
+    report : called with the mean square after each gain;  rounds : of long moves at most.
     """
     unknowns = Unknowns(space, targets)
-    start = np.asarray(u, float) if z else unknowns.z(np.asarray(u, float))
-    return _fitted(unknowns, start, step, workers, report, steps)
-
-
-def _fitted(unknowns: Unknowns, z: np.ndarray, step: float, workers: int | None, report, steps: int) -> Polished:
-    space, targets = unknowns.space, unknowns.targets
-    r = residuals(space, targets, z[None], step, workers)[0]
-    cost, damping, made = float(r @ r), DAMPING, 0
-    J = _jacobian(space, targets, z, step, workers)
-    while made < steps:
-        made += 1
-        trials = [_step(J, r, z, damping * UP**k) for k in (-1, 0, 1, 2)]
-        rs = residuals(space, targets, np.array(trials), step, workers)
-        costs = np.nan_to_num(np.einsum("bm,bm->b", rs, rs), nan=np.inf)
-        best = int(np.argmin(costs))
-        if not costs[best] < cost:
-            if damping > 1e6:
-                break
-            damping *= UP**3
-            continue
-        gain = 1 - costs[best] / cost
-        z, r, cost = trials[best], rs[best], float(costs[best])
-        damping = max(1e-9, damping * UP ** (best - 1) * DOWN)
-        J = _jacobian(space, targets, z, step, workers)
-        if report is not None:
-            report(made, cost / len(r))
-        if gain < LEAST_GAIN:
+    descent = _Descent(unknowns, step, workers, report)
+    at = descent.place(np.clip(np.asarray(u, float) if z else unknowns.z(np.asarray(u, float)), 0.0, 1.0))
+    for change in CHANGES:
+        at = descent.descend(at, change)
+    for _ in range(rounds):
+        before = at.chi2
+        at = descent.descend(descent.long_moves(at), CHANGES[2])
+        if at.chi2 > (1 - LEAST_ROUND_GAIN) * before:
             break
-    return _result(unknowns, z, r, J, made)
+    alike = [end.z for end in descent.ends if end.chi2 < (1 + ALIKE) * at.chi2]
+    return _result(unknowns, at, descent.slopes(at.z, CHANGES[1])[0], np.array(alike))
 
 
-def _jacobian(space: Space, targets: Sequence[Target], z: np.ndarray, step: float, workers: int | None) -> np.ndarray:
-    """(M, Z) by central differences, one-sided at the end of a range."""
-    up, down = np.minimum(z + DIFFERENCE, 1.0), np.maximum(z - DIFFERENCE, 0.0)
-    zs = np.concatenate([z + np.diag(up - z), z - np.diag(z - down)])
-    rs = residuals(space, targets, zs, step, workers)
-    return np.nan_to_num((rs[: len(z)] - rs[len(z) :]) / (up - down)[:, None]).T
+def _steps(J: np.ndarray, change: float) -> np.ndarray:
+    size = np.sqrt(np.mean(np.square(J), axis=0))
+    return np.clip(change / np.where(size > 0, size, 1e-30), SMALLEST, LARGEST)
 
 
-def _step(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float) -> np.ndarray:
+def damped_step(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float) -> np.ndarray:
     """The damped step, along free directions only: an unknown that would leave its range stays at the end of it."""
     free = np.ones(len(z), bool)
+    d = np.zeros(len(z))
     for _ in range(len(z)):
         A = J[:, free].T @ J[:, free]
         d = np.zeros(len(z))
-        d[free] = np.linalg.solve(A + damping * np.diag(np.diag(A) + 1e-12 * np.trace(A) + 1e-30), -J[:, free].T @ r)
+        d[free] = np.linalg.solve(A + damping * np.diag(np.diag(A)) + _ridge(A), -J[:, free].T @ r)
         out = ((z + d < 0) & (z <= 0)) | ((z + d > 1) & (z >= 1))
         if not np.any(out & free):
             break
@@ -160,18 +176,38 @@ def _step(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float) -> np.nda
     return np.clip(z + d, 0.0, 1.0)
 
 
-def _result(unknowns: Unknowns, z: np.ndarray, r: np.ndarray, J: np.ndarray, made: int) -> Polished:
+def _moved(J: np.ndarray, at: _Place, i: int, shift: float) -> list[np.ndarray]:
+    """z with unknown i shifted: alone, and with the others where the slopes say that they follow (at most a tenth)."""
+    alone = at.z.copy()
+    alone[i] = np.clip(alone[i] + shift, 0.0, 1.0)
+    others = np.arange(len(at.z)) != i
+    A = J[:, others].T @ J[:, others]
+    follow = np.linalg.solve(
+        A + 1e-4 * np.diag(np.diag(A)) + _ridge(A), -J[:, others].T @ (at.r + J[:, i] * (alone[i] - at.z[i]))
+    )
+    together = alone.copy()
+    together[others] = np.clip(together[others] + np.clip(follow, -0.1, 0.1), 0.0, 1.0)
+    return [alone, together]
+
+
+def _ridge(A: np.ndarray) -> np.ndarray:
+    """What keeps the solution of A x = b finite where an unknown does nothing."""
+    return (1e-12 * np.trace(A) + 1e-30) * np.eye(len(A))
+
+
+def _result(unknowns: Unknowns, at: _Place, J: np.ndarray, alike: np.ndarray) -> Polished:
     space, targets = unknowns.space, unknowns.targets
-    rms, at = [], 0
+    rms, first = [], 0
     for target in targets:
         n = 3 * int(np.searchsorted(target.t, target.until))
-        rms.append(np.sqrt(np.mean(np.square(r[at : at + n].reshape(3, -1)), axis=1)) * target.gyro.noise)
-        at += n
-    values = np.array([space.values(unknowns.chromosome(z, k))[unknowns.tilt_gene] for k in range(len(targets))])
+        part = at.r[first : first + n].reshape(3, -1)
+        rms.append(np.sqrt(np.mean(np.square(part), axis=1)) * target.gyro.noise)
+        first += n
+    values = unknowns.in_units(at.z)[0][len(unknowns.shared) :]
     tilts = np.array([t.tilt for t in targets]) + values - space.model.parameters.theta_0
-    u = unknowns.chromosome(z, 0)
-    u[unknowns.tilt_gene] = np.mean(z[len(unknowns.shared) :])
-    return Polished(u, tilts, np.array(rms), float(r @ r) / len(r), z, J, unknowns.names, made)
+    u = unknowns.chromosome(at.z, 0)
+    u[unknowns.tilt_gene] = np.mean(at.z[len(unknowns.shared) :])
+    return Polished(u, tilts, np.array(rms), at.chi2, at.z, J, unknowns.names, alike)
 
 
 def with_genes(space: Space, polished: Polished) -> dict[str, float]:

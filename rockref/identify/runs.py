@@ -13,8 +13,9 @@ import numpy as np
 
 from rockref.identify.candidates import STEP
 from rockref.identify.genes import Space
-from rockref.identify.polish import Polished, residuals
+from rockref.identify.polish import Polished
 from rockref.identify.target import Target
+from rockref.identify.unknowns import residuals
 
 #: Release angles that are tried over the range of the gene, and how often the step between them is made smaller.
 #: Decided: 41 over 0.16 degrees are 0.004 degrees apart, a fifth of the wire's scatter; three refinements by ten.

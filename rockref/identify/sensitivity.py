@@ -48,10 +48,7 @@ def family(labels: Sequence[str], crv: np.ndarray, align: bool = False) -> Famil
     compared = list(crv)
     if align:
         shifts = [i[0] - impacts[0][0] for i in impacts]
-        compared = [
-            np.stack([np.interp(t + s, t, c[:, k]) for k in range(3)], axis=-1)
-            for s, c in zip(shifts, crv, strict=True)
-        ]
+        compared = [_shifted(t, c, s) for s, c in zip(shifts, crv, strict=True)]
     return Family(tuple(labels), t, crv, common_horizon(t, compared), impacts)
 
 

@@ -1,0 +1,122 @@
+"""Least squares: recovers what made the record, says what it cannot see, and gives each run its own release angle."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rockref.identify.genes import chromosome, model_of, space_12
+from rockref.identify.identifiability import identifiability, profile
+from rockref.identify.polish import narrowed, polish, with_genes
+from rockref.identify.runs import run_error
+from rockref.identify.target import target
+from rockref.identify.unknowns import Unknowns, residuals, signal_costs
+from rockref.model.parameters import TABLE_3_1
+
+PRECISION = np.array([given.precision for given in TABLE_3_1.values()])
+
+
+@pytest.fixture(scope="module")
+def space(table_3_1):
+    return space_12(table_3_1)
+
+
+@pytest.fixture(scope="module")
+def truth(space, table_3_1):
+    return chromosome(space, table_3_1.parameters)
+
+
+@pytest.fixture(scope="module")
+def end(space, truth, noisy_twin):
+    """From a start that is off by a tenth of a last digit in every parameter, to the end, without long moves."""
+    signs = np.random.default_rng(2).choice([-1.0, 1.0], 12)
+    start = space.units(space.values(truth) + 0.1 * PRECISION * signs)
+    return polish(space, [noisy_twin], start, rounds=0)
+
+
+def test_recovers_what_the_data_determine_within_half_a_last_digit(space, end, noisy_twin):
+    off = (space.values(end.u) - np.array([g.value for g in TABLE_3_1.values()])) / PRECISION
+    determined = identifiability(space, [noisy_twin], end).determined()
+    known = [n.split(" of")[0] for n, yes in determined.items() if yes]
+    assert len(known) >= 9
+    assert max(abs(off[space.names.index(n)]) for n in known) < 0.5
+
+
+@pytest.mark.slow
+def test_from_half_a_digit_off_the_long_moves_lead_back(space, truth, noisy_twin):
+    """With long moves the dents between are left behind; the friction of the inner points is what the data see
+    least."""
+    signs = np.random.default_rng(2).choice([-1.0, 1.0], 12)
+    far = polish(space, [noisy_twin], space.units(space.values(truth) + 0.5 * PRECISION * signs))
+    off = np.abs(space.values(far.u) - space.values(truth)) / PRECISION
+    assert far.chi2 < 1.03 and np.delete(off, 4).max() < 1.0
+    assert not identifiability(space, [noisy_twin], far).determined()["mu_int"]
+
+
+def test_the_residual_is_the_noise(end):
+    # 4000 samples scatter by 2 %, and the target's step is half of the model's.
+    assert 0.9 < end.chi2 < 1.15
+    np.testing.assert_allclose(np.degrees(end.rms), 0.05, rtol=0.15)
+
+
+def test_errors_are_of_the_size_of_what_is_missed(space, end, noisy_twin):
+    """Each parameter is off by some of its standard errors, not by many: the Fisher information is believed."""
+    known = identifiability(space, [noisy_twin], end)
+    values = dict(zip(space.names, np.array([g.value for g in TABLE_3_1.values()]), strict=True))
+    pulls = [
+        (v - values[n.split(" of")[0]]) / e for n, v, e in zip(known.names, known.values, known.errors, strict=True)
+    ]
+    # Twelve numbers of unit variance, with the bias of another time step and of the dents (below a tenth of a digit).
+    assert np.abs(pulls).max() < 10
+    assert set(known.digits()) == set(known.names) and known.weakest
+
+
+def test_an_unknown_that_does_nothing_is_found_out(space, end, noisy_twin):
+    """A direction without information gets a large error, not a small one."""
+    blind = replace(end, jacobian=end.jacobian.copy())
+    blind.jacobian[:, 0] = 0.0
+    known = identifiability(space, [noisy_twin], blind)
+    assert known.errors[0] > 1e3 * identifiability(space, [noisy_twin], end).errors[0]
+    assert not known.determined()[known.names[0]]
+
+
+def test_unknowns_that_act_alike_are_named_as_a_pair(space, end, noisy_twin):
+    alike = replace(end, jacobian=end.jacobian.copy())
+    alike.jacobian[:, 1] = alike.jacobian[:, 0] * 1.7 + 1e-3 * alike.jacobian[:, 2]
+    pairs = identifiability(space, [noisy_twin], alike).pairs
+    assert pairs[0][:2] == ("K_N", "K_T") and pairs[0][2] < -0.99
+
+
+def test_a_profile_has_its_bottom_at_the_end(space, end, noisy_twin):
+    known = identifiability(space, [noisy_twin], end)
+    values, chi2 = profile(space, [noisy_twin], end, "beta_ext", 40 * known.errors[3], points=3)
+    assert chi2[1] < chi2[0] and chi2[1] < chi2[2]
+    assert values[1] == pytest.approx(with_genes(space, end)["beta_ext"])
+
+
+def test_every_run_has_its_own_release_angle(space, truth, table_3_1, noisy_twin):
+    z = Unknowns(space, [noisy_twin, noisy_twin]).z(truth)
+    assert len(z) == 13
+    z[-1] += 0.1
+    r = residuals(space, [noisy_twin, noisy_twin], z[None])[0].reshape(2, -1)
+    assert np.mean(np.square(r[1])) > 10 * np.mean(np.square(r[0]))
+
+
+def test_signal_costs_are_the_mean_squares(space, truth, noisy_twin):
+    r = residuals(space, [noisy_twin], truth[None])[0]
+    assert signal_costs(space, [noisy_twin], 1e-5, [truth]) == [pytest.approx(np.mean(np.square(r)), rel=1e-12)]
+
+
+def test_a_run_s_own_angle_is_found(space, end, noisy_twin):
+    """A record whose stated tilt is wrong by 0.3 mrad: the angle comes out, and the error falls to the noise."""
+    wrong = target("off", noisy_twin.t, noisy_twin.crv, noisy_twin.gyro, noisy_twin.tilt - 3e-4)
+    e = run_error(space, end, wrong, "holdout")
+    assert e.tilt == pytest.approx(0.1170, abs=2e-5)
+    assert e.over_noise < 1.15 < e.over_noise_stated
+
+
+def test_narrowed_ranges_keep_the_middle(space, truth):
+    smaller = narrowed(space, truth, 0.1)
+    assert all(a.low <= b.low < b.high <= a.high for a, b in zip(space.genes, smaller.genes, strict=True))
+    middle = model_of(smaller, smaller.units(space.values(truth)))
+    np.testing.assert_allclose(middle.parameters.K_N, 6e7, rtol=1e-12)
