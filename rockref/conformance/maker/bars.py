@@ -38,6 +38,7 @@ PER_POINT = {
 class Case:
     """A question before it has an answer. fields: result -> (rule, rule for who sees the trace).
 
+    instead : result -> the one in whose stead it is looked at, where that is not shown
     on_surface : the inputs lie exactly on a switching surface and every operation on them is exact: they are not moved.
     """
 
@@ -51,6 +52,7 @@ class Case:
     branch: dict[str, Any] = field(default_factory=dict)
     set: str | None = None
     margin: float | None = None
+    instead: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -76,12 +78,12 @@ def answer(case: Case, m: Any, inputs: dict[str, Any] | None = None) -> dict[str
 
 def moved(inputs: dict[str, Any], rng: random.Random) -> dict[str, Any]:
     """All numbers moved by -1, 0 or +1 ulp at random; rotations by an ulp of 1 in every entry, as a pose kept as a
-    quaternion
-    has its rounding."""
+    quaternion has its rounding; a coefficient of friction that is zero stays so."""
     keep = {"step", "duration", "output_rate", "t"}
-    return {
+    found = {
         k: v if k in keep else moved_pose(v, rng) if k == "Lambda" else moved_number(v, rng) for k, v in inputs.items()
     }
+    return found | {k: np.maximum(found[k], 0.0) for k in ("mu_0", "mu") if isinstance(found.get(k), np.ndarray)}
 
 
 def moved_number(a: Any, rng: random.Random) -> Any:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rockref.conformance.asking import ask
-from rockref.conformance.compare import compare
+from rockref.conformance.judge import answered
 from rockref.conformance.vectors import Vector
 from rockref.conformance.zoo.mistakes import BY_ID, MISTAKES
 
@@ -19,7 +18,7 @@ def moves(vector: Vector) -> dict[str, float]:
     """By how many bars each mistake moves the vector; only those that do move it."""
     found = {}
     for mistake in MISTAKES:
-        checks = compare(vector, ask(mistake.backend(), vector))
+        checks = answered(mistake.backend(), vector, "float64")
         worst = max(c.worst for c in checks)
         if worst > 1:
             found[mistake.id] = float(f"{min(worst, LARGEST):.2g}")

@@ -1,8 +1,7 @@
 """Expected rows of a run, and their bars.
 
-Values: `exact` in longdouble. Bars: 8 times the largest deviation, so far in the run, of the float64 law, of 16 runs
-with all inputs
-moved by an ulp and the points in random order, and of 8 runs under random rounding; plus an ulp.
+Values: longdouble. Bars: 8 times the largest deviation, so far in the run, of the float64 law, of 16 runs with all
+inputs moved by an ulp and the points in random order, and of 8 runs under random rounding; plus an ulp.
 """
 
 from __future__ import annotations
@@ -14,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance import exact_run, pieces
+from rockref.conformance.maker import programs
 from rockref.conformance.maker.answers import body_of, start_of
 from rockref.conformance.maker.arithmetic import LongDoubles, converted
 from rockref.conformance.maker.bars import FACTOR, ULP_RUNS, moved, ulp
-from rockref.conformance.maker.noise import noisy_rules
 from rockref.conformance.maker.scenes import PER_POINT
 from rockref.conformance.other_scheme import KickAndDrift
 from rockref.conformance.runs import upright
@@ -44,15 +43,35 @@ class Rows:
     Lambda: np.ndarray
 
 
-def exactly(q: dict[str, Any]) -> Rows:
-    """The rows by `exact` in longdouble."""
+def by_exact(q: dict[str, Any]) -> Rows:
+    """The rows by `exact` in longdouble: a third of a millisecond a step."""
     m = LongDoubles
     numbers = {k: converted(v, m.number) for k, v in q.items() if k not in ("step", "duration", "output_rate", "names")}
     wanted = [int(i) for i in output_steps(problem_of(q))]
     h = m.number(q["step"])
     moments = list(exact_run.run(body_of(numbers), start_of(numbers), h, wanted, m))
     columns = {k: np.array([getattr(moment, k) for moment in moments], np.longdouble) for k in SHOWN}
-    return Rows(q.get("t", 0.0) + np.array(wanted) * q["step"], **columns)
+    return Rows(np.array(wanted) * q["step"], **columns)
+
+
+def as_rows(out: Any) -> Rows:
+    """The rows of an answer."""
+    out = out if isinstance(out, dict) else vars(out)
+    return Rows(*(np.asarray(out[k]) for k in ("t", *SHOWN)))
+
+
+def in_longdouble(q: dict[str, Any]) -> Rows:
+    """The rows by the C text of the law in longdouble, rounded to float64."""
+    return as_rows(programs.answer("long", [problem_of(q)])[0])
+
+
+def held_to_exact(q: dict[str, Any], truth: Rows, width: dict[str, np.ndarray], share: float) -> None:
+    """Compare the first part of a run with `exact`. Raises AssertionError where they are more than a bar apart."""
+    first = by_exact(q | {"duration": share * q["duration"]})
+    for key, bar in width.items():
+        right = getattr(first, key)
+        apart = np.abs(getattr(truth, key)[: len(right)] - right).reshape(len(right), -1).max(axis=1)
+        assert np.all(apart <= bar[: len(right)]), f"{key}: two texts of the law differ"
 
 
 def rearranged(q: dict[str, Any], rng: random.Random) -> dict[str, Any]:
@@ -64,8 +83,9 @@ def rearranged(q: dict[str, Any], rng: random.Random) -> dict[str, Any]:
 
 
 def allowed(q: dict[str, Any]) -> dict[str, Any]:
-    """The inputs with mu_0 at least mu, where moving them has turned that round."""
-    return q | {"mu_0": np.maximum(q["mu_0"], q["mu"])}
+    """The inputs with mu_0 at least mu and a symmetric inertia, where moving them has changed that."""
+    upper = np.triu(q["inertia"])
+    return q | {"mu_0": np.maximum(q["mu_0"], q["mu"]), "inertia": upper + np.triu(upper, 1).T}
 
 
 def double_members(q: dict[str, Any], seed: int) -> list[Any]:
@@ -75,47 +95,13 @@ def double_members(q: dict[str, Any], seed: int) -> list[Any]:
     return [run(p, engine="auto") for p in problems]
 
 
-def inert(q: dict[str, Any], points: int) -> dict[str, Any]:
-    """The inputs with points added that hang a metre above the centre of mass and never touch."""
-    more = points - len(q["P"])
-    if not more:
-        return q
-    added = {k: np.concatenate([q[k], np.ones(more)]) for k in PER_POINT if k != "P"}
-    added["P"] = np.concatenate([q["P"], np.tile([0.0, 0.0, 1.0], (more, 1))])
-    added["s"] = np.concatenate([q["s"], np.zeros((more, 2))])
-    added |= {k: np.concatenate([q[k], np.zeros(more, bool)]) for k in ("anchored", "sliding")}
-    return q | added | {"names": [*q["names"], *(f"inert {i}" for i in range(more))]}
+def rounding_members(q: dict[str, Any], seed: int) -> list[Any]:
+    """Correct float64 runs under random rounding."""
+    return [as_rows(programs.answer("rounding", [problem_of(q)], seed + i)[0]) for i in range(ROUNDING_RUNS)]
 
 
-def alike(qs: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Inputs of one step made so alike that they can run in one batch: as many points, the longest duration, every
-    row."""
-    longest = {"duration": max(q["duration"] for q in qs), "output_rate": max(q["output_rate"] for q in qs)}
-    return [inert(q, max(len(p["P"]) for p in qs)) | longest for q in qs]
-
-
-def side_by_side(rules: pieces.Rules, many: list[list[dict[str, Any]]], dtype: Any = None) -> list[list[Any]]:
-    """Several runs each of several inputs, all in one batch; each with its own rows."""
-    flat = [q for qs in many for q in qs]
-    shared = [problem_of(q) for q in alike(flat)]
-    batch, steps = pieces.simulate(rules, stack(shared), dtype), output_steps(shared[0])
-    picked = []
-    for i, q in enumerate(flat):
-        rows = np.searchsorted(steps, output_steps(problem_of(q)))
-        run_ = batch.pick(i)
-        picked.append(Rows(run_.t[rows], run_.W[rows], run_.x[rows], run_.Lambda[rows]))
-    each = iter(picked)
-    return [[next(each) for _ in qs] for qs in many]
-
-
-def rounding_members(qs: list[dict[str, Any]], seed: int) -> list[list[Any]]:
-    """Correct float64 runs under random rounding, for each of several inputs."""
-    return side_by_side(noisy_rules(seed), [[q] * ROUNDING_RUNS for q in qs])
-
-
-def single_members(qs: list[dict[str, Any]], seed: int) -> list[list[Any]]:
-    """Correct float32 runs for each of several inputs, which are moved by a single-precision ulp before they are
-    rounded."""
+def single_members(q: dict[str, Any], seed: int) -> list[Any]:
+    """Correct float32 runs, of inputs moved by a single-precision ulp before they are rounded."""
     rng = random.Random(seed)
 
     def rough(a: Any) -> Any:
@@ -124,8 +110,8 @@ def single_members(qs: list[dict[str, Any]], seed: int) -> list[list[Any]]:
             return a * (1 + 2.0**-23 * shift)
         return a
 
-    many = [[q] + [allowed({k: rough(v) for k, v in q.items()}) for _ in range(SINGLE_RUNS - 1)] for q in qs]
-    return side_by_side(pieces.law(), many, np.float32)
+    moved_ = [allowed({k: rough(v) for k, v in q.items()}) for _ in range(SINGLE_RUNS - 1)]
+    return list(map(as_rows, programs.answer("single", [problem_of(p) for p in (q, *moved_)])))
 
 
 def deviation(found: list[Any], truth: Rows, key: str) -> np.ndarray:
@@ -169,9 +155,34 @@ def impact_bars(found: list[Any], truth: Rows, end: float, factor: float = FACTO
     return result
 
 
-def other_scheme(qs: list[dict[str, Any]]) -> list[Any]:
-    """Runs by another integrator, for each of several inputs."""
-    return [runs[0] for runs in side_by_side(KickAndDrift().rules, [[q] for q in qs])]
+def inert(q: dict[str, Any], points: int) -> dict[str, Any]:
+    """The inputs with points added that hang a metre above the centre of mass and never touch."""
+    more = points - len(q["P"])
+    if not more:
+        return q
+    added = {k: np.concatenate([q[k], np.ones(more)]) for k in PER_POINT if k != "P"}
+    added["P"] = np.concatenate([q["P"], np.tile([0.0, 0.0, 1.0], (more, 1))])
+    added["s"] = np.concatenate([q["s"], np.zeros((more, 2))])
+    added |= {k: np.concatenate([q[k], np.zeros(more, bool)]) for k in ("anchored", "sliding")}
+    return q | added | {"names": [*q["names"], *(f"inert {i}" for i in range(more))]}
+
+
+def alike(qs: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Inputs of one step made so alike that they can run in one batch: as many points, the longest duration, every
+    row."""
+    longest = {"duration": max(q["duration"] for q in qs), "output_rate": max(q["output_rate"] for q in qs)}
+    return [inert(q, max(len(p["P"]) for p in qs)) | longest for q in qs]
+
+
+def other_scheme(qs: list[dict[str, Any]]) -> list[Rows]:
+    """Runs by another integrator, for several inputs of one step, all in one batch."""
+    shared = [problem_of(q) for q in alike(qs)]
+    batch, steps = pieces.simulate(KickAndDrift().rules, stack(shared)), output_steps(shared[0])
+    found = []
+    for i, q in enumerate(qs):
+        rows, run_ = np.searchsorted(steps, output_steps(problem_of(q))), batch.pick(i)
+        found.append(Rows(run_.t[rows], run_.W[rows], run_.x[rows], run_.Lambda[rows]))
+    return found
 
 
 def converged(problem: Problem, step: float) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gzip
 import json
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,8 @@ FINE, LESS_FINE = 1e-7, 2e-7
 #: (the law's own, and kick and drift). Decided: another scheme of the same order may be as much worse again, and its
 #: double.
 SCHEME_FACTOR = 4
+#: Least bar of that profile, of the largest value: ten times what storing twelve digits takes away. Decided.
+FLOOR = 1e-11
 STATE = ("x", "v", "Lambda", "W", "s", "anchored", "sliding")
 
 
@@ -78,34 +80,29 @@ class Item:
     title: str
     kind: str
     q: dict[str, Any]
-    converged: bool = False
-    members: list[Any] = field(default_factory=list)
-    single: list[Any] = field(default_factory=list)
-    other_scheme: Any = None
+    other_scheme: Rows | None = None
 
 
 def items() -> list[Item]:
-    """All windows and trajectories."""
+    """All windows and trajectories; those that are given converged bring the run by another scheme."""
     found = [Item(window_id(w), f"{w.scene}: {w.shows}", "window", window_inputs(w)) for w in WINDOWS]
-    return found + [Item(s.id, s.title, "trajectory", s.inputs, s.converged) for s in scenes().values()]
+    return found + [Item(s.id, s.title, "trajectory", s.inputs) for s in scenes().values()]
 
 
-def measure(group: list[Item], seed: int) -> None:
-    """Fill in the runs of items that can be computed side by side."""
-    qs = [item.q for item in group]
-    rounding, single = runs.rounding_members(qs, seed), runs.single_members(qs, seed)
-    converging = [item for item in group if item.converged]
-    others = runs.other_scheme([item.q for item in converging]) if converging else []
-    for i, item in enumerate(group):
-        item.members, item.single = runs.double_members(item.q, seed + 1 + i) + rounding[i], single[i]
-    for item, other in zip(converging, others, strict=True):
+def with_other_scheme(made: list[Item]) -> None:
+    """Fill in the runs by another scheme."""
+    converging = [item for item in made if item.name in scenes() and scenes()[item.name].converged]
+    for item, other in zip(converging, runs.other_scheme([item.q for item in converging]), strict=True):
         item.other_scheme = other
 
 
-def barred(item: Item) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+def barred(item: Item, seed: int) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Columns and facts of one run."""
-    truth = runs.exactly(item.q)
-    bars, single = runs.bars(item.members, truth), runs.bars(item.single, truth, dtype=np.float32)
+    truth = runs.in_longdouble(item.q)
+    members = runs.double_members(item.q, seed) + runs.rounding_members(item.q, seed)
+    bars = runs.bars(members, truth)
+    single = runs.bars(runs.single_members(item.q, seed), truth, dtype=np.float32)
+    runs.held_to_exact(item.q, truth, bars, 1.0 if item.kind == "window" else 0.1)
     columns: dict[str, np.ndarray] = {"t_s": truth.t}
     columns |= {column: np.asarray(getattr(truth, k), float) for k, column in SHOWN.items()}
     columns |= {f"bar_{column}": np.array(rounded_up(bars[k])) for k, column in SHOWN.items()}
@@ -114,29 +111,31 @@ def barred(item: Item) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         "float64": runs.horizon(bars, truth, HORIZON[""]),
         "float32": runs.horizon(single, truth, HORIZON["float32_"]),
     }
-    impacts = runs.impact_bars(item.members, truth, horizon["float64"])
+    impacts = runs.impact_bars(members, truth, horizon["float64"])
     meta: dict[str, Any] = {"horizon_s": horizon, "impacts": impacts, "events": events(item.q)}
-    if item.converged:
-        more, facts = converged(item, truth)
+    if item.other_scheme is not None:
+        more, facts = converged(item, members[0], truth)
         columns |= more
         meta["horizon_s"]["scheme"] = facts.pop("horizon_s")
         meta["converged"] = facts
     return columns, meta
 
 
-def converged(item: Item, truth: Rows) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+def converged(item: Item, law: Any, truth: Rows) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """The converged solution, and how far two schemes at the stated step are from it."""
     fine, less = (runs.converged(problem_of(item.q), step) for step in (FINE, LESS_FINE))
     right = Rows(truth.t, fine.W, fine.x, fine.Lambda)
-    schemes = [item.members[0], item.other_scheme]
+    schemes = [law, item.other_scheme]
     width = {
         k: SCHEME_FACTOR * runs.deviation(schemes, right, k) + FACTOR * runs.deviation([less], right, k) for k in SHOWN
     }
-    width = {k: w + np.finfo(float).eps for k, w in width.items()}
+    width = {k: w + FLOOR * max(1.0, float(np.abs(getattr(right, k)).max())) for k, w in width.items()}
     columns = {f"converged_{column}": rounded(getattr(right, k)) for k, column in SHOWN.items()}
     columns |= {f"bar_scheme_{column}": np.array(rounded_up(width[k])) for k, column in SHOWN.items()}
-    facts = {"step_s": FINE, "bar_step_s": item.q["step"], "factor": SCHEME_FACTOR}
-    return columns, facts | {"horizon_s": runs.horizon(width, right, HORIZON["scheme_"])}
+    end = runs.horizon(width, right, HORIZON["scheme_"])
+    impacts = [i for i in runs.impact_bars([*schemes, less], right, end, SCHEME_FACTOR) if np.isfinite(i["bar_s"])]
+    facts = {"step_s": FINE, "bar_step_s": item.q["step"], "factor": SCHEME_FACTOR, "impacts": impacts}
+    return columns, facts | {"horizon_s": end}
 
 
 def rounded(a: np.ndarray) -> np.ndarray:
@@ -167,14 +166,9 @@ def document(name: str, title: str, kind: str, q: dict[str, Any], meta: dict[str
 def files(say: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
     """All files of L5: name and bytes."""
     made = items()
-    groups: dict[tuple[str, float], list[Item]] = {}
-    for item in made:
-        groups.setdefault((item.kind, item.q["step"]), []).append(item)
-    for number, group in enumerate(groups.values()):
-        measure(group, 1000 * (number + 1))
-        for item in group:
-            columns, meta = barred(item)
-            item.members, item.single, item.other_scheme = [], [], None
-            say(f"{item.name}: {meta['horizon_s']}, impacts {meta['impacts']}, {len(meta['events'])} events")
-            yield f"L5/{item.name}.json", document(item.name, item.title, item.kind, item.q, meta)
-            yield f"L5/{item.name}.csv.gz", table(columns)
+    with_other_scheme(made)
+    for number, item in enumerate(made):
+        columns, meta = barred(item, 1000 * (number + 1))
+        say(f"{item.name}: {meta['horizon_s']}, impacts {meta['impacts']}, {len(meta['events'])} events")
+        yield f"L5/{item.name}.json", document(item.name, item.title, item.kind, item.q, meta)
+        yield f"L5/{item.name}.csv.gz", table(columns)
