@@ -7,7 +7,21 @@ from typing import Any
 import numpy as np
 
 #: Results of `step` and `simulate` that are taken apart by contact point, and the part that is meant.
-PARTS = {"F_N": "F", "F_T": "F", "F_stick": "F", "F_slip": "F", "s_stick": "s", "s_slip": "s"}
+PARTS = {"x_T": "x", "F_N": "F", "F_T": "F", "F_stick": "F", "F_slip": "F", "s_stick": "s", "s_slip": "s"}
+
+#: What a piece answers. Of `simulate` only W is indispensable.
+RESULTS = {
+    "derived": ("inertia", "P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu"),
+    "release": ("x", "Lambda"),
+    "kinematics": ("r", "u", "xi", "xi_rate", "v_slide"),
+    "contact_law": ("F_N", "F_T", "s", "touching", "sliding"),
+    "assemble": ("force", "moment", "T"),
+    "rotate": ("Lambda",),
+    "integrate": ("x", "Theta", "Lambda", "v_predicted", "W_predicted", "v", "W"),
+    "step": ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "a", "T", "F"),
+    "simulate": ("W",),
+    "channel": ("crv_deg_s",),
+}
 
 
 def branch_of(anchored: Any, sliding: Any) -> dict[str, list[int]]:
@@ -20,11 +34,11 @@ def branch_of(anchored: Any, sliding: Any) -> dict[str, list[int]]:
 
 
 def part(name: str, whole: Any, branch: dict[str, Any]) -> Any:
-    """The part of F (n, 3) or s (n, 2) that `name` means; `branch` says which points stick and which slide."""
+    """The part of F (n, 3), s (n, 2) or x (3,) that `name` means; `branch` says which points stick and which slide."""
     whole = np.asarray(whole)
     if name == "F_N":
         return whole[..., 2]
-    if name == "F_T":
+    if name in ("F_T", "x_T"):
         return whole[..., :2]
     return whole[branch[name[2:]], :2]
 

@@ -25,7 +25,10 @@ SMALL_LAYERS = ("L0", "L1", "L2", "L3", "L4", "L7")
 @dataclass(frozen=True)
 class Expected:
     """One expected result: value (float64 or bool), bar and bar_float32 of the same shape (None: exact flag; in
-    float32 not judged), the rule that it shows, the rule that it shows to who sees the trace, and the route."""
+    float32 not judged), the rule that it shows, the rule that it shows to who sees the trace, and the route.
+
+    instead_of : looked at only where that result is not shown
+    """
 
     value: np.ndarray
     bar: np.ndarray | None
@@ -33,6 +36,7 @@ class Expected:
     rule: str
     rule_traced: str
     route: str
+    instead_of: str = ""
 
 
 @dataclass(frozen=True)
@@ -118,6 +122,7 @@ def expected_of(entry: dict[str, Any]) -> Expected:
         rule,
         entry.get("rule_traced", rule),
         entry["route"],
+        entry.get("instead_of", ""),
     )
 
 

@@ -101,6 +101,7 @@ def simulate(q: dict[str, Any], m: Any) -> dict[str, Any]:
     for i, row in enumerate(exact_run.run(body_of(q), start_of(q), q["step"], list(steps), m)):
         found |= {f"{k}@{i}": getattr(row, k) for k in ("W", "x", "Lambda", "F", "anchored")}
         found |= {f"{k}@{i}": part(k, np.array(row.F, object), {}).tolist() for k in ("F_N", "F_T")}
+        found[f"x_T@{i}"] = row.x[:2]
     return found
 
 

@@ -82,6 +82,8 @@ def entry_of(case: Case, number: int, sets: dict[str, Any]) -> dict[str, Any]:
     found = barred(case, seed=number)
     entry["in"] = inputs
     entry["expect"] = {k: result_of(b, case.fields[k], "mpmath-50") for k, b in found.items()}
+    for name, shown in case.instead.items():
+        entry["expect"][name]["instead_of"] = shown
     entry["branch"] = case.branch
     if case.margin is not None:
         entry["margin"] = float(f"{case.margin:.3g}")
