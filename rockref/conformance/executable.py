@@ -18,7 +18,7 @@ from rockref.model.problem import Problem
 #: Seconds that a program may take to start, to answer a small question, and to finish a run; decided, to be changed on
 #: the command line.
 START, SMALL, LONG = 20.0, 10.0, 600.0
-#: A piece whose questions have ended so many times in a crash or a silence is not asked again.
+#: A piece whose questions have ended so many times in a crash, in silence or in rubbish is not asked again.
 PATIENCE = 3
 #: Longer lines are rubbish: the longest honest answer, a run of some thousand rows, has a few megabytes.
 LONGEST_LINE = 200_000_000
@@ -67,7 +67,7 @@ class Executable:
     def _run(self, request: dict[str, Any], patience: float) -> dict[str, Any]:
         piece = request["piece"]
         if self.failures.get(piece, 0) >= PATIENCE:
-            raise Misbehaved(f"not asked any more: {PATIENCE} questions to {piece} ended in a crash or in silence")
+            raise Misbehaved(f"not asked any more: {PATIENCE} questions to {piece} ended badly")
         if self.process is None:
             self._started()
         try:
@@ -77,6 +77,7 @@ class Executable:
             self.close()
             raise
         if reply.get("id") != request["id"]:
+            self.failures[piece] = self.failures.get(piece, 0) + 1
             self.close()
             raise Misbehaved(f"answered to id {reply.get('id')!r}, not {request['id']!r}")
         if "error" in reply:

@@ -143,14 +143,14 @@ def text(v: Verdict, colour: bool = False) -> str:
     if f.properties:
         lines.append(f"Properties (L6): {len(f.properties) - len(broken)} of {len(f.properties)} hold")
     lines += [f"  {p.name}: {p.note}" for p in broken]
-    lines += ["Rules:"] + rule_lines(v) if not v.passed else []
+    lines += ["Rules:"] + rule_lines(v) if v.status == "FAIL" else []
     lines += [f"Remark: {r}" for r in f.remarks]
     counted = grades(v)
     told = ", ".join(
         f"{counted[g]} {g}" for g in ("bitwise", "inside", "look", "outside", "not judged") if g in counted
     )
     lines.append(f"Results: {told}; {f.seconds:.1f} s")
-    word = "PASS" if v.passed else f"FAIL ({v.rule})" if v.rule else "FAIL"
+    word = f"{v.status} ({v.rule})" if v.rule else v.status
     if v.passed and f.profile != "float64":
         word = f"PASS ({f.profile})"
     lines.append(painted(word, BOLD, GREEN if v.passed else RED, colour=colour))

@@ -61,7 +61,10 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
     instants = t.columns["t_s"]
     check = RunCheck(t.id, t.title, "bitwise", horizon_s=horizon)
     rows = int(np.sum(instants <= horizon * (1 + 1e-12)))
-    ratios = {}
+    ratios: dict[str, np.ndarray] = {}
+    said = wrong_instants(out.get("t"), instants, t.problem.step)
+    if said:
+        return replace(check, grade="outside", worst=np.inf, note=said)
     for key, right in expected.items():
         got = out.get(key)
         if got is None:
@@ -80,11 +83,23 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
         check.first = first_outside(ratios, expected, bars, out, instants)
         before = [e for e in t.meta["events"] if e[0] <= check.first["t_s"]]
         check.event = before[-1] if before else None
-    if profile == "float64":
-        check.impacts = judge_impacts(t, out, instants, rows)
+    if profile != "float32":
+        expected_ = t.meta["impacts"] if profile == "float64" else t.meta["converged"]["impacts"]
+        check.impacts = judge_impacts(expected_, out, instants, rows)
         if any(i["grade"] == "outside" for i in check.impacts):
             check.grade = "outside"
     return check
+
+
+def wrong_instants(got: Any, instants: np.ndarray, step: float) -> str:
+    """What is wrong with the instants of the rows, where they are given: each within half a step of what was asked."""
+    if got is None:
+        return ""
+    got = np.asarray(got)
+    if got.dtype.kind not in "fiu" or got.shape != instants.shape:
+        return f"t has shape {got.shape}, not {instants.shape}"
+    off = np.flatnonzero(~(np.abs(got - instants) <= 0.5 * step))
+    return f"row {off[0]} is at t = {float(got[off[0]]):.6g} s, not {instants[off[0]]:.6g} s" if len(off) else ""
 
 
 def first_outside(
@@ -119,14 +134,16 @@ def upright(t: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
     return np.array(found)
 
 
-def judge_impacts(t: Trajectory, out: dict[str, Any], instants: np.ndarray, rows: int) -> list[dict[str, Any]]:
+def judge_impacts(
+    expected: list[dict[str, float]], out: dict[str, Any], instants: np.ndarray, rows: int
+) -> list[dict[str, Any]]:
     """The main impacts, each with its deviation in bars."""
     if out.get("Lambda") is None:
         return []
     with np.errstate(all="ignore"):
         got = upright(instants[:rows], np.asarray(out["Lambda"])[:rows])
     judged = []
-    for i, impact in enumerate(t.meta["impacts"]):
+    for i, impact in enumerate(expected):
         off = abs(got[i] - impact["t_s"]) / impact["bar_s"] if i < len(got) else np.inf
         judged.append({**impact, "got_s": float(got[i]) if i < len(got) else None, "bars": off, "grade": grade_of(off)})
     return judged

@@ -11,7 +11,9 @@ from rockref.conformance.compare import Check
 from rockref.conformance.judge import Findings, finite
 from rockref.conformance.rules import BY_ID, PIECES, RULES, downstream
 from rockref.conformance.runs import RunCheck
+from rockref.conformance.vectors import manifest
 
+LOOP = "All pieces pass by themselves; the run that is made of them does not."
 SMALL = ("L0", "L1", "L2", "L3", "L7")
 
 
@@ -19,8 +21,8 @@ SMALL = ("L0", "L1", "L2", "L3", "L7")
 class Verdict:
     """What the judge says.
 
-    status : "PASS", or "FAIL"; rule : the first wrong rule, None where it cannot be told; check : the vector that
-    shows it
+    status : "PASS", "FAIL", or "NOTHING JUDGED"
+    rule : the first wrong rule, None where it cannot be told; check : the vector that shows it
     run : the first run that diverges; rules : status of every rule; consequences : failed checks that come after
     neighbours : mistakes of the zoo with a similar fingerprint, for a backend of which the pieces do not tell the rule
     """
@@ -74,7 +76,13 @@ def with_consequences(rules: dict[str, str], named: str | None, checks: Sequence
 def first(checks: Sequence[Check]) -> Check | None:
     """The failure that comes first in the order of the rules, wrong decisions before what follows from them."""
     failed = [c for c in checks if c.failed and not c.follows] or [c for c in checks if c.failed]
-    return min(failed, key=lambda c: (c.rank, c.vector)) if failed else None
+    return min(failed, key=place) if failed else None
+
+
+def place(check: Check) -> tuple[float, int]:
+    """Where a failure stands: by rule and number; short runs by number alone, as they build on each other."""
+    number = int(check.vector.rpartition("-")[2])
+    return (0.0 if check.layer == "L5s" else check.rank, number)
 
 
 def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
@@ -93,6 +101,8 @@ def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None,
         check = first([c for c in checks if c.layer in layers])
         if check is None:
             continue
+        if layers == ("L5s",) and check.rule == "S2" and pieces:
+            return "S2", check, LOOP
         if layers == SMALL or check.rule not in good:
             return check.rule, check, ""
         if layers == ("L4",):
@@ -102,8 +112,14 @@ def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None,
         whole = {"step", "integrate"} & set(pieces)
         if unproved is not None and not whole:
             return unproved.rule, unproved, ""
-        return "S2", check, "All pieces pass by themselves; the run that is made of them does not."
+        return "S2", check, LOOP
     return None, None, ""
+
+
+def something_judged(findings: Findings) -> bool:
+    """Whether any result was weighed at all: who shows nothing of what is asked has not passed."""
+    shown = any(c.grade not in ("not shown", "not judged") for c in findings.checks)
+    return shown or bool(findings.runs or findings.properties)
 
 
 def verdict(findings: Findings, backend: Any = None) -> Verdict:
@@ -112,9 +128,11 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     rule, check, says = suspect(findings.checks, findings.pieces)
     bad_run = next((r for r in findings.runs if r.failed), None)
     bad_properties = [p for p in findings.properties if not p.holds]
-    status = "FAIL" if check or bad_run or bad_properties else "PASS"
+    status = (
+        "FAIL" if check or bad_run or bad_properties else "PASS" if something_judged(findings) else "NOTHING JUDGED"
+    )
     found = Verdict(status, findings, rule, check, bad_run, says, rules)
-    if status == "PASS":
+    if status != "FAIL":
         return found
     found.consequences = [c for c in findings.checks if c.failed and c is not check]
     found.rules = with_consequences(rules, rule, findings.checks)
@@ -124,12 +142,22 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
         and {"step", "contact_law"} <= set(findings.pieces)
         and findings.profile != "scheme"
     ):
-        found.rule, found.says = "S2", "All pieces pass by themselves; the run that is made of them does not."
+        found.rule, found.says = "S2", LOOP
     if backend is not None and findings.profile == "float64" and not (set(findings.pieces) & set(PIECES)):
-        from rockref.conformance.blackbox import fingerprint, neighbours
-
-        found.neighbours = neighbours(fingerprint(backend))
+        resembling(found, backend)
     return found
+
+
+def resembling(found: Verdict, backend: Any) -> None:
+    """Add the nearest mistakes of the zoo; where one leaves the same deviations in all runs, its rule is named."""
+    from rockref.conformance.blackbox import SAME, fingerprint, neighbours
+
+    found.neighbours = neighbours(fingerprint(backend), rule=found.rule)
+    nearest, cosine = found.neighbours[0]
+    rule = manifest()["mistakes"][nearest]["rule"]
+    if cosine >= SAME and rule != found.rule:
+        found.says = f"All runs deviate as those of {nearest}; the first short run outside would point to {found.rule}."
+        found.rule = rule
 
 
 def grades(verdict: Verdict) -> dict[str, int]:
@@ -188,8 +216,6 @@ def as_json(v: Verdict) -> dict[str, Any]:
 
 def neighbour(id_: str, cosine: float) -> dict[str, Any]:
     """A similar mistake of the zoo, for JSON."""
-    from rockref.conformance.vectors import manifest
-
     return {"mistake": id_, "cosine": round(cosine, 3), **manifest()["mistakes"][id_]}
 
 
