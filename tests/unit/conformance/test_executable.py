@@ -1,0 +1,114 @@
+"""Programs as backends: the tutorial in C, and programs that crash, hang, or print rubbish."""
+
+import sys
+import textwrap
+
+import pytest
+
+from rockref.conformance import in_words
+from rockref.conformance.executable import Executable, Misbehaved
+from rockref.conformance.judge import judge
+from rockref.conformance.verdict import verdict
+from rockref.model.errors import InputError
+
+LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "L7")
+
+
+def judged(path, profile="float64"):
+    backend = Executable([str(path)])
+    try:
+        return verdict(judge(backend, LAYERS, profile))
+    finally:
+        backend.close()
+
+
+def test_the_tutorial_in_c_passes(compiled):
+    v = judged(compiled())
+    assert v.passed, in_words.text(v)
+    assert v.findings.backend["language"] == "C"
+    assert set(v.findings.pieces) == {"kinematics", "contact_law", "step"}
+
+
+def test_its_twin_with_a_mistake_is_named(compiled):
+    v = judged(compiled("-DMISTAKE"))
+    assert v.rule == "T3" and v.check.vector.startswith("L1-")
+
+
+def test_in_single_precision_it_passes_its_own_profile(compiled):
+    path = compiled("-DREAL=float")
+    assert judged(path, "float32").passed
+    assert not judged(path).passed
+
+
+START = 'print(\'{"protocol":1,"name":"odd","capabilities":["contact_law"]}\', flush=True)'
+
+
+def program(tmp_path, body):
+    """A program that starts well; `body` is what it does with each further line (in `line`)."""
+    path = tmp_path / "odd.py"
+    text = ["import json, sys, time", "first = sys.stdin.readline()", START, "for line in sys.stdin:"]
+    path.write_text("\n".join(text) + "\n" + textwrap.indent(textwrap.dedent(body), "    ") + "\n")
+    return [sys.executable, str(path)]
+
+
+@pytest.mark.parametrize(
+    "body, said",
+    [
+        ("sys.exit(3)", "exit code 3"),
+        ("sys.stderr.write('out of memory\\n'); sys.exit(1)", "out of memory"),
+        ("import os; os.kill(os.getpid(), 11)", "ended (exit code -11)"),
+        ("print('Segmentation fault', flush=True)", "printed rubbish"),
+        ("print('[1, 2]', flush=True)", "no JSON object"),
+        ("print('{}', flush=True)", "answered to id None"),
+        ("print(json.dumps({'id': json.loads(line)['id'], 'out': 5}), flush=True)", "not an object"),
+        ("print(json.dumps({'id': json.loads(line)['id'], 'error': 'no idea'}), flush=True)", "no idea"),
+        ("print(json.dumps({'id': json.loads(line)['id'], 'out': {'F_N': float('nan')}}), flush=True)", "not a finite"),
+        ("time.sleep(60)", "no answer within"),
+        ("print(9 * '[' * 1000, flush=True)", "rubbish"),
+    ],
+)
+def test_what_a_program_does_in_place_of_answering_is_told(tmp_path, body, said):
+    backend = Executable(program(tmp_path, body), small=2.0, long=2.0)
+    try:
+        v = verdict(judge(backend, ["L1"]))
+    finally:
+        backend.close()
+    assert not v.passed
+    assert any(said in c.note for c in v.findings.failures), {c.note for c in v.findings.failures}
+
+
+def test_a_program_that_dies_at_one_question_is_started_again(tmp_path):
+    # It dies at the second question and answers all others: one failure, not all that follow.
+    body = """
+        q = json.loads(line)
+        if q["id"] == "q2":
+            sys.exit(1)
+        print(json.dumps({"id": q["id"], "out": {"F_N": 0.0}}), flush=True)
+    """
+    backend = Executable(program(tmp_path, body), small=5.0)
+    assert backend._run({"cmd": "run", "id": "q1", "piece": "contact_law", "in": {}}, 5.0) == {"F_N": 0.0}
+    with pytest.raises(Misbehaved):
+        backend._run({"cmd": "run", "id": "q2", "piece": "contact_law", "in": {}}, 5.0)
+    assert backend._run({"cmd": "run", "id": "q3", "piece": "contact_law", "in": {}}, 5.0) == {"F_N": 0.0}
+    backend.close()
+
+
+def test_who_is_silent_three_times_is_not_asked_again(tmp_path):
+    backend = Executable(program(tmp_path, "time.sleep(60)"), small=0.2)
+    notes = []
+    for i in range(5):
+        with pytest.raises(Misbehaved) as told:
+            backend._run({"cmd": "run", "id": str(i), "piece": "contact_law", "in": {}}, 0.2)
+        notes.append(str(told.value))
+    assert sum("no answer" in n for n in notes) == 3 and sum("not asked any more" in n for n in notes) == 2
+
+
+@pytest.mark.parametrize("command", [["./no_such_program"], [sys.executable, "-c", "print('hello')"], ["true"]])
+def test_what_does_not_start_is_unusable(command):
+    with pytest.raises(InputError, match="E-BACKEND"):
+        Executable(command)
+
+
+def test_another_protocol_is_refused():
+    with pytest.raises(InputError, match="protocol 2"):
+        Executable([sys.executable, "-c", "input(); print('{\"protocol\": 2}', flush=True); input()"])

@@ -1,0 +1,224 @@
+"""The judge: who is right passes, who is wrong is named, who misbehaves is told so."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rockref.conformance import in_files, in_words, vectors
+from rockref.conformance.backend import load
+from rockref.conformance.compare import compare, grade_of
+from rockref.conformance.judge import judge
+from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance.verdict import as_json, verdict
+from rockref.model.errors import InputError
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "examples/backend_numpy.py"
+PIECES = ("L0", "L1", "L2", "L3", "L7")
+QUICK = (*PIECES, "L4", "L5s")
+
+
+def judged(backend, layers=QUICK, profile="float64"):
+    return verdict(judge(backend, layers, profile), backend)
+
+
+class Only:
+    """The pieces of another backend that are named, and its runs."""
+
+    def __init__(self, other, *pieces):
+        self.simulate = other.simulate
+        for piece in pieces:
+            setattr(self, piece, getattr(other, piece))
+
+
+@pytest.mark.parametrize("target", ["numpy", "longdouble", f"{EXAMPLE}:Backend"])
+def test_correct_backends_pass(target):
+    v = judged(load(target))
+    assert v.passed, in_words.text(v)
+    assert v.findings.checks and all(c.grade in ("bitwise", "inside", "not shown") for c in v.findings.checks)
+
+
+def test_single_precision_passes_its_own_profile_only():
+    backend = load("float32")
+    assert not judged(backend, PIECES).passed
+    v = judged(backend, QUICK, "float32")
+    assert v.passed, in_words.text(v)
+
+
+def test_another_integrator_passes_as_another_scheme_only():
+    backend = load("scheme")
+    assert not judged(backend).passed
+    assert judged(backend, QUICK, "scheme").passed
+
+
+@pytest.mark.parametrize(
+    "worst, grade", [(0, "bitwise"), (1, "inside"), (1.01, "look"), (10, "look"), (10.1, "outside")]
+)
+def test_grades(worst, grade):
+    assert grade_of(worst) == grade
+
+
+def planted(old, new):
+    """The tutorial backend with one line changed."""
+    text = EXAMPLE.read_text()
+    assert text.count(old) == 1, old
+    space = {"__name__": "planted"}
+    exec(compile(text.replace(old, new), "planted.py", "exec"), space)
+    return space["Backend"]()
+
+
+@pytest.mark.parametrize(
+    "rule, old, new",
+    [
+        ("G1", "np.diag([depth**2 + height**2, width**2 + height**2, width**2 + depth**2])",
+         "np.diag([width**2 + height**2, depth**2 + height**2, width**2 + depth**2])"),
+        ("G2", "inwards = 1 - delta_diag / (np.hypot(width, depth) / 2)", "inwards = 1 - delta_diag / (width / 2)"),
+        ("P2", "return 2 * beta * np.sqrt(K * mass)", "return 2 * beta * K * mass"),
+        ("K1", "rate = v + np.cross(Lambda @ W, r)", "rate = v + np.cross(W, r)"),
+        ("N1", "return max(K_N * xi + C_N * xi_rate, 0.0)", "return max(K_N * xi, 0.0) + max(C_N * xi_rate, 0.0)"),
+        ("N2", " if xi >= 0 else 0.0", ""),
+        ("T5", "return s if anchored and xi >= 0 else u_t", "return s"),
+        ("T1", "return -K_T * (u_t - s) - C_T * v_slide", "return -K_T * (u_t - s)"),
+        ("T2", "return np.hypot(*F_trial) <= limit", "return np.hypot(*F_trial) < limit"),
+        ("T2", "return np.hypot(*F_trial) <= limit", "return max(abs(F_trial)) <= limit"),
+        ("T6", "return (mu if was_sliding else mu_0) * F_N", "return mu_0 * F_N"),
+        ("T6", "return (mu if was_sliding else mu_0) * F_N", "return 1.1 * (mu if was_sliding else mu_0) * F_N"),
+        ("T3", "return mu * F_N / np.hypot(*F_trial) * F_trial", "return np.clip(F_trial, -mu * F_N, mu * F_N)"),
+        ("T4", "return u_t + (F_T + C_T * v_slide) / K_T", "return u_t + F_T / K_T"),
+        ("A1", "force = F.sum(axis=0) - [0, 0, mass * g]", "force = F.sum(axis=0) - Lambda @ [0, 0, mass * g]"),
+        ("A2", "moment = np.cross(r, F).sum(axis=0)", "moment = np.cross(F, r).sum(axis=0)"),
+        ("A3", "return force, moment, Lambda.T @ moment", "return force, moment, moment"),
+        ("I1", "x_next = x + h * v + h * h / 2 * a", "x_next = x + h * v"),
+        ("I2", "T - np.cross(W, J @ W)", "T"),
+        ("I2", "Theta = h * W + h * h / 2 * A", "Theta = h * W"),
+        ("I3", "Lambda_next = Lambda + Lambda @ E", "Lambda_next = Lambda + E @ Lambda"),
+        ("I3", "+ 2 * (np.sin(angle / 2) / angle) ** 2 * H @ H", ""),
+        ("S1", "Lambda_next, v + h * a, W + h * A, E", "Lambda_next, v, W, E"),
+        ("I4", "v_next = v + h / 2 * (a + a_next)", "v_next = v + h * a"),
+        ("I5", "gain = h / 2 * T + E.T @ half", "gain = h / 2 * T + E @ half"),
+        (
+            "S2",
+            'if state["a"] is None:',
+            'if state["a"] is None and state.update(a=np.zeros(3), T=np.zeros(3), F=0 * problem.points.P):',
+        ),
+        ("S2", "if count == wanted[len(kept)]:", "if count == wanted[len(kept)] or not kept:"),
+        ("M1", '{"crv_deg_s": np.degrees(W)}', '{"crv_deg_s": W}'),
+    ],
+)  # fmt: skip
+def test_a_planted_mistake_is_named(rule, old, new):
+    if rule == "S2" and "not kept" in new:
+        new = "if count == max(wanted[len(kept)] - 1, 0):"
+    backend = planted(old, new)
+    v = judged(backend, (*PIECES, "L4"))
+    if v.passed:
+        v = judged(backend)
+    assert v.rule == rule, in_words.text(v)
+    told = as_json(v)
+    assert told["verdict"] == "FAIL" and told["rule"] == rule
+    assert told["first_divergence"]["vector"] == v.check.vector
+
+
+def test_the_sentence_has_rule_equation_vector_and_numbers():
+    v = judged(planted("return max(K_N * xi + C_N * xi_rate, 0.0)", "return K_N * xi + C_N * xi_rate"), PIECES)
+    text = in_words.text(v)
+    assert "FIRST DIVERGENCE  rule N1" in text and "(3.5a)" in text and "L1-N1-" in text
+    assert "expected 0 +-" in text and "would-be tension" in text
+    assert text.rstrip().endswith("FAIL (N1)")
+    assert "\x1b[" not in text and "\x1b[31m" in in_words.text(v, colour=True)
+
+
+def test_without_pieces_the_short_runs_tell_the_rule():
+    wrong = planted("return max(K_N * xi + C_N * xi_rate, 0.0)", "return max(K_N * xi - C_N * xi_rate, 0.0)")
+    v = verdict(judge(Only(wrong), QUICK))
+    assert v.rule == "N1"
+    wrong = planted("Lambda_next = Lambda + Lambda @ E", "Lambda_next = Lambda + E @ Lambda")
+    assert verdict(judge(Only(wrong), QUICK)).rule == "I3"
+
+
+def test_a_wrong_run_of_right_pieces_is_the_loop():
+    right, late = NumpyEngine(), NumpyEngine()
+    late.simulate = lambda problem: right.simulate(
+        replace(problem, start=replace(problem.start, v=problem.start.v * 1.001))
+    )
+    v = judged(late)
+    assert v.rule == "S2" and "All pieces pass" in v.says
+
+
+class Broken:
+    """Answers that no one can use."""
+
+    def __init__(self, answer):
+        self.answer = answer
+
+    def simulate(self, problem):
+        return self.answer(problem)
+
+
+@pytest.mark.parametrize(
+    "answer, said",
+    [
+        (lambda p: 1 / 0, "ZeroDivisionError"),
+        (
+            lambda p: {"W": np.full((2, 3), np.nan), "x": np.full((2, 3), np.nan), "Lambda": None, "F": None},
+            "not a finite",
+        ),
+        (lambda p: {"W": "soon"}, ""),
+        (lambda p: None, ""),
+        (lambda p: {"W": np.zeros((7, 2))}, ""),
+    ],
+)
+def test_unusable_answers_are_failures_not_errors(answer, said):
+    v = verdict(judge(Broken(answer), ["L5s"]))
+    assert not v.passed
+    assert any(said in c.note for c in v.findings.failures)
+    json.dumps(as_json(v), allow_nan=False)
+
+
+def test_a_backend_without_simulate_is_refused():
+    with pytest.raises(InputError, match="E-BACKEND"):
+        judge(object())
+    with pytest.raises(InputError, match="E-LAYER"):
+        judge(NumpyEngine(), ["L9"])
+    with pytest.raises(InputError, match="E-PROFILE"):
+        judge(NumpyEngine(), ["L0"], profile="float16")
+
+
+def test_results_that_a_piece_does_not_give_are_not_shown():
+    vector = next(v for v in vectors.layer("L1") if v.rule == "T4")
+    checks = compare(vector, {"F_N": 1.0})
+    assert {c.grade for c in checks} == {"not shown"}
+
+
+def test_a_wrong_decision_takes_the_blame_for_the_force():
+    vector = next(v for v in vectors.layer("L1") if "just outside" in v.flags)
+    stuck = {"sliding": False, "touching": True, "F_T": np.zeros(2), "s": np.zeros(2)}
+    checks = {c.name: c for c in compare(vector, stuck)}
+    assert checks["sliding"].failed and not checks["sliding"].follows
+    assert checks["F_T"].failed and checks["F_T"].follows
+
+
+def test_junit_badge_and_page():
+    from xml.etree import ElementTree
+
+    v = judged(planted("return -K_T * (u_t - s) - C_T * v_slide", "return -K_T * (u_t - s)"), ("L1", "L2"))
+    root = ElementTree.fromstring(in_files.junit(v))
+    suites = {s.get("name"): s for s in root}
+    assert set(suites) == {"L1", "L2"} and int(suites["L1"].get("failures")) > 0 == int(suites["L2"].get("failures"))
+    assert ElementTree.fromstring(in_files.badge(v)).tag.endswith("svg") and "fails T1" in in_files.badge(v)
+    page = in_files.page(v)
+    assert "FIRST DIVERGENCE" in page and "<script" not in page and "http" not in page.replace("http://www.w3.org", "")
+
+
+def test_targets_that_are_no_backend_are_named():
+    for target in ("nonsense", "no_such_module:Backend", "missing.py:Backend", f"{EXAMPLE}:Nobody"):
+        with pytest.raises(InputError, match="E-BACKEND"):
+            load(target)
+
+
+def test_a_file_that_cannot_be_run_is_named(tmp_path):
+    path = tmp_path / "bad.py"
+    path.write_text("def f(:\n")
+    with pytest.raises(InputError, match="SyntaxError"):
+        load(f"{path}:Backend")

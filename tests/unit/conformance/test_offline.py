@@ -1,0 +1,84 @@
+"""Questions and answers as files, and the lines of the protocol."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+
+from rockref.conformance import jsonlines, offline, vectors
+from rockref.conformance.judge import judge
+from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance.vectors import flat, problem_of
+from rockref.conformance.verdict import verdict
+from rockref.model.errors import InputError
+
+LAYERS = ("L0", "L1", "L4")
+
+
+@pytest.fixture(scope="module")
+def responses(tmp_path_factory):
+    """The law's answers to the questions of three layers, as a file."""
+    out = io.StringIO()
+    jsonlines.serve(NumpyEngine(), offline.text(LAYERS).splitlines(), out)
+    path = tmp_path_factory.mktemp("offline") / "responses.jsonl"
+    path.write_text(out.getvalue())
+    return path
+
+
+def test_every_question_has_one_line_and_its_own_id():
+    asked = [json.loads(line) for line in offline.text(LAYERS).splitlines()]
+    assert asked[0] == {"cmd": "start", "protocol": 1}
+    ids = [q["id"] for q in asked[1:]]
+    assert ids == [v.id for layer in LAYERS for v in vectors.layer(layer)]
+
+
+def test_recorded_answers_are_judged_as_live_ones(responses):
+    backend = offline.Recorded(responses)
+    assert backend.layers == set(LAYERS)
+    v = verdict(judge(backend, LAYERS))
+    assert v.passed
+    live = judge(NumpyEngine(), LAYERS)
+    assert [c.grade for c in v.findings.checks] == [c.grade for c in live.checks]
+
+
+def test_a_missing_answer_is_a_failure(responses, tmp_path):
+    lines = responses.read_text().splitlines(keepends=True)
+    path = tmp_path / "holes.jsonl"
+    left_out = vectors.layer("L1")[9].id
+    path.write_text("".join(line for line in lines if f'"{left_out}"' not in line))
+    v = verdict(judge(offline.Recorded(path), ["L1"]))
+    assert {c.vector for c in v.findings.failures} == {left_out}
+    assert f"no answer to {left_out}" in v.check.note
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [("", "no answers"), ("not json\n", "line 1"), ("[]\n", "line 1"), ('{"id":"a","out":{}}\n{"x":1}\n', "line 2")],
+)
+def test_a_file_that_cannot_be_used_is_named(tmp_path, text, said):
+    path = tmp_path / "bad.jsonl"
+    path.write_text(text)
+    with pytest.raises(InputError, match=said):
+        offline.Recorded(path)
+
+
+def test_doubles_cross_the_wire_bit_by_bit():
+    numbers = np.array([0.1, 1 / 3, 5e-324, -0.0, 1.7976931348623157e308])
+    back = np.array(json.loads(jsonlines.line({"a": numbers}))["a"])
+    assert back.tobytes() == numbers.tobytes()
+
+
+def test_a_problem_crosses_the_wire_whole():
+    problem = vectors.trajectory("window_spinning_0415ms").problem
+    back = problem_of(json.loads(jsonlines.line(flat(problem))))
+    for key, value in flat(problem).items():
+        assert np.array_equal(np.asarray(value), np.asarray(flat(back)[key])), key
+
+
+def test_a_python_backend_answers_for_itself():
+    start = jsonlines.answer(NumpyEngine(), {"cmd": "start", "protocol": 1})
+    assert start["protocol"] == 1 and "contact_law" in start["capabilities"]
+    assert "error" in jsonlines.answer(NumpyEngine(), {"cmd": "dance"})
+    wrong = jsonlines.answer(NumpyEngine(), {"cmd": "run", "id": "a", "piece": "rotate", "in": {}})
+    assert wrong["id"] == "a" and "TypeError" in wrong["error"]

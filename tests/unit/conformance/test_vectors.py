@@ -1,0 +1,187 @@
+"""The shipped vectors: whole, of the stated form, on the stated branch, with bars that can tell right from wrong."""
+
+import hashlib
+import json
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+from rockref.conformance import vectors
+from rockref.conformance.asking import ask
+from rockref.conformance.compare import compare
+from rockref.conformance.fields import branch_of
+from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance.maker.answers import ANSWERS
+from rockref.conformance.maker.arithmetic import converted
+from rockref.conformance.maker.bars import FIFTY, converted_floats_of, is_flag
+from rockref.conformance.rules import ORDER, PIECES
+from rockref.conformance.zoo.mistakes import BY_ID
+from rockref.model.errors import InputError
+
+LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "L7")
+FOLDER = Path(str(vectors.folder()))
+SCHEMA = json.loads((FOLDER / "schema.json").read_text())
+RUNS = vectors.trajectory_names() + vectors.window_names()
+
+
+def exactly(vector):
+    q = {k: converted(x, FIFTY.number) for k, x in vector.inputs.items()}
+    return ANSWERS[vector.piece](q, FIFTY)
+
+
+def test_every_file_is_in_the_manifest_with_its_digest():
+    listed = vectors.manifest()["files"]
+    there = {p.relative_to(FOLDER).as_posix() for p in FOLDER.rglob("*") if p.is_file()} - {"MANIFEST.json"}
+    assert set(listed) == there
+    for name, facts in listed.items():
+        data = (FOLDER / name).read_bytes()
+        assert (hashlib.sha256(data).hexdigest(), len(data)) == (facts["sha256"], facts["bytes"]), name
+
+
+def test_the_vectors_are_small_enough_for_a_wheel():
+    assert sum(f["bytes"] for f in vectors.manifest()["files"].values()) < 8e6
+
+
+def test_an_altered_file_is_refused(tmp_path, monkeypatch):
+    (tmp_path / "L0.json").write_bytes(b"{}")
+    whole = vectors.manifest()
+    monkeypatch.setattr(vectors, "folder", lambda: tmp_path)
+    monkeypatch.setattr(vectors, "manifest", lambda: whole)
+    with pytest.raises(InputError, match="E-VECTORS"):
+        vectors.read_bytes("L0.json")
+    with pytest.raises(InputError, match="is not there"):
+        vectors.read_bytes("L1.json")
+
+
+@pytest.mark.parametrize("name", ["MANIFEST", *LAYERS, *(f"L5/{n}" for n in RUNS)])
+def test_files_have_the_form_of_the_schema(name):
+    jsonschema.validate(json.loads((FOLDER / f"{name}.json").read_text()), SCHEMA)
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_ids_are_unique_and_pieces_known(layer):
+    ids = [v.id for v in vectors.layer(layer)]
+    assert len(set(ids)) == len(ids)
+    assert {v.piece for v in vectors.layer(layer)} <= {*PIECES, "simulate"}
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_hexadecimal_and_decimal_are_the_same_number(layer):
+    document = json.loads((FOLDER / f"{layer}.json").read_text())
+
+    def walk(thing):
+        if isinstance(thing, dict):
+            if "hex" in thing:
+                assert np.array_equal(np.array(vectors.from_hex(thing["hex"])), np.array(thing["decimal"]))
+            for inner in thing.values():
+                walk(inner)
+        elif isinstance(thing, list):
+            for inner in thing:
+                walk(inner)
+
+    walk(document)
+
+
+@pytest.mark.parametrize("layer", ["L0", "L1", "L2", "L3", "L7"])
+def test_expected_values_are_the_exact_ones_rounded_once(layer):
+    for vector in vectors.layer(layer):
+        found = exactly(vector)
+        for name, expected in vector.expect.items():
+            value = found[name]
+            right = np.array(value) if is_flag(value) else np.array(converted_floats_of(value))
+            assert np.array_equal(right, expected.value), (vector.id, name)
+
+
+def test_points_take_the_stated_branch():
+    seen = set()
+    for vector in (v for v in vectors.layer("L1") if v.piece == "contact_law"):
+        found = exactly(vector)
+        assert {k: found[k] for k in ("touching", "sliding")} == {k: vector.branch[k] for k in ("touching", "sliding")}
+        force = vector.inputs["K_N"] * vector.inputs["xi"] + vector.inputs["C_N"] * vector.inputs["xi_rate"]
+        assert vector.branch["tension cut"] == bool(vector.inputs["xi"] >= 0 and force < 0), vector.id
+        flagged = {"stick": (True, False), "slip": (True, True), "above the plate": (False, False)}
+        for flag, branch in flagged.items():
+            if flag in vector.flags:
+                assert (found["touching"], found["sliding"]) == branch, vector.id
+        seen.add((found["touching"], found["sliding"], vector.branch["tension cut"]))
+    assert seen == {
+        (False, False, False),
+        (True, False, False),
+        (True, True, False),
+        (True, False, True),
+        (True, True, True),
+    }
+
+
+def test_steps_take_the_stated_pattern():
+    patterns = set()
+    for vector in vectors.layer("L4"):
+        out = ask(NumpyEngine(), vector)
+        assert branch_of(out["anchored"], out["sliding"]) == vector.branch, vector.id
+        pattern = vector.flags[2]
+        assert [i for i, c in enumerate(pattern) if c == "s"] == vector.branch["stick"], vector.id
+        assert [i for i, c in enumerate(pattern) if c == "S"] == vector.branch["slip"], vector.id
+        patterns.add(pattern)
+    assert len(patterns) == len(vectors.layer("L4")) > 100
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_every_vector_hunts_mistakes_of_its_rules_and_moves_them_by_a_hundred_bars(layer):
+    for vector in vectors.layer(layer):
+        rules = {vector.rule} | {e.rule for e in vector.expect.values()}
+        assert vector.hunts and set(vector.hunts) == set(vector.resolving), vector.id
+        assert min(vector.resolving.values()) >= 100, vector.id
+        assert {BY_ID[m].rule for m in vector.hunts} <= rules, vector.id
+
+
+@pytest.mark.parametrize("layer", ["L0", "L2", "L3", "L7"])
+def test_the_stated_resolving_power_is_what_the_mistakes_do(layer):
+    for vector in vectors.layer(layer)[::4]:
+        for id_, stated in vector.resolving.items():
+            worst = max(c.worst for c in compare(vector, ask(BY_ID[id_].backend(), vector)))
+            # Written with two digits.
+            assert min(worst, 1e99) == pytest.approx(stated, rel=0.06), (vector.id, id_)
+
+
+def test_every_rule_has_vectors():
+    shown = {e.rule for layer in LAYERS for v in vectors.layer(layer) for e in v.expect.values()}
+    assert shown >= set(ORDER) - {"S2"}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_runs_are_whole(name):
+    run = vectors.trajectory(name)
+    t = run.columns["t_s"]
+    assert np.all(np.diff(t) > 0)
+    assert all(np.all(np.isfinite(c)) for c in run.columns.values())
+    assert all(np.all(np.diff(run.columns[f"bar_{k}"]) >= 0) for k in ("W_rad_s", "x_m")), "bars grow with the run"
+    Lambda = run.columns["Lambda"].reshape(-1, 3, 3)
+    # Drift of the plain update over some 1e5 steps of rounding.
+    assert np.abs(Lambda @ Lambda.swapaxes(1, 2) - np.eye(3)).max() < 1e-12
+
+
+def test_trajectories_reach_the_second_main_impact():
+    for name in (
+        "table_3_1",
+        "planar",
+        "out_of_plane",
+        "spinning",
+        "two_coefficients",
+        "four_points",
+        "oblique_inertia",
+    ):
+        run = vectors.trajectory(name)
+        assert len(run.meta["impacts"]) >= 2, name
+        assert run.meta["horizon_s"]["float64"] >= run.meta["impacts"][1]["t_s"], name
+        assert all(i["bar_s"] < 1e-8 for i in run.meta["impacts"])
+
+
+def test_the_bars_at_the_horizon_are_a_millionth_of_the_signal():
+    for name in vectors.trajectory_names():
+        run = vectors.trajectory(name)
+        rows = run.columns["t_s"] <= run.meta["horizon_s"]["float64"]
+        signal = np.abs(run.columns["W_rad_s"]).max()
+        if signal:
+            assert run.columns["bar_W_rad_s"][rows].max() <= 1e-6 * signal, name

@@ -1,0 +1,88 @@
+"""The judge judged: every mistake is found and named by its pieces, no control is rejected."""
+
+import json
+
+import pytest
+
+from rockref.conformance import blackbox, vectors
+from rockref.conformance.judge import judge
+from rockref.conformance.runs import judge_runs
+from rockref.conformance.verdict import verdict
+from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
+from rockref.conformance.zoo.run import case_of_control, case_of_mistake, in_markdown, in_words, run_zoo, summary
+
+#: The share of mistakes that must be named by the planted rule, with pieces shown and as a black box (top two).
+WITH_PIECES, BLACK_BOX = 0.95, 0.80
+
+
+@pytest.fixture(scope="module")
+def cases():
+    """All mistakes, by their pieces."""
+    return [case_of_mistake(m, black_box=False) for m in MISTAKES]
+
+
+def test_the_zoo_is_large_enough():
+    assert len(MISTAKES) >= 40 and len(CONTROLS) >= 8
+    assert (
+        len(BY_ID) == len(MISTAKES)
+        and {m.id: {"rule": m.rule, "says": m.says} for m in MISTAKES} == vectors.manifest()["mistakes"]
+    )
+
+
+def test_the_thirty_five_of_the_study_are_there():
+    assert {f"Z{i:02d}" for i in range(1, 36)} <= set(BY_ID)
+
+
+def test_every_mistake_is_detected(cases):
+    assert [c["id"] for c in cases if not c["detected"]] == []
+
+
+def test_nearly_every_mistake_is_named_by_its_rule(cases):
+    wrong = [f"{c['id']}: planted {c['rule']}, named {c['named']}" for c in cases if not c["attributed"]]
+    assert len(wrong) <= (1 - WITH_PIECES) * len(cases), wrong
+
+
+@pytest.mark.parametrize("control", CONTROLS, ids=lambda c: c.id)
+def test_controls_are_let_through(control):
+    case = case_of_control(control, runs=False)
+    assert not case["rejected"], case
+
+
+def test_the_summary_counts_the_cases():
+    some = [case_of_mistake(BY_ID["Z01"], black_box=True), case_of_control(CONTROLS[0], runs=False)]
+    found = summary(some)
+    keys = ["detected", "attributed", "attributed_black_box", "planted", "controls", "controls_rejected", "cases"]
+    assert list(found) == keys
+    assert [found[k] for k in keys[:-1]] == [1, 1, 1, 1, 1, 0]
+    json.dumps(found, allow_nan=False)
+    assert "detected 1/1" in in_words(found) and "| Z01 | N1 |" in in_markdown(found)
+
+
+@pytest.mark.parametrize("id_", ["Z02", "Z12", "Z25", "Z27", "Z81"])
+def test_a_black_box_resembles_its_own_mistake(id_):
+    near = blackbox.neighbours(blackbox.fingerprint(BY_ID[id_].backend()))
+    assert near[0][0] == id_ and near[0][1] > 0.999
+
+
+def test_the_law_itself_resembles_nobody():
+    near = blackbox.neighbours(blackbox.fingerprint(CONTROLS[0].backend()))
+    assert near[0][1] == 0.0
+
+
+@pytest.mark.slow
+def test_the_whole_zoo_reaches_its_figures():
+    found = run_zoo()
+    assert found["detected"] == found["planted"] and found["controls_rejected"] == 0
+    assert found["attributed"] >= WITH_PIECES * found["planted"]
+    assert found["attributed_black_box"] >= BLACK_BOX * found["planted"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id_", ["C02", "C05", "C10"])
+def test_controls_pass_whole_trajectories(id_):
+    control = next(c for c in CONTROLS if c.id == id_)
+    assert [r.id for r in judge_runs(control.backend(), "float64") if r.failed] == []
+
+
+def test_a_mistake_that_leaves_the_pieces_alone_is_named_too():
+    assert verdict(judge(BY_ID["Z15"].backend(), ["L1", "L2", "L3", "L4"])).rule == "T3"
