@@ -16,9 +16,14 @@ from rockref.model.rotation import exponential
 STIFFNESS, RATIO, FRICTION = (1e5, 1e9), (0.0, 1.0), (0.0, 1.2)
 
 
+#: Smaller numbers are drawn as zero: the product of two 1e-206 m underflows, and nothing of the kind is on a plate.
+#: Lengths of atoms, and their squares, are well above it. Underflow has tests of its own.
+LEAST = 1e-40
+
+
 def between(low: float, high: float) -> st.SearchStrategy[float]:
-    """Ordinary numbers of a range: no subnormals, they have tests of their own."""
-    return st.floats(low, high, allow_subnormal=False)
+    """Ordinary numbers of a range: zero, or not too small."""
+    return st.floats(low, high, allow_subnormal=False).map(lambda a: a if abs(a) >= LEAST else 0.0)
 
 
 def vectors(size: float, n: int = 3) -> st.SearchStrategy[np.ndarray]:

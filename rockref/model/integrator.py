@@ -44,15 +44,21 @@ class Inertia(NamedTuple):
 
 
 def prepared_inertia(block: Block) -> Inertia:
-    """The inertia as the step uses it. A diagonal one gives the same bits as the full matrix and costs a tenth."""
+    """The inertia as the step uses it: as a diagonal, which costs a tenth, where the body axes are principal.
+
+    A batch needs full matrices as soon as one of its blocks does. The others keep the inverse that they have alone,
+    1 / J: that by cofactors differs from it in the last bit.
+    """
     J = block.inertia
     diagonal = np.arange(3), np.arange(3)
-    if np.count_nonzero(J) == np.count_nonzero(J[(..., *diagonal)]):
-        principal = empty(J.shape[:-2], (3,), J.dtype)
-        principal[...] = J[(..., *diagonal)]
+    principal = empty(J.shape[:-2], (3,), J.dtype)
+    principal[...] = J[(..., *diagonal)]
+    is_principal = np.count_nonzero(J, axis=(-2, -1)) == np.count_nonzero(principal, axis=-1)
+    if np.all(is_principal):
         return Inertia(principal, 1 / principal)
     J_inverse = np.empty_like(J)
     J_inverse[...] = inverse(J)
+    J_inverse[is_principal] = (1 / principal[is_principal])[..., None] * np.eye(3, dtype=J.dtype)
     return Inertia(J, J_inverse)
 
 

@@ -124,10 +124,15 @@ def check_points(points: ContactPoints) -> None:
         raise InputError("E-RANGE", "mu_0", "is below mu", "Static friction is at least as large as dynamic friction.")
 
 
+def whole_part(quotient: float) -> int:
+    """How many whole ones are in it; what is short of one by the rounding of a quotient counts as one."""
+    return int(np.floor(quotient * (1 + 4 * np.finfo(float).eps) + 1e-9))
+
+
 def output_steps(problem: Problem) -> np.ndarray:
     """Numbers of the steps that are recorded: for each output instant i / output_rate the nearest step, from 0."""
-    last = int(np.floor(problem.duration / problem.step + 1e-9))
-    rows = int(np.floor(last * problem.step * problem.output_rate + 1e-9)) + 1
+    last = whole_part(problem.duration / problem.step)
+    rows = whole_part(last * problem.step * problem.output_rate) + 1
     return np.unique(np.rint(np.arange(rows) / (problem.output_rate * problem.step)).astype(np.int64))
 
 

@@ -1,14 +1,14 @@
-"""Every example here runs the law in NumPy: minutes in all, so these tests belong to `make test-all`."""
+"""Runs of the law in NumPy, hundreds of them: a minute in all, so these tests belong to `make test-all`."""
 
 from pathlib import Path
 
 import pytest
 
-HERE = Path(__file__).parent
+RUNS = [Path(__file__).parent / name for name in ("test_runs.py", "test_symmetries.py")]
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     for item in items:
-        if HERE in item.path.parents:
+        if item.path in RUNS:
             item.add_marker(pytest.mark.slow)

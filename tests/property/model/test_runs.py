@@ -67,13 +67,13 @@ def test_alone_or_in_a_batch_the_same_bits(dtype, singles):
 
 
 @RUNS
-@given(st.lists(problems(radius=True), min_size=6, max_size=6))
-def test_a_batch_of_two_axes(singles):
-    grid = [stack(singles[:3]), stack(singles[3:])]
-    together = simulate(stack(grid))
+@given(problems(radius=True), problems(radius=True), problems(radius=True))
+def test_a_batch_of_two_axes(a, b, c):
+    together = simulate(stack([stack([a, b, c]), stack([c, a, b])]))
     assert together.problem.batch == (2, 3)
+    alone = [simulate(problem) for problem in (a, b, c)]
     for i in range(6):
-        assert identical(together[i // 3, i % 3], simulate(singles[i]))
+        assert identical(together[i // 3, i % 3], alone[[0, 1, 2, 2, 0, 1][i]])
 
 
 @RUNS

@@ -102,6 +102,16 @@ class TestInertia:
         assert prepared.J.shape == (2, 3)
         assert prepared.J.strides[0] == prepared.J.itemsize
 
+    def test_a_batch_of_diagonal_and_full_inertias_inverts_each_as_alone(self):
+        full = np.array([[2.1, 0.1, 0.05], [0.1, 2.2, 0.03], [0.05, 0.03, 0.09]])
+        problems = [MODEL.problem(), MODEL.replace(inertia=full).problem(), MODEL.replace(mass=60.0).problem()]
+        together = integrator.prepared_inertia(as_arrays(stack(problems)).block)
+        alone = [integrator.prepared_inertia(as_arrays(problem).block).J_inverse for problem in problems]
+        assert together.J_inverse.shape == (3, 3, 3)
+        assert np.array_equal(together.J_inverse[0], np.diag(alone[0]))
+        assert np.array_equal(together.J_inverse[1], alone[1])
+        assert np.array_equal(together.J_inverse[2], np.diag(alone[2]))
+
 
 class TestFirstEvaluation:
     def test_release_is_in_equilibrium_with_the_wire(self):

@@ -37,6 +37,11 @@ class TestRows:
     def test_every_step_at_the_rate_of_the_steps(self):
         assert np.array_equal(loop.output_steps(MODEL.problem(duration=1e-4, output_rate=1e5)), np.arange(11))
 
+    def test_the_last_row_is_there_in_long_runs_of_small_steps(self):
+        """1.3355 / 4e-8 is 33387499.999999996 in float64."""
+        for step in (4e-8, 2.5e-8, 1.25e-8, 1e-7):
+            assert len(loop.output_steps(MODEL.problem(duration=1.3355, step=step))) == 2672
+
     def test_shapes_and_times(self):
         r = loop.simulate(MODEL.problem(duration=0.005, output_rate=1000.0))
         assert r.t == pytest.approx([0, 0.001, 0.002, 0.003, 0.004, 0.005], abs=1e-17)
