@@ -25,6 +25,7 @@ from rockref.effects.friction.uneven_foot_friction import UnevenFootFriction
 from rockref.effects.friction.viscous_friction import ViscousFriction
 from rockref.effects.loads.base_vibration import BaseVibration
 from rockref.effects.loads.cable_restraint import CableRestraint
+from rockref.effects.loads.gravity_deviation import GravityDeviation
 from rockref.effects.loads.lingering_wire_pull import LingeringWirePull
 from rockref.effects.loads.none import NoLoad
 from rockref.effects.loads.plate_tilt import PlateTilt
@@ -43,10 +44,13 @@ from rockref.effects.shape.foot_defects import FootDefects
 from rockref.effects.shape.inertia_deviation import InertiaDeviation
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.shape.none import NoShapeEffect
+from rockref.effects.shape.rounded_corners import RoundedCorners
 from rockref.effects.shape.rounded_feet import RoundedFeet
 from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
 from rockref.effects.support.compliant_support import CompliantSupport
 from rockref.effects.support.none import RigidSupport
+from rockref.effects.tracking.plate_pose import PlatePose
+from rockref.effects.tracking.tag_frame import TagFrame
 from rockref.effects.user import load_user
 from rockref.model.errors import InputError
 
@@ -66,6 +70,12 @@ IN_STEP_ORDER: tuple[type[Effect], ...] = (
 #: Every effect by its id.
 EFFECTS: dict[str, type[Effect]] = {effect.id: effect for effect in IN_STEP_ORDER}
 
+#: Effects that only tosses know: a released block stands on its feet, and a gyroscope sees no pose. They are read and
+#: written like all others and act after them; what looks for effects in releases does not try them.
+OF_TOSSES: dict[str, type[Effect]] = {
+    effect.id: effect for effect in (RoundedCorners, GravityDeviation, TagFrame, PlatePose)
+}
+
 #: The answer "none" to each question, in the order of the questions.
 NONE: dict[str, type[Effect]] = {
     effect.question: effect
@@ -81,8 +91,8 @@ QUESTIONS: dict[str, tuple[type[Effect], ...]] = {
 }
 
 __all__ = [
-    "EFFECTS", "IN_STEP_ORDER", "NONE", "QUESTIONS", "find", "from_table", "in_step_order", "load_user", "measured",
-    "parse", "to_table",
+    "EFFECTS", "IN_STEP_ORDER", "NONE", "OF_TOSSES", "QUESTIONS", "find", "from_table", "in_step_order", "load_user",
+    "measured", "parse", "to_table",
 ]  # fmt: skip
 
 
@@ -90,6 +100,8 @@ def find(id: str, where: str = "effect") -> type[Effect]:
     """The effect of this id. Raises InputError (E-EFFECT) that suggests the nearest name."""
     if id in EFFECTS:
         return EFFECTS[id]
+    if id in OF_TOSSES:
+        return OF_TOSSES[id]
     near = difflib.get_close_matches(id.lower(), EFFECTS, 1)
     cure = f"Did you mean {near[0]!r}?" if near else "`rockref effects` lists them."
     raise InputError("E-EFFECT", where, f"there is no effect {id!r}", cure)
@@ -185,7 +197,7 @@ def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
     for id in ids:
         if ids.count(id) > 1:
             raise InputError("E-EFFECT", f"effect {id}", "is given twice", "Give it once, with all its parameters.")
-    rank = {id: i for i, id in enumerate(EFFECTS)}
+    rank = {id: i for i, id in enumerate({**EFFECTS, **OF_TOSSES})}
     return tuple(sorted(effects, key=lambda effect: rank.get(effect.id, len(rank))))
 
 

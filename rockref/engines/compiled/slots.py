@@ -45,5 +45,5 @@ IN_THE_STEP = tuple(
 OUTSIDE_THE_STEP = frozenset(
     "foot_defects rounded_feet uneven_foot_stiffness uneven_foot_damping uneven_foot_friction mass_eccentricity "
     "inertia_deviation dimension_deviation release_velocity gyro_misalignment gyro_scale gyro_drift gyro_bandwidth "
-    "gyro_saturation clock_error none".split()
+    "gyro_saturation clock_error none rounded_corners gravity_deviation tag_frame plate_pose".split()
 )
