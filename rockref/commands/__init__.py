@@ -12,6 +12,7 @@ MODULES: tuple[str, ...] = (
     "compare",
     "fit",
     "identify",
+    "sensitivity",
     "diagnose",
     "add",
     "plan",

@@ -19,24 +19,28 @@ from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError
 from rockref.model.parameters import GENES_12, TABLE_3_1, chromosome_12, from_chromosome_12
 
-#: The steps of Fig. 3.5 [s]; the source states that one of three is 3e-6 s.
-STEPS = (1e-5, 3e-6, 1e-6)
+#: The steps of Fig. 3.5 [s]; the source states that one of three is 3e-6 s. The finest is decided.
+STEPS = (1e-5, 3e-6, 1e-6, 3e-7)
 #: 1 mm of wire at the top of the block [rad].
 RELEASE_ERROR = float(np.radians(0.08))
 #: A change is significant where it exceeds this share of the response, quadratic means up to the second main impact,
 #: about the transverse or longitudinal axis. Decided: the horizon's tenth.
 SIGNIFICANT = 0.1
+#: Shares of the motion at which responses are said to part; decided: what one sees, and what one would call another
+#: motion.
+SHARES = (0.1, 0.5)
 
 
 @dataclass(frozen=True, eq=False)
 class Family:
-    """Responses that should be alike: labels; t (N,) [s]; crv (R, N, 3) [rad/s], the first being the reference; horizon
-    (3,) [s], until when all agree with it, by axis; impacts, the main impacts of each [s]."""
+    """Responses that should be alike: labels; t (N,) [s]; crv (R, N, 3) [rad/s], the first being the reference;
+    horizons (2, 3) [s], until when all agree with it to a tenth and to a half of the motion, by axis; impacts, the main
+    impacts of each [s]."""
 
     labels: tuple[str, ...]
     t: np.ndarray
     crv: np.ndarray
-    horizon: np.ndarray
+    horizons: np.ndarray
     impacts: tuple[np.ndarray, ...]
 
 
@@ -49,7 +53,8 @@ def family(labels: Sequence[str], crv: np.ndarray, align: bool = False) -> Famil
     if align:
         shifts = [i[0] - impacts[0][0] for i in impacts]
         compared = [_shifted(t, c, s) for s, c in zip(shifts, crv, strict=True)]
-    return Family(tuple(labels), t, crv, common_horizon(t, compared), impacts)
+    horizons = np.array([common_horizon(t, compared, share) for share in SHARES])
+    return Family(tuple(labels), t, crv, horizons, impacts)
 
 
 def _shifted(t: np.ndarray, crv: np.ndarray, shift: float) -> np.ndarray:
@@ -91,14 +96,15 @@ def release_angle(
 
 @dataclass(frozen=True)
 class Digits:
-    """Significant digits of one parameter: name, value, stated number, found number; change, of the response when the
-    value is off by half of the found last digit."""
+    """Significant digits of one parameter: name, value, stated number, found number; change of the response when the
+    value is off by half of the last digit, for the found and for the stated number."""
 
     name: str
     value: float
     stated: int
     found: int
     change: float
+    change_stated: float
 
 
 def significant_digits(
@@ -137,8 +143,9 @@ def significant_digits(
         worst = np.maximum.accumulate(change[::-1])[::-1]
         enough = np.flatnonzero(worst < threshold)
         found = int(enough[0]) + 1 if len(enough) else most + 1
-        last = change[min(found, most) - 1]
-        table.append(Digits(name, float(genes[i]), stated_digits(given.value, given.precision), found, float(last)))
+        stated = stated_digits(given.value, given.precision)
+        last = float(change[min(found, most) - 1])
+        table.append(Digits(name, float(genes[i]), stated, found, last, float(change[stated - 1])))
     return table
 
 

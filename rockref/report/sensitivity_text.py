@@ -1,0 +1,73 @@
+"""A sensitivity study in words and tables, for a terminal and for pages."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rockref.identify.sensitivity_study import AXES
+from rockref.report.page import Table
+from rockref.report.text import print_table
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+FAMILIES = {
+    "time_step": "time step",
+    "last_digits": "±0.5 of the last digit, eleven parameters",
+    "release_angle": "release angle ±0.08°, first impacts laid over one another",
+}
+
+
+def print_sensitivity(console: Console, result: dict[str, Any]) -> None:
+    """Print what a study found (`rockref.identify.sensitivity_study.record`)."""
+    for sentence in sentences(result):
+        console.print(sentence, highlight=False, markup=False)
+    for table in (horizons_table(result), digits_table(result)):
+        print_table(console, table)
+
+
+def sentences(result: dict[str, Any]) -> list[str]:
+    """How predictable the block is, in words."""
+    g = result["growth"]
+    factor, spread = g["factor_per_impact"], g["spread_factor"]
+    return [
+        f"A small difference grows {factor:.3g} times from one main impact to the next (one standard deviation over "
+        f"{g['runs']} differences: from {factor / spread:.2g} to {factor * spread:.3g}): {g['digits_per_impact']:.2f} "
+        "decimal digits are lost at each impact."
+    ]
+
+
+def horizons_table(result: dict[str, Any]) -> Table:
+    """Until when responses agree."""
+    rows = []
+    for name, words in FAMILIES.items():
+        f = result["families"][name]
+        for key, share in (("agree_to_0.1_until_s", "a tenth"), ("agree_to_0.5_until_s", "a half")):
+            times = [f[key][axis] for axis in AXES]
+            end = f"beyond {f['duration_s']:.1f}"
+            rows.append([words, share, *(end if t is None else f"{t:.2f}" for t in times)])
+    note = "Quadratic mean of the difference over 0.1 s, in parts of the quadratic mean of the motion about the axis."
+    columns = ("what is changed", "agree to", "main (s)", "transverse (s)", "longitudinal (s)")
+    return Table("Until when responses agree", columns, rows, note)
+
+
+def digits_table(result: dict[str, Any]) -> Table:
+    """The significant digits of Table 3.1, as stated and by the definition."""
+    rows = [
+        [
+            d["name"],
+            f"{d['value']:.4g}",
+            str(d["stated"]),
+            f"{100 * d['change_stated']:.0f} %",
+            str(d["found"]),
+            f"{100 * d['change']:.1f} %",
+        ]
+        for d in result["significant_digits"]
+    ]
+    note = (
+        "Change: of the response up to the second main impact when the value is off by half of its last digit, about "
+        "the axis that changes more, transverse or longitudinal. Found: the fewest digits that change it by less than "
+        "a tenth."
+    )
+    columns = ("parameter", "value", "digits stated", "change", "digits found", "change")
+    return Table("Significant digits of Table 3.1", columns, rows, note)

@@ -1,0 +1,36 @@
+"""Figures and tables of a sensitivity study, from made-up responses."""
+
+import numpy as np
+import pytest
+
+from rockref.identify.predictability import Growth
+from rockref.identify.sensitivity import Digits, family
+from rockref.identify.sensitivity_study import Study, record
+from rockref.report.figures import rendered
+from rockref.report.sensitivity_figures import sensitivity_figures
+from rockref.report.sensitivity_text import digits_table, horizons_table, sentences
+
+
+@pytest.fixture(scope="module")
+def made_up():
+    t = np.arange(0, 3, 5e-4)
+    base = np.stack([np.abs(np.sin(4 * t)) * np.sign(np.cos(2 * t)), np.cos(60 * t), np.sin(80 * t)], axis=-1)
+    f = family(["a", "b"], np.array([base, base * (1 + 0.2 * (t > 2))[:, None]]))
+    g = Growth(np.array([0.5, 1.3]), np.array([[1.0, 9.0], [1.0, 11.0]]), 10.0, 1.2)
+    return Study(0, f, f, f, (Digits("K_N", 6e7, 1, 2, 0.04, 0.3),), g)
+
+
+def test_four_figures_with_the_same_bytes_every_time(made_up):
+    figures = sensitivity_figures(made_up)
+    assert len(figures) == 4
+    name = "growth_of_differences"
+    assert rendered(figures[name], "svg") == rendered(sensitivity_figures(made_up)[name], "svg")
+    assert rendered(figures["figure_3_5_time_step"], "png").startswith(b"\x89PNG")
+
+
+def test_words_and_tables(made_up):
+    result = record(made_up)
+    assert "10 times" in sentences(result)[0] and "1.00 decimal digits" in sentences(result)[0]
+    assert horizons_table(result).rows[0][2].startswith("1.9")  # averaged over 0.1 s, seen just before 2 s
+    assert horizons_table(result).rows[1][2] == "beyond 3.0"
+    assert digits_table(result).rows == [["K_N", "6e+07", "1", "30 %", "2", "4.0 %"]]
