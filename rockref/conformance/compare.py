@@ -128,11 +128,33 @@ def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> li
     if all(out.get(name) is None for name in RESULTS[vector.piece]):
         return no_answer(vector, f"gives none of {', '.join(RESULTS[vector.piece])}")
     checks = [compare_one(name, vector, out, profile) for name in asked_for(vector, out)]
+    if vector.piece == "simulate" and out.get("t") is not None:
+        checks += rows_at_wrong_instants(vector, out["t"])
     decided_wrongly = any(c.failed for c in checks if c.name.partition("@")[0] in FLAGS)
     if not decided_wrongly:
         return checks
     dependent = ("F_T", "s", "F_stick", "F_slip", "s_stick", "s_slip")
     return [Check(**{**vars(c), "follows": True}) if c.failed and c.name in dependent else c for c in checks]
+
+
+def wrong_instants(got: Any, wanted: np.ndarray, step: float) -> str:
+    """What is wrong with the instants of the rows: each is within half a step of what was asked."""
+    try:
+        got = np.asarray(got, float)
+    except (TypeError, ValueError):
+        return "t holds no numbers"
+    if got.shape != wanted.shape:
+        return f"t has shape {got.shape}, not {wanted.shape}"
+    off = np.flatnonzero(~(np.abs(got - wanted) <= 0.5 * step))
+    return f"row {off[0]} is at t = {float(got[off[0]]):.6g} s, not {wanted[off[0]]:.6g} s" if len(off) else ""
+
+
+def rows_at_wrong_instants(vector: Vector, got: Any) -> list[Check]:
+    """A failure of S2 where the rows of a short run (one a step) are not at their instants."""
+    step = float(vector.inputs["step"])
+    wanted = step * np.arange(round(float(vector.inputs["duration"]) / step) + 1)
+    said = wrong_instants(got, wanted, step)
+    return [Check(vector.id, vector.layer, "S2", "t", "outside", float("inf"), note=said)] if said else []
 
 
 def asked_for(vector: Vector, out: dict[str, Any]) -> list[str]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.asking import as_mapping
-from rockref.conformance.compare import grade_of, in_bars
+from rockref.conformance.compare import grade_of, in_bars, wrong_instants
 from rockref.conformance.vectors import Trajectory, trajectory, trajectory_names, window_names
 from rockref.model.problem import Problem
 
@@ -62,7 +62,7 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
     check = RunCheck(t.id, t.title, "bitwise", horizon_s=horizon)
     rows = int(np.sum(instants <= horizon * (1 + 1e-12)))
     ratios: dict[str, np.ndarray] = {}
-    said = wrong_instants(out.get("t"), instants, t.problem.step)
+    said = "" if out.get("t") is None else wrong_instants(out["t"], instants, t.problem.step)
     if said:
         return replace(check, grade="outside", worst=np.inf, note=said)
     for key, right in expected.items():
@@ -89,17 +89,6 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
         if any(i["grade"] == "outside" for i in check.impacts):
             check.grade = "outside"
     return check
-
-
-def wrong_instants(got: Any, instants: np.ndarray, step: float) -> str:
-    """What is wrong with the instants of the rows, where they are given: each within half a step of what was asked."""
-    if got is None:
-        return ""
-    got = np.asarray(got)
-    if got.dtype.kind not in "fiu" or got.shape != instants.shape:
-        return f"t has shape {got.shape}, not {instants.shape}"
-    off = np.flatnonzero(~(np.abs(got - instants) <= 0.5 * step))
-    return f"row {off[0]} is at t = {float(got[off[0]]):.6g} s, not {instants[off[0]]:.6g} s" if len(off) else ""
 
 
 def first_outside(

@@ -82,7 +82,7 @@ def anchors() -> Iterator[Case]:
         s, u_t = d.vector(1e-5, 2), d.vector(1e-5, 2)
         v = d.vector(0.03, 2) if i % 2 else ZERO
         yield ask("T5", kept, ("stick", "anchor kept"), xi=d.decade(1e-6, 1e-4), s=s, u_t=u_t, v_slide=v, **GLUED)
-    born = {"F_T": T5, "s": T5, "trace.s_trial": T5, "touching": T5, "sliding": T5}
+    born = {"F_T": T5, "s": T5, "trace.s_trial": T5, "touching": T5, "sliding": ("T2", "T2")}
     for i in range(6):
         stale = d.vector(1e-4, 2) if i else np.array([2.0**-30, 0.0])
         place = {"s": stale, "u_t": d.vector(1e-4, 2), "xi_rate": d.decade(1e-3, 0.3)}
@@ -131,6 +131,14 @@ def cone() -> Iterator[Case]:
             fields = decided | ({"F_T": ("T1", "T3")} if ratio < 1 else {"F_T": ("T3", "T3")})
             s = towards(direction, ratio, xi * 6e7, 0.25)
             yield ask("T2", fields, ("stick" if ratio < 1 else "slip", where, "oblique"), xi=xi, s=s)
+    # The damper has its part in the cone: sinking, the cone is wider than the spring makes it; rising, narrower.
+    for rate, ratio in ((0.5, 1.25), (0.5, 1.75), (-0.5, 0.75), (-0.5, 0.25)):
+        xi = d.decade(1e-6, 1e-4)
+        xi_rate = rate * xi * FOOT["K_N"] / FOOT["C_N"]
+        fields = decided | {"F_T": ("T1", "T3") if ratio < 1 + rate else ("T3", "T3")}
+        s = towards(d.between(0.1, 1.4), ratio, xi * 6e7, 0.25)
+        flags = ("stick" if ratio < 1 + rate else "slip", "sinking" if rate > 0 else "rising")
+        yield ask("T2", fields, flags, xi=xi, xi_rate=xi_rate, s=s)
     # Pulled by spring and damper against each other: the sum is inside, each alone is outside; and the other way round.
     for spring, damper, flag in ((1.5, -1.0, "stick"), (0.7, 0.6, "slip")):
         F_N, mu = 2.0**-17 * 6e7, 0.25
@@ -173,6 +181,13 @@ def two_coefficients() -> Iterator[Case]:
             yield ask(
                 "T6", fields, ("slip" if sliding else "stick", "between the cones"), xi=xi, s=s, sliding=sliding, **made
             )
+    # Sinking at such a rate that the damper doubles the normal force.
+    for ratio, sliding in ((3.0, False), (3.0, True)):
+        xi = d.decade(1e-6, 1e-4)
+        s, rate = towards(d.between(0, 6.2), ratio, xi * 6e7, 0.25), xi * FOOT["K_N"] / FOOT["C_N"]
+        fields = {"sliding": ("T6", "T6"), "trace.threshold": ("T6", "T6")}
+        flags = ("slip" if sliding else "stick", "between the cones", "sinking")
+        yield ask("T6", fields, flags, xi=xi, xi_rate=rate, s=s, sliding=sliding, **made)
     for ratio in (2.2, 3.0):
         s = towards(d.between(0, 6.2), ratio, 2.0**-17 * 6e7, 0.25)
         yield ask("T3", SLIDE, ("slip", "outside both cones"), s=s, **made)

@@ -18,6 +18,8 @@ from rockref.conformance.maker.scenes import EVEN, at_rest
 
 #: Half of the height, and feet that are 2^-17 m (8 micrometres) in the plate.
 UP, IN = HEIGHT / 2, 2.0**-17
+#: Where the block stands.
+ASIDE = np.array([0.25, -0.125])
 Z = np.array([0.0, 0.0, 1.0])
 #: The internal feet were sliding.
 SLID = np.array([False] * 4 + [True] * 4)
@@ -28,6 +30,10 @@ ICE = {"mu": 0.0, "mu_0": 0.0, "C_T": 0.0}
 SOFT = {"K_N": 100.0, "K_T": 100.0, "C_N": 1.0, "C_T": 1.0}
 #: Feet that could push by nothing worth a bar, whatever is wrong with them.
 GONE = dict.fromkeys(SOFT, 2.0**-60)
+
+
+#: A gravity that is worth no bar [m/s2].
+WEIGHTLESS = 2.0**-60
 
 
 def ask(
@@ -66,14 +72,14 @@ def stand_ins(fields: dict[str, str], steps: int) -> dict[str, str]:
 
 
 def standing(depth: float = IN) -> np.ndarray:
-    """Upright, the internal feet `depth` in the plate, the external ones clear of it."""
-    return np.array([0.0, 0.0, UP - depth])
+    """Upright beside the origin, the internal feet `depth` in the plate, the external ones clear of it."""
+    return np.array([*ASIDE, UP - depth])
 
 
 def held(u: np.ndarray) -> Any:
-    """Anchors so far from the feet (upright at the origin), per foot."""
+    """Anchors so far from the feet of the upright block, per foot."""
     P = table_3_1(delta_long=EVEN)["P"]
-    return {"s": P[:, :2] + u, "anchored": np.array([False] * 4 + [True] * 4)}
+    return {"s": P[:, :2] + ASIDE + u, "anchored": np.array([False] * 4 + [True] * 4)}
 
 
 def flight() -> Iterator[Case]:
@@ -86,10 +92,10 @@ def flight() -> Iterator[Case]:
         return ask(fields, flag, steps, high, made=ICE | GONE, **(long | changes))
 
     v = (1.0, -0.5, 0.25)
-    yield fly({"x_T@1": "S2"}, "drifting sideways", v=v)
-    yield fly({"x_T@3": "S2"}, "drifting sideways", 3, v=v)
+    yield fly({"x_T@1": "S2"}, "drifting sideways", v=v, g=WEIGHTLESS)
+    yield fly({"x_T@3": "S2"}, "drifting sideways", 3, v=v, g=WEIGHTLESS)
     # An acceleration that is given, sideways and up: it is not the weight's.
-    loads: Any = {"a": np.array([3.0, -2.0, 1.5]), "T": np.zeros(3), "F": np.zeros((8, 3))}
+    loads: Any = {"g": WEIGHTLESS, "a": np.array([3.0, -2.0, 1.5]), "T": np.zeros(3), "F": np.zeros((8, 3))}
     yield fly({"x_T@1": "I1"}, "pulled by what the start brings", v=v, **loads)
     yield fly({"x_T@1": "I1"}, "pulled by what the start brings", **loads)
     for g in (9.81, 3.75):
@@ -132,8 +138,11 @@ def friction() -> Iterator[Case]:
     """T5, T1 to T3, T6: what the first row shows of friction."""
     d = Draw(50)
     here = held(np.zeros((8, 2)))
+    lifted: Any = {"made": ICE, "v": 0.5 * Z}
+    yield ask({"anchored@1": "T5"}, "standing", 1, standing(), made=ICE)
+    yield ask({"anchored@2": "T5"}, "lifting off", 2, standing(2.0**-20), **lifted, **here)
     far = np.full((8, 2), 2.0**-10)
-    yield ask({"F_T@0": "T5"}, "touch-down far from the old anchor", 1, standing(), s=far, made=GLUE)
+    yield ask({"F_T@0": "T5"}, "touch-down far from the old anchor", 1, standing(), s=ASIDE + far, made=GLUE)
     for _ in range(2):
         yield ask({"F_T@0": "T1"}, "spring", 1, standing(), made=GLUE, **held(d.vectors(1e-5, 8, 2)))
         yield ask({"F_T@0": "T1"}, "damper", 1, standing(), made=GLUE, v=[d.between(-0.1, 0.1), 0.0625, 0], **here)

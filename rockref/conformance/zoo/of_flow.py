@@ -67,6 +67,12 @@ def anchor_turns_with_the_block(rules: Rules, problem: Problem, state: State, x,
     return evaluate_contact(rules, problem, replace(state, s=s), x, Lambda, v, W)
 
 
+def slid_for_touched(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
+    """What is remembered as touching is sliding."""
+    k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
+    return k, c._replace(touching=c.sliding)
+
+
 def lever_from_the_origin(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
     """The lever arm is counted from the origin of the plate."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
@@ -98,6 +104,7 @@ OF_FLOW = (
     Mistake("Z15", "T3", "sliding force by the normal force of the step before", _one(contact=last_normal_force)),
     Mistake("Z18", "T1", "slip added up after the force: a step late", _one(contact=slip_after_the_force)),
     Mistake("Z20", "T5", "anchor kept in body axes", _one(contact=anchor_turns_with_the_block)),
+    Mistake("Z92", "T5", "the flags of touching and sliding exchanged", _one(contact=slid_for_touched)),
     Mistake("Z23", "A2", "lever arm from the origin of the plate", _one(contact=lever_from_the_origin)),
     Mistake("Z83", "A2", "lever arm left in body axes", _one(contact=lever_in_body_axes)),
     Mistake("Z33", "S2", "the first step finds no forces", _one(start=no_first_evaluation)),

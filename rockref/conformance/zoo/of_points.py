@@ -47,6 +47,11 @@ def slide_of_the_centre(k, x, Lambda, v, W, P):
     return k._replace(v_slide=np.broadcast_to(v[..., None, :2], k.v_slide.shape))
 
 
+def lever_of_the_rate_from_the_origin(k, x, Lambda, v, W, P):
+    u_rate = v[..., None, :] + cross(apply(Lambda, W)[..., None, :], k.u)
+    return k._replace(u_rate=u_rate, xi_rate=-u_rate[..., 2], v_slide=u_rate[..., :2])
+
+
 def turned_the_wrong_way(k, x, Lambda, v, W, P):
     r = apply_to_points(transposed(Lambda), P)
     u = x[..., None, :] + r
@@ -154,6 +159,14 @@ def square_against_limit(size, limit):
     return size * size <= limit
 
 
+def never_slides(size, limit):
+    return size >= 0
+
+
+def always_slides(size, limit):
+    return size < 0
+
+
 def coefficients_exchanged(F_N, was_sliding, mu_0, mu):
     return np.where(was_sliding, mu_0, mu) * F_N
 
@@ -164,6 +177,15 @@ def always_static(F_N, was_sliding, mu_0, mu):
 
 def always_dynamic(F_N, was_sliding, mu_0, mu):
     return mu * F_N
+
+
+def threshold_by_the_spring(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
+    """The threshold takes K_N xi, the damper forgotten."""
+
+    def threshold(F_N, was_sliding, mu_0, mu):
+        return rules.threshold(np.where(xi >= 0, p.K_N * xi, 0 * F_N), was_sliding, mu_0, mu)
+
+    return point_law(rules.replace(threshold=threshold), xi, xi_rate, u_t, v_slide, s, anchored, sliding, p)
 
 
 # -- T3: sliding ----------------------------------------------------------------------------------------------------
@@ -248,6 +270,9 @@ OF_POINTS = (
     ),
     Mistake("Z25", "K1", "angular velocity not turned into plate axes", _rates(body_rate_not_turned)),
     Mistake("Z36", "K1", "sliding velocity of the centre in place of the foot's", _rates(slide_of_the_centre)),
+    Mistake(
+        "Z88", "K1", "rates with the lever from the origin of the plate", _rates(lever_of_the_rate_from_the_origin)
+    ),
     Mistake("Z37", "K1", "points turned by the transposed rotation", _rates(turned_the_wrong_way)),
     Mistake("Z38", "K1", "r x omega for omega x r", _rates(lever_cross_rate)),
     Mistake("Z01", "N1", "adhesion: the damper may pull in rebound", _one(normal=adhesion)),
@@ -270,6 +295,9 @@ OF_POINTS = (
     Mistake("Z48", "T2", "larger component in place of the length", _one(size=larger_component)),
     Mistake("Z49", "T2", "sum of the components in place of the length", _one(size=sum_of_components)),
     Mistake("Z50", "T2", "square of the trial force against the limit", _one(sticks=square_against_limit)),
+    Mistake("Z89", "T2", "never slides", _one(sticks=never_slides)),
+    Mistake("Z90", "T2", "always slides", _one(sticks=always_slides)),
+    Mistake("Z91", "T6", "threshold by the spring's part of the normal force", _one(point_law=threshold_by_the_spring)),
     Mistake("Z17", "T6", "coefficients exchanged in the threshold", _one(threshold=coefficients_exchanged)),
     Mistake("Z51", "T6", "static threshold for sliding points too", _one(threshold=always_static)),
     Mistake("Z52", "T6", "dynamic threshold for sticking points too", _one(threshold=always_dynamic)),
