@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("numba")
 
 import rockref
-from rockref.effects.catalogue import EFFECTS, IN_STEP_ORDER
+from rockref.effects.catalogue import EFFECTS, OF_TOSSES, IN_STEP_ORDER
 from rockref.effects.friction import load_dependent_friction, rolling_resistance
 from rockref.effects.loads import quadratic_drag
 from rockref.engines import chosen
@@ -39,7 +39,8 @@ def assert_same_bits(a, b):
 
 
 def test_every_effect_is_known():
-    assert set(slots.IN_THE_STEP) | (set(slots.OUTSIDE_THE_STEP) - {"none"}) == set(EFFECTS)
+    known = set(slots.IN_THE_STEP) | (set(slots.OUTSIDE_THE_STEP) - {"none"})
+    assert known == set(EFFECTS) | set(OF_TOSSES)
     assert [e.id for e in IN_STEP_ORDER if e.id in slots.IN_THE_STEP] == list(slots.IN_THE_STEP)
     assert set(pack.FILL) == set(slots.IN_THE_STEP)
 
