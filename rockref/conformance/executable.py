@@ -8,6 +8,7 @@ import queue
 import shlex
 import subprocess
 import threading
+import time
 from typing import Any
 
 from rockref.conformance import jsonlines
@@ -20,6 +21,8 @@ from rockref.model.problem import Problem
 START, SMALL, LONG = 20.0, 10.0, 600.0
 #: A piece whose questions have ended so many times in a crash, in silence or in rubbish is not asked again.
 PATIENCE = 3
+#: So many lines that are no JSON object are passed over before an answer; decided.
+MUCH_RUBBISH = 100
 #: Longer lines are rubbish: the longest honest answer, a run of some thousand rows, has a few megabytes.
 LONGEST_LINE = 200_000_000
 
@@ -38,13 +41,14 @@ class Executable:
         self.complaints: list[str] = []
         self.failures: dict[str, int] = {}
         self.asked = 0
+        self.remarks: list[str] = []
         try:
             facts = self._started()
         except Misbehaved as e:
             raise InputError(
                 "E-BACKEND", shlex.join(command), str(e), 'It must answer {"cmd":"start"} with one JSON line.'
             ) from e
-        self.name = str(facts.get("name", command[0]))
+        self.name = str(facts.get("name") or command[0])
         self.version, self.language = str(facts.get("version", "")), str(facts.get("language", "executable"))
         self.precision = str(facts.get("precision", "float64"))
         shown = [p for p in facts.get("capabilities", []) if p in PIECES]
@@ -113,22 +117,32 @@ class Executable:
         assert self.process is not None and self.process.stdin is not None
         # Written beside: a program that does not read would block us once the pipe is full.
         threading.Thread(target=_write, args=(self.process.stdin, jsonlines.line(request)), daemon=True).start()
-        try:
-            text = self.lines.get(timeout=patience)
-        except queue.Empty:
-            self.close()
-            raise Misbehaved(f"no answer within {patience:g} s") from None
-        if text is None:
-            raise Misbehaved(self._end())
-        if len(text) >= LONGEST_LINE:
-            raise Misbehaved(f"printed {len(text)} characters without an end of line")
-        try:
-            reply = json.loads(text)
-        except (ValueError, RecursionError):
-            raise Misbehaved(f"printed rubbish: {text[:80]!r}") from None
-        if not isinstance(reply, dict):
-            raise Misbehaved(f"printed {text[:80]!r}, no JSON object")
-        return reply
+        rubbish: list[str] = []
+        end = time.monotonic() + patience
+        while len(rubbish) < MUCH_RUBBISH:
+            try:
+                text = self.lines.get(timeout=max(end - time.monotonic(), 0.0))
+            except queue.Empty:
+                self.close()
+                raise Misbehaved(f"no answer within {patience:g} s{_and(rubbish)}") from None
+            if text is None:
+                raise Misbehaved(self._end() + _and(rubbish))
+            if len(text) >= LONGEST_LINE:
+                raise Misbehaved(f"printed {len(text)} characters without an end of line")
+            try:
+                reply = json.loads(text)
+            except (ValueError, RecursionError):
+                reply = None
+            if isinstance(reply, dict):
+                self._remark(rubbish)
+                return reply
+            rubbish.append(text)
+        raise Misbehaved(f"no answer in {MUCH_RUBBISH} lines{_and(rubbish)}")
+
+    def _remark(self, rubbish: list[str]) -> None:
+        """Say once that there were lines that are no answers."""
+        if rubbish and not self.remarks:
+            self.remarks.append(f"Lines that are no JSON object were passed over, first {rubbish[0][:80]!r}.")
 
     def _end(self) -> str:
         assert self.process is not None
@@ -154,6 +168,11 @@ class Executable:
                     pipe.close()
             except OSError:
                 pass
+
+
+def _and(rubbish: list[str]) -> str:
+    """What was printed in place of an answer."""
+    return f", printed rubbish: {rubbish[0][:80]!r}" if rubbish else ""
 
 
 def _write(pipe: Any, text: str) -> None:

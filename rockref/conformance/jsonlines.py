@@ -62,7 +62,7 @@ def readable(answer: Any, piece: str) -> dict[str, Any]:
 
 
 def _array(value: Any) -> Any:
-    if not isinstance(value, list):
+    if not isinstance(value, list) or any(isinstance(v, str) for v in value):
         return value
     try:
         return np.array(value)
@@ -83,7 +83,7 @@ def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
         return {"error": f"unknown command {command!r}"}
     piece = request["piece"]
     try:
-        q = request["in"]
+        q = {k: _array(v) for k, v in request["in"].items()}
         out = getattr(backend, piece)(problem_of(q)) if piece in WHOLE else getattr(backend, piece)(**q)
         return {"id": request["id"], "out": as_mapping(out, piece)}
     except Exception as e:

@@ -100,6 +100,7 @@ def judge(
             _properties(backend, findings, examples)
         else:
             _small(backend, findings, vectors.layer(layer), report)
+    findings.remarks += getattr(backend, "remarks", [])
     findings.seconds = time.perf_counter() - begin
     return findings
 
@@ -118,10 +119,9 @@ def _small(backend: Any, findings: Findings, asked: tuple[Vector, ...], report: 
 def answered(backend: Any, vector: Vector, profile: str) -> list[Check]:
     """The checks of one vector; whatever the backend raises is its answer."""
     try:
-        out = asking.ask(backend, vector)
+        return compare(vector, asking.ask(backend, vector), profile)
     except Exception as e:  # the backend is a stranger's: anything may come
         return no_answer(vector, f"{type(e).__name__}: {e}".splitlines()[0][:200])
-    return compare(vector, out, profile)
 
 
 def _properties(backend: Any, findings: Findings, examples: int) -> None:

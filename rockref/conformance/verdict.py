@@ -116,6 +116,11 @@ def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None,
     return None, None, ""
 
 
+def answered(check: Check) -> bool:
+    """Whether there was a result to weigh."""
+    return check.expected is not None or check.grade in ("bitwise", "inside", "look")
+
+
 def something_judged(findings: Findings) -> bool:
     """Whether any result was weighed at all: who shows nothing of what is asked has not passed."""
     shown = any(c.grade not in ("not shown", "not judged") for c in findings.checks)
@@ -126,6 +131,8 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     """Weigh the findings. `backend` is asked once more for its fingerprint, where the pieces do not name the rule."""
     rules = status_of_rules(findings.checks)
     rule, check, says = suspect(findings.checks, findings.pieces)
+    if rule is not None and not any(answered(c) for c in findings.checks):
+        rule, says = None, "No question was answered in a way that can be weighed: that speaks of no rule."
     bad_run = next((r for r in findings.runs if r.failed), None)
     bad_properties = [p for p in findings.properties if not p.holds]
     status = (

@@ -2,6 +2,7 @@
 
 import sys
 import textwrap
+from pathlib import Path
 
 import pytest
 
@@ -58,7 +59,8 @@ def program(tmp_path, body):
         ("sys.stderr.write('out of memory\\n'); sys.exit(1)", "out of memory"),
         ("import os; os.kill(os.getpid(), 11)", "ended (exit code -11)"),
         ("print('Segmentation fault', flush=True)", "printed rubbish"),
-        ("print('[1, 2]', flush=True)", "no JSON object"),
+        ("print('[1, 2]', flush=True)", "printed rubbish"),
+        ("[print('still computing', flush=True) for _ in range(200)]", "no answer in 100 lines"),
         ("print('{}', flush=True)", "answered to id None"),
         ("print(json.dumps({'id': json.loads(line)['id'], 'out': 5}), flush=True)", "not an object"),
         ("print(json.dumps({'id': json.loads(line)['id'], 'error': 'no idea'}), flush=True)", "no idea"),
@@ -112,3 +114,33 @@ def test_what_does_not_start_is_unusable(command):
 def test_another_protocol_is_refused():
     with pytest.raises(InputError, match="protocol 2"):
         Executable([sys.executable, "-c", "input(); print('{\"protocol\": 2}', flush=True); input()"])
+
+
+def test_a_banner_and_other_chatter_are_passed_over_with_a_remark(tmp_path):
+    path = tmp_path / "chatty.py"
+    text = """
+        print("Welcome to the simulator", flush=True)
+        from rockref.conformance.jsonlines import serve
+        from rockref.conformance.law_backend import NumpyEngine
+        serve(NumpyEngine())
+    """
+    path.write_text(textwrap.dedent(text))
+    backend = Executable([sys.executable, str(path)])
+    findings = judge(backend, ["L0"])
+    backend.close()
+    assert not findings.failures and any("Welcome" in r for r in findings.remarks)
+
+
+def test_the_tutorial_in_python_is_a_program_too():
+    example = Path(__file__).resolve().parents[3] / "examples/backend_numpy.py"
+    backend = Executable([sys.executable, str(example)])
+    findings = judge(backend, ["L0", "L1", "L2", "L3"])
+    backend.close()
+    assert len(findings.checks) > 300 and not findings.failures
+
+
+def test_where_nothing_is_answered_no_rule_is_blamed(tmp_path):
+    backend = Executable(program(tmp_path, "print(json.dumps({'id': json.loads(line)['id'], 'out': {}}), flush=True)"))
+    v = verdict(judge(backend, ["L1"]))
+    backend.close()
+    assert v.status == "FAIL" and v.rule is None and "No question was answered" in v.says
