@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("numba")
 
 import rockref
-from rockref.effects.catalogue import EFFECTS, OF_TOSSES, IN_STEP_ORDER
+from rockref.effects.catalogue import EFFECTS, IN_STEP_ORDER, OF_TOSSES
 from rockref.effects.friction import load_dependent_friction, rolling_resistance
 from rockref.effects.loads import quadratic_drag
 from rockref.engines import chosen
