@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-ACTIONS = ("exe", "export", "answer", "serve", "judge", "zoo")
+ACTIONS = ("exe", "export", "answer", "serve", "judge", "zoo", "example")
 
 
 def register(app: typer.Typer) -> None:
@@ -27,7 +27,9 @@ def conform(
     junit: Annotated[Path | None, typer.Option(help="Write JUnit XML there.")] = None,
     badge: Annotated[Path | None, typer.Option(help="Write a badge (SVG) there.")] = None,
     html: Annotated[Path | None, typer.Option(help="Write a page with the divergence drawn there.")] = None,
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="export, answer: the file to write.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="export, answer, zoo, example: the file to write.")
+    ] = None,
     timeout: Annotated[
         float, typer.Option(help="exe: seconds for a run; a sixtieth of it for a small question.")
     ] = 600.0,
@@ -40,7 +42,8 @@ def conform(
 
     TARGET is numpy, numba, path/to/file.py:Class, package:Class, the name of an entry point, or one of
     exe (a program that speaks JSON lines), export and judge (questions and answers as files), answer and serve
-    (a Python backend as file or as program), zoo (the judge judged by planted mistakes).
+    (a Python backend as file or as program), zoo (the judge judged by planted mistakes), example (a backend to start
+    from: python or c).
     Exit code 1 where the backend falls short.
 
     \b
@@ -51,6 +54,7 @@ def conform(
       rockref conform exe ./backend --timeout 60
       rockref conform export --output requests.jsonl
       rockref conform judge responses.jsonl --json
+      rockref conform example c --output mine.c
       rockref conform zoo --json
     """
     from rockref.conformance.judge import LAYERS
@@ -59,11 +63,16 @@ def conform(
     rest = rest or []
     if target not in ACTIONS and rest:
         raise InputError(
-            "E-ARGUMENT", target, f"is followed by {rest[0]!r}", "Only exe, judge, answer, serve take more arguments."
+            "E-ARGUMENT",
+            target,
+            f"is followed by {rest[0]!r}",
+            "Only exe, judge, answer, serve, example take more arguments.",
         )
     chosen = _layers(layers, quick, LAYERS)
     if target == "zoo":
-        _zoo(as_json, quick)
+        _zoo(as_json, quick, output)
+    elif target == "example":
+        _example(rest, output)
     elif target in ("export", "answer", "serve"):
         _files(target, rest, chosen, profile or "float64", output)
     else:
@@ -164,10 +173,25 @@ def _files(action: str, rest: list[str], layers: list[str], profile: str, output
         write_text(output, made)
 
 
-def _zoo(as_json: bool, quick: bool) -> None:
-    from rockref.conformance.zoo.run import in_words, run_zoo
+def _example(rest: list[str], output: Path | None) -> None:
+    """Write one of the backends to start from."""
+    from rockref.conformance.examples import source
+    from rockref.model.storage import write_text
+
+    text = source(rest[0] if rest else "python")
+    if output is None:
+        typer.echo(text, nl=False)
+    else:
+        write_text(output, text)
+
+
+def _zoo(as_json: bool, quick: bool, output: Path | None) -> None:
+    from rockref.conformance.zoo.run import in_words, page, run_zoo
+    from rockref.model.storage import write_text
 
     found = run_zoo(black_box=not quick, progress=_progress if sys.stderr.isatty() and not as_json else None)
+    if output is not None:
+        write_text(output, page(found))
     typer.echo(json.dumps(found, indent=1) if as_json else in_words(found))
     if found["detected"] < found["planted"] or found["controls_rejected"]:
         raise typer.Exit(1)

@@ -65,8 +65,12 @@ class Recorded:
             setattr(self, piece, self._piece(piece))
 
     def _shown(self, facts: dict[str, Any]) -> list[str]:
-        answered = {v.piece for layer in SMALL for v in vectors.layer(layer) if v.id in self.answers}
-        return [p for p in PIECES if p in answered or p in facts.get("capabilities", [])]
+        """The pieces that it says it has; where it does not say, those that are answered by more than an error."""
+        if facts.get("capabilities"):
+            return [p for p in PIECES if p in facts["capabilities"]]
+        asked = [v for layer in SMALL for v in vectors.layer(layer)]
+        answered = {v.piece for v in asked if "out" in self.answers.get(v.id, {})}
+        return [p for p in PIECES if p in answered]
 
     @property
     def layers(self) -> set[str]:

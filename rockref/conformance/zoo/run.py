@@ -8,7 +8,7 @@ from typing import Any
 from rockref.conformance import blackbox
 from rockref.conformance.judge import finite, judge
 from rockref.conformance.runs import judge_rows, simulate
-from rockref.conformance.vectors import trajectory, window_names
+from rockref.conformance.vectors import manifest, trajectory, window_names
 from rockref.conformance.verdict import verdict
 from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
 
@@ -175,6 +175,34 @@ def in_words(found: dict[str, Any]) -> str:
         )
     lines.append(f"controls rejected {found['controls_rejected']}/{found['controls']}")
     return "\n".join(lines)
+
+
+def resolving_rows() -> list[list[str]]:
+    """By rule: vectors, mistakes hunted, and the smallest deviation that one of them makes, from the manifest."""
+    rows = [["rule", "vectors", "mistakes hunted", "smallest deviation [bars]"], ["---"] * 4]
+    for rule, facts in manifest()["resolving_power"].items():
+        rows.append([rule, str(facts["vectors"]), " ".join(facts["hunts"]), f"{facts['worst_bars']:.3g}"])
+    return rows
+
+
+def page(found: dict[str, Any]) -> str:
+    """The zoo and the resolving power of the vectors as a page of the documentation."""
+    totals = in_words(found).splitlines()[len(found["cases"]) :]
+    power = "\n".join("| " + " | ".join(r) + " |" for r in resolving_rows())
+    return (
+        "# The zoo: planted mistakes, and what the judge says of them\n\n"
+        "Written by `rockref conform zoo --output docs/reference/zoo.md`; not to be edited.\n\n"
+        "Every line is a backend that makes one mistake. *first vector* and *named* are what the judge says when the\n"
+        "backend shows its pieces; *bars* is the largest deviation in a vector of the planted rule. The last two\n"
+        "columns are for the same backend as a black box: the two mistakes of the zoo that come nearest, and whether\n"
+        "the planted rule would be among the two named if this mistake were not in the zoo, which is what a mistake\n"
+        "of your own meets.\n"
+        "Controls (C) are no mistakes and have to pass.\n\n"
+        + "".join(f"- {line}\n" for line in totals)
+        + f"\n{in_markdown(found)}\n## Resolving power of the vectors\n\n"
+        "A vector is admitted only if every mistake that it is said to hunt moves it by a hundred bars.\n\n"
+        f"{power}\n"
+    )
 
 
 def in_markdown(found: dict[str, Any]) -> str:

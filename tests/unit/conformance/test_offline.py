@@ -82,3 +82,22 @@ def test_a_python_backend_answers_for_itself():
     assert "error" in jsonlines.answer(NumpyEngine(), {"cmd": "dance"})
     wrong = jsonlines.answer(NumpyEngine(), {"cmd": "run", "id": "a", "piece": "rotate", "in": {}})
     assert wrong["id"] == "a" and "TypeError" in wrong["error"]
+
+
+def test_pieces_that_a_program_says_it_has_not_are_not_judged(tmp_path):
+    law = NumpyEngine()
+    out = io.StringIO()
+    for row in offline.text(("L0", "L1")).splitlines():
+        request = json.loads(row)
+        if request["cmd"] == "start":
+            reply = {"protocol": 1, "capabilities": ["simulate", "contact_law"]}
+        elif request["piece"] == "contact_law":
+            reply = jsonlines.answer(law, request)
+        else:
+            reply = {"id": request["id"], "error": "no such piece"}
+        out.write(jsonlines.line(reply))
+    for content in (out.getvalue(), out.getvalue().partition("\n")[2]):
+        path = tmp_path / "some.jsonl"
+        path.write_text(content)
+        findings = judge(offline.Recorded(path), ["L0", "L1"])
+        assert findings.pieces == ("contact_law",) and findings.checks and not findings.failures
