@@ -69,8 +69,9 @@ $(VENV)/.stamp-docs: $(VENV)/.stamp
 	@$(PIP) --editable '.[docs]'
 	@touch $@
 
-peers: $(VENV)/.stamp-peers  ## the same block in other people's simulators, side by side
+peers: $(VENV)/.stamp-peers  ## the same block in other people's simulators, side by side; LAMMPS over steps
 	$(PY) benchmarks/peers.py
+	$(PY) benchmarks/agree.py
 
 $(VENV)/.stamp-peers: $(VENV)/.stamp
 	@$(PIP) --editable '.[peers]'

@@ -90,8 +90,8 @@ def lammps() -> dict:
     return {**result, "steps_per_s": round(DURATION / STEP) / seconds}
 
 
-def lammps_script(body_file: Path) -> list[str]:
-    """The input of LAMMPS; writes the file with the body's mass and inertia."""
+def lammps_script(body_file: Path, step: float = STEP) -> list[str]:
+    """The input of LAMMPS at a step [s]; writes the file with the body's mass and inertia."""
     problem = released_on_round_feet()
     block, points, start = problem.block, problem.points, problem.start
     turn = np.asarray(start.Lambda)
@@ -117,7 +117,7 @@ def lammps_script(body_file: Path) -> list[str]:
         K_N, K_T, C_N, C_T, mu = (float(getattr(points, k)[i]) for k in ("K_N", "K_T", "C_N", "C_T", "mu"))
         law = f"granular hooke {K_N} {C_N} damping velocity tangential linear_history {K_T} {C_T / C_N} {mu}"
         lines.append(f"fix wall_{group} {group} wall/gran {law} limit_damping zplane 0.0 NULL")
-    return [*lines, f"timestep {STEP}", "thermo_style custom step", "thermo 1000000"]
+    return [*lines, f"timestep {step!r}", "thermo_style custom step", "thermo 1000000"]
 
 
 def mujoco() -> dict:
