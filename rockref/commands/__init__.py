@@ -19,5 +19,6 @@ MODULES: tuple[str, ...] = (
     "effects",
     "blind",
     "conform",
+    "import_contactnets",
     "version_info",
 )

@@ -40,6 +40,12 @@ def compare(
       rockref compare data/experiments/mystery-01 --model table_3_1 --model mine.toml --report report
       rockref compare data/experiments/mystery-01 --json > comparison.json
     """
+    from rockref.measure.tosses import is_toss_folder
+
+    if is_toss_folder(experiment):
+        from rockref.commands._tosses import compare_tosses
+
+        return compare_tosses(experiment, model, report, as_json)
     from rockref.commands._models import labels, named_model
     from rockref.commands._progress import progress
     from rockref.discover.compare import baseline_model

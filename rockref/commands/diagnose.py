@@ -38,6 +38,12 @@ def diagnose(
       rockref diagnose data/experiments/mystery-05 --report report
       rockref diagnose data/experiments/mystery-05 --json > verdict.json
     """
+    from rockref.measure.tosses import is_toss_folder
+
+    if is_toss_folder(experiment):
+        from rockref.commands._tosses import diagnose_tosses
+
+        return diagnose_tosses(experiment, model, report, output, save_model, verbose, as_json)
     from rockref.commands._models import named_model
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine

@@ -114,12 +114,10 @@ def throw_frame(poses: Poses) -> np.ndarray:
 def frames_of(model: Model, heading: np.ndarray) -> Frames:
     """The frames that a model's tracking effects and eccentricity make."""
     tag, plate, mass = effect_of(model, TagFrame), effect_of(model, PlatePose), effect_of(model, MassEccentricity)
-    normal = np.array([-plate.slope_x, -plate.slope_y, 1.0])
-    size = np.linalg.norm(normal)
-    angle = np.arccos(1 / size)
-    axis = np.array([-normal[1], normal[0], 0.0])
-    length = np.linalg.norm(axis)
-    tilt = exponential(axis / length * angle) if length > 0 else np.eye(3)
+    slope = np.hypot(plate.slope_x, plate.slope_y)
+    # The turn that takes e_z to the normal (-slope_x, -slope_y, 1), about e_z x normal.
+    axis = np.array([plate.slope_y, -plate.slope_x, 0.0])
+    tilt = exponential(axis / slope * np.arctan(slope)) if slope > 0 else np.eye(3)
     return Frames(
         heading=heading,
         plate=tilt,

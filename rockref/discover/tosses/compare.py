@@ -1,0 +1,151 @@
+"""Models beside measured tosses: errors by start and by use, by stretch, and what needs no contact model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover.tosses.body import frames_of, nominal_model, throw_frame
+from rockref.discover.tosses.errors import Errors, errors
+from rockref.discover.tosses.predict import CLEARANCE, predict
+from rockref.discover.tosses.stretches import by_stretch, stretch_of
+from rockref.measure import toss_balance
+from rockref.measure.experiment import USES
+from rockref.measure.flight import Poses, flight_frames, side_by_side
+from rockref.measure.tosses import Toss, Tosses
+from rockref.model.errors import InputError
+
+#: Errors of simulators on 550 of the public tosses, identified and reported on the same ones, from the raw first frame:
+#: position [%], its deviation, rotation [deg], its deviation. B. Acosta, W. Yang, M. Posa (2022), arXiv:2110.00541.
+PUBLISHED = {
+    "Drake": (13.5, 8.2, 16.5, 20.0),
+    "Bullet": (14.9, 8.9, 16.5, 20.2),
+    "MuJoCo": (25.1, 10.8, 21.7, 21.4),
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One model on the tosses of one use from one kind of start."""
+
+    model: str
+    use: str
+    start: str
+    errors: Errors
+    stretches: list[dict[str, Any]]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers."""
+        return {"model": self.model, "use": self.use, "start": self.start} | self.errors.summary() | {
+            "stretches": self.stretches
+        }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class TossComparison:
+    """All rows, and what the measurements say by themselves."""
+
+    tosses: Tosses
+    rows: list[Row]
+    measured: dict[str, Any]
+
+    def to_dict(self) -> dict[str, Any]:
+        """What `rockref compare --json` prints for tosses."""
+        t = self.tosses
+        return {
+            "experiment": t.name,
+            "kind": "toss",
+            "tosses": len(t.tosses),
+            "copies": [list(pair) for pair in t.copies],
+            "sha256": t.sha256,
+            "rows": [row.to_dict() for row in self.rows],
+            "published_raw_start": {k: list(v) for k, v in PUBLISHED.items()},
+            "measured": self.measured,
+        }
+
+
+def compare(tosses: Tosses, models: list[Model] | None = None, names: list[str] | None = None) -> TossComparison:
+    """Errors of models (default: the plain law with stated values) from both kinds of start, over all frames.
+
+    Raises
+    ------
+    InputError
+        E-SIZE, where there is no toss.
+    """
+    models = models or [nominal_model(tosses)]
+    names = names or ["stated values"]
+    rows = []
+    for use in USES:
+        chosen = tosses.used(use)
+        if not chosen:
+            continue
+        poses = side_by_side(chosen, tosses.rate)
+        for name, model in zip(names, models, strict=True):
+            for start in ("flight", "raw"):
+                rows.append(row_of(name, model, poses, tosses.width, use, start))
+    if not rows:
+        raise InputError("E-SIZE", str(tosses.path), "holds no toss", "Give one at least.")
+    return TossComparison(tosses, rows, measured(tosses.tosses, tosses, models[0]))
+
+
+def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start: str) -> Row:
+    """The errors of one model."""
+    found = predict(model, poses, start)
+    e = errors(found, poses, width)
+    x, Lambda = found.frames.to_body(poses.x, poses.Lambda)
+    P = np.asarray(nominal_corners(model))
+    return Row(name, use, start, e, by_stretch(stretch_of(poses._replace(x=x, Lambda=Lambda), P), e))
+
+
+def nominal_corners(model: Model) -> np.ndarray:
+    """The model's contact points from its centre of mass, (n, 3) [m]."""
+    from rockref.discover.tosses.body import in_the_step
+
+    points = in_the_step(model).body()[1]
+    P = np.array(points.P)
+    if points.radius is not None:
+        P[:, 2] += np.asarray(points.radius)
+    return P
+
+
+def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str, Any]:
+    """Flight arcs; impulses and energies at the first impact, with the stated and with the measured centre of mass."""
+    poses = side_by_side(chosen, tosses.rate)
+    frames = frames_of(plain_law(model), throw_frame(poses))
+    x, Lambda = frames.to_body(poses.x, poses.Lambda)
+    own = poses._replace(x=x, Lambda=Lambda)
+    P = nominal_corners(plain_law(model))
+    arcs = toss_balance.flight_arcs(own, flight_frames(own, P, CLEARANCE))
+    found: dict[str, Any] = {"flight_arcs": arcs.to_dict()}
+    if not arcs.values:
+        return found
+    centre = np.array([arcs.values[f"centre_{a}"][0] for a in "xyz"])
+    g = np.array([arcs.values[f"g_{a}"][0] for a in "xyz"])
+    mass = float(model.mass)
+    stated = np.diag(np.asarray(model.body()[0].inertia)) / mass
+    for name, c in (("stated_centre", 0 * centre), ("measured_centre", centre)):
+        moved = own._replace(x=x + Lambda @ c)
+        try:
+            k = toss_balance.first_impacts(moved, P - c, np.diag(stated), g, CLEARANCE / 2)
+        except InputError:
+            continue
+        balance = toss_balance.impulse_balance(k)
+        change = toss_balance.energy_change(k, stated)
+        found[name] = {
+            "impulse_balance": balance.to_dict(),
+            "inertia_kg_m2": {a: balance.values[f"inertia_{a}"][0] * mass for a in ("xx", "yy", "zz")},
+            "corner": toss_balance.corner_ratios(k).to_dict(),
+            "energy_change": {
+                "median": float(np.median(change)), "largest": float(np.max(change)), "gains": int((change > 0).sum()),
+                "tosses": len(change),
+            },
+        }  # fmt: skip
+    return found
+
+
+def plain_law(model: Model) -> Model:
+    """The model without its effects."""
+    return model.replace(effects=())

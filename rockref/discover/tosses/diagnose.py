@@ -1,0 +1,358 @@
+"""What is missing in the model of tosses, several effects deep: learn on the fit tosses, prove on the held-out ones."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover.tosses.body import nominal_model
+from rockref.discover.tosses.compare import measured
+from rockref.discover.tosses.errors import Errors, errors
+from rockref.discover.tosses.fit import HORIZONS, TossFit, cut, drawn_starts
+from rockref.discover.tosses.parameters import CANDIDATES, apply, effect_parameters
+from rockref.discover.tosses.predict import STEPS_A_FRAME, predict, simulated
+from rockref.discover.verdict import RIVAL
+from rockref.effects import catalogue
+from rockref.measure.experiment import FIT, HOLDOUT
+from rockref.measure.flight import Poses, displaced, side_by_side
+from rockref.measure.tosses import Tosses
+from rockref.model.errors import InputError, RockrefError
+
+#: At most so many effects are added one after the other.
+DEEPEST = 6
+#: Share of the objective that an effect must gain on the fit tosses; decided: what ten numbers gain on 200 tosses by
+#: luck is a hundredth, and what is smaller matters to nobody's simulation.
+LEAST_GAIN = 0.015
+#: Candidates that are refitted after the screen, on the first two impacts only; iterations of such a refit, of the
+#: winner over all frames, and of the baseline.
+REFITTED, REFIT_ITERATIONS, ITERATIONS, FIRST_ITERATIONS = 4, 3, 5, 8
+#: The horizon on which candidates compete: there an effect shows before bounces have multiplied it.
+SHORT = HORIZONS[0]
+#: Fractions of the Gauss-Newton step at which a candidate is tried in the screen.
+TRIED = (1.0, 0.5, 0.2)
+#: Resamples of the paired bootstrap, and the share of its interval.
+RESAMPLES, INTERVAL = 2000, 0.90
+#: Least tosses on either side for a verdict (decided: below it the bootstrap of a mean with heavy tails means little).
+LEAST_TOSSES = 8
+
+
+@dataclass
+class Step:
+    """One rung of the staircase: the effect that was added, its rivals on the fit tosses, and the fitted model."""
+
+    effect: str
+    gains: dict[str, float]
+    fit: TossFit
+    z: np.ndarray
+    objective: float
+    verdict: str = ""
+    holdout: dict[str, Errors] = field(default_factory=dict)
+    fitted: Errors | None = None
+    proof: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def model(self) -> Model:
+        """The fitted model."""
+        return self.fit.model(self.z)
+
+    def values(self) -> dict[str, dict[str, Any]]:
+        """Every number of the fit with its unit."""
+        return {
+            p.name: {"value": p.value(float(zi)), "unit": p.unit}
+            for p, zi in zip(self.fit.parameters, self.z, strict=True)
+        }
+
+
+@dataclass
+class TossDiagnosis:
+    """The result; `to_dict()` is what `rockref diagnose --json` prints for tosses."""
+
+    tosses: Tosses
+    verdict: str
+    effects: tuple[str, ...]
+    sentence: str
+    steps: list[Step]
+    nominal: dict[str, Errors]
+    floor: dict[str, float]
+    measured: dict[str, Any]
+    agreement: list[dict[str, Any]]
+    gates: list[dict[str, Any]]
+    seconds: float
+
+    @property
+    def model(self) -> Model:
+        """The last model whose effects were all proven."""
+        good = [s for s in self.steps if s.verdict != "none"]
+        return (good or self.steps)[-1].model
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers and words."""
+        return {
+            "experiment": self.tosses.name,
+            "kind": "toss",
+            "verdict": self.verdict,
+            "effects": list(self.effects),
+            "sentence": self.sentence,
+            "nominal_holdout": {k: e.summary() for k, e in self.nominal.items()},
+            "staircase": [rung(s) for s in self.steps],
+            "floor": self.floor,
+            "measured_without_contact_model": self.measured,
+            "agreement": self.agreement,
+            "gates": self.gates,
+            "seconds": round(self.seconds, 1),
+            "sha256": self.tosses.sha256,
+        }
+
+
+def rung(s: Step) -> dict[str, Any]:
+    """One step as plain numbers."""
+    return {
+        "added": s.effect or "the law, its contact fitted",
+        "verdict": s.verdict,
+        "gains_percent": {k: round(100 * g, 2) for k, g in s.gains.items()},
+        "objective": round(s.objective, 4),
+        "fit": s.fitted.summary() if s.fitted else {},
+        "holdout": {k: e.summary() for k, e in s.holdout.items()},
+        "proof": s.proof,
+        "parameters": s.values(),
+    }
+
+
+def diagnose(
+    tosses: Tosses,
+    model: Model | None = None,
+    deepest: int = DEEPEST,
+    progress: Callable[[str], None] | None = None,
+) -> TossDiagnosis:
+    """Add the effect that explains most, again and again, until none explains enough; then look at the held-out tosses.
+
+    Parameters
+    ----------
+    tosses : with their marks.  model : what to start from; by default the plain law with stated values.
+    deepest : most effects.  progress : called with a line at every stage.
+
+    Raises
+    ------
+    InputError
+        E-SIZE, where there are too few tosses on either side.
+    """
+    begun = time.perf_counter()
+    say = progress or (lambda line: None)
+    for use in (FIT, HOLDOUT):
+        if len(tosses.used(use)) < LEAST_TOSSES:
+            raise InputError(
+                "E-SIZE", str(tosses.path), f"has {len(tosses.used(use))} tosses of use {use}",
+                f"A verdict needs {LEAST_TOSSES} of each.",
+            )  # fmt: skip
+    base = model or nominal_model(tosses)
+    poses = side_by_side(tosses.used(FIT), tosses.rate)
+    fit = TossFit(base, (), poses, tosses.width, log=say)
+    z, objective = fit.run(np.zeros(len(fit.parameters)), FIRST_ITERATIONS)
+    steps = [Step("", {}, fit, z, objective)]
+    while len(steps) <= deepest:
+        step = look_further(steps[-1], say)
+        if step is None:
+            break
+        steps.append(step)
+        say(f"{step.effect}: {steps[-2].objective:.3f} -> {step.objective:.3f}")
+    held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
+    say("the held-out tosses")
+    return conclude(tosses, base, steps, poses, held, begun)
+
+
+def look_further(last: Step, say: Callable[[str], None]) -> Step | None:
+    """The next rung, or None where no candidate gains enough on the fit tosses."""
+    promised = screen(last)
+    order = sorted(promised, key=lambda id: promised[id][0])
+    say("  screen: " + ", ".join(f"{id} {promised[id][0]:.3f}" for id in order[:4]))
+    if not order:
+        return None
+    weight = last.fit.frame_weights(last.z, cut(last.fit.poses, SHORT))
+    _, plain = last.fit.run(last.z, REFIT_ITERATIONS, (SHORT,), weight)
+    found = {}
+    for id in order[:REFITTED]:
+        fit = TossFit(last.fit.base, (*last.fit.effects, id), last.fit.poses, last.fit.width, log=say)
+        found[id] = fit, *fit.run(promised[id][1], REFIT_ITERATIONS, (SHORT,), weight)
+    gains = {id: 1 - f[2] / plain for id, f in found.items()}
+    best = max(gains, key=lambda id: gains[id])
+    if gains[best] < LEAST_GAIN:
+        say(f"  {best} gains {gains[best]:.1%}: not enough")
+        return None
+    fit, z, _ = found[best]
+    return Step(best, gains, fit, *fit.run(z, ITERATIONS))
+
+
+def screen(last: Step) -> dict[str, tuple[float, np.ndarray]]:
+    """Every candidate on top of a step: the best objective along its Gauss-Newton step, and where that is."""
+    fit, z = last.fit, last.z
+    poses = cut(fit.poses, SHORT)
+    weight = fit.frame_weights(z, poses)
+    r = fit.residual(z, poses)
+    found = {}
+    for id in CANDIDATES:
+        if id in fit.effects:
+            continue
+        wider = TossFit(fit.base, (*fit.effects, id), fit.poses, fit.width)
+        new = len(effect_parameters(id))
+        wide = np.concatenate([z, np.zeros(new)])
+        own = TossFit(fit.base, (id,), fit.poses, fit.width)
+        own.base, own.parameters = fit.model(z), effect_parameters(id)
+        own.prior = np.array([p.prior for p in own.parameters])
+        # The effect's own numbers alone: what the law's could do besides, the refit finds.
+        H, g = own.normal_equations(np.zeros(new), r, poses, weight)
+        step = -np.linalg.solve(H + 1e-2 * np.diag(np.diag(H)), g)
+        best: tuple[float, np.ndarray] = (np.inf, wide)
+        for fraction in TRIED:
+            trial = wide.copy()
+            trial[-new:] = np.clip(fraction * step, -2, 2)
+            try:
+                now = wider.objective(trial, wider.residual(trial, poses), weight)
+            except RockrefError:
+                continue
+            if now < best[0]:
+                best = now, trial
+        found[id] = best
+    return found
+
+
+def conclude(tosses: Tosses, base: Model, steps: list[Step], poses: Poses, held: Poses, begun: float) -> TossDiagnosis:
+    """The held-out tosses, rung by rung, and the verdict."""
+    nominal = {start: errors(predict(base, held, start), held, tosses.width) for start in ("flight", "raw")}
+    for i, step in enumerate(steps):
+        step.holdout = {
+            start: errors(predict(step.model, held, start), held, tosses.width) for start in ("flight", "raw")
+        }
+        step.fitted = errors(predict(step.model, poses), poses, tosses.width)
+        before = nominal["flight"] if i == 0 else steps[i - 1].holdout["flight"]
+        step.proof = paired(before, step.holdout["flight"])
+        step.verdict = word(step)
+    proven = tuple(s.effect for s in steps[1:] if s.verdict in ("named", "class"))
+    verdict, sentence = words(steps, proven)
+    last = steps[-1]
+    found = measured(tosses.used(FIT), tosses, base)
+    return TossDiagnosis(
+        tosses, verdict, proven, sentence, steps, nominal, floor_of(last, held, tosses.width), found,
+        agreement(last, found, base), [step_small(last, held, tosses.width)], time.perf_counter() - begun,
+    )  # fmt: skip
+
+
+def word(step: Step) -> str:
+    """The verdict of one rung: named, class (a rival gains as much), indicated (held-out tosses do not tell), none."""
+    if not step.effect:
+        return ""
+    if step.proof["high"] < 0:
+        return "none"
+    if step.proof["low"] <= 0:
+        return "indicated"
+    best = step.gains[step.effect]
+    near = [id for id, g in step.gains.items() if id != step.effect and g > RIVAL * best]
+    return "class" if near else "named"
+
+
+def words(steps: list[Step], proven: tuple[str, ...]) -> tuple[str, str]:
+    """The verdict and its sentence."""
+    if not proven:
+        return "none", "No effect of the catalogue makes the held-out tosses better."
+    named = " and then ".join(proven)
+    verdict = "named" if len(proven) != 2 else "pair"
+    if len(proven) == 1 and next(s for s in steps if s.effect == proven[0]).verdict == "class":
+        verdict = "class"
+    a, b = (_total(steps[k].holdout["flight"]) for k in (0, -1))
+    return (
+        verdict,
+        f"Missing, in the order of what they explain: {named}; the held-out error falls from {a:.1f} to {b:.1f}.",
+    )
+
+
+def _total(e: Errors) -> float:
+    return float(np.mean(100 * e.position + e.rotation))
+
+
+def paired(before: Errors, after: Errors) -> dict[str, Any]:
+    """By how much the error falls on the same tosses: position [%] plus rotation [deg], with its bootstrap interval."""
+    fall = (100 * before.position + before.rotation) - (100 * after.position + after.rotation)
+    rng = np.random.default_rng(11)
+    means = fall[rng.integers(len(fall), size=(RESAMPLES, len(fall)))].mean(axis=1)
+    low, high = np.quantile(means, ((1 - INTERVAL) / 2, (1 + INTERVAL) / 2))
+    return {
+        "mean": round(float(fall.mean()), 3), "low": round(float(low), 3), "high": round(float(high), 3),
+        "better_percent": round(100 * float(np.mean(fall > 0)), 1), "interval": INTERVAL,
+    }  # fmt: skip
+
+
+def floor_of(step: Step, poses: Poses, width: float, draws: int = 4) -> dict[str, float]:
+    """The error that a true model would have: predictions from drawn starts against that from the start itself."""
+    first = predict(step.model, poses)
+    as_measured = poses._replace(x=first.x, Lambda=np.nan_to_num(first.Lambda))
+    rng = np.random.default_rng(5)
+    found = []
+    for _ in range(draws):
+        x, Lambda = simulated(
+            step.model, displaced(first.starts, drawn_starts(first, rng)), poses, STEPS_A_FRAME, "auto"
+        )
+        x, Lambda = first.frames.to_tracked(x, Lambda)
+        found.append(errors(type(first)(x, Lambda, first.starts, first.frames), as_measured, width))
+    return {
+        "position_percent": round(100 * float(np.mean([e.position for e in found])), 2),
+        "rotation_deg": round(float(np.mean([e.rotation for e in found])), 2),
+        "position_percent_median": round(100 * float(np.median([e.position for e in found])), 2),
+        "rotation_deg_median": round(float(np.median([e.rotation for e in found])), 2),
+    }
+
+
+def step_small(step: Step, poses: Poses, width: float) -> dict[str, Any]:
+    """The gate: whether twice as many steps change the held-out errors."""
+    usual = errors(predict(step.model, poses), poses, width)
+    fine = errors(predict(step.model, poses, steps=2 * STEPS_A_FRAME), poses, width)
+    change = abs(_total(fine) - _total(usual)) / _total(usual)
+    # Limit, decided: a fiftieth of the error is below every bootstrap interval of the staircase.
+    return {"name": "step_small", "passed": bool(change < 0.02), "value": round(float(change), 5), "limit": 0.02}
+
+
+def agreement(step: Step, found: dict[str, Any], base: Model) -> list[dict[str, Any]]:
+    """What the contact model's fit and the measurements without a contact model say of the same quantity."""
+    values = step.values()
+    arcs = found.get("flight_arcs", {}).get("values", {})
+    rows = []
+    for axis in "xyz":
+        name = f"mass_eccentricity.{axis}"
+        if name in values and f"centre_{axis}" in arcs:
+            # The arcs see the centre of mass from the tracked point: the tag frame's offset is part of it.
+            both = values[name]["value"] + values.get(f"tag_frame.{axis}", {"value": 0.0})["value"]
+            other = arcs[f"centre_{axis}"]
+            rows.append(_row(f"centre of mass, {axis}", "m", both, other["value"], other["se"], "flight arcs"))
+    balance = found.get("measured_centre", {}).get("impulse_balance", {}).get("values", {})
+    J = np.diag(np.asarray(apply(base, (), np.zeros(0)).body()[0].inertia))
+    for k, axis in enumerate(("xx", "yy", "zz")):
+        name = f"inertia_deviation.{axis}"
+        if name in values and f"inertia_{axis}" in balance:
+            other = balance[f"inertia_{axis}"]
+            m = float(base.mass)
+            rows.append(
+                _row(f"inertia, {axis}", "kg m2", values[name]["value"] * J[k], other["value"] * m, other["se"] * m,
+                     "impulse balance of the first impact")
+            )  # fmt: skip
+    corner = found.get("measured_centre", {}).get("corner", {}).get("values", {})
+    if "friction" in corner:
+        c = corner["friction"]
+        rows.append(
+            _row("friction", "1", values["mu"]["value"], c["value"], c["se"], "impulse ratio of sliding corners")
+        )
+    return rows
+
+
+def _row(what: str, unit: str, contact: float, other: float, se: float, how: str) -> dict[str, Any]:
+    return {
+        "quantity": what, "unit": unit, "with_contact_model": float(contact), "without": float(other),
+        "standard_error": float(se), "how": how,
+    }  # fmt: skip
+
+
+def sentences() -> dict[str, str]:
+    """The physics of every candidate in a sentence."""
+    return {id: catalogue.find(id).sentence for id in CANDIDATES}

@@ -1,0 +1,191 @@
+"""What tosses say without a contact model: flight arcs, and the balance of momenta over the first impact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rockref.measure.flight import MOST, Poses, ballistic_starts, lowest
+
+#: Fewest frames of an arc for its curvature, and of a flight between two impacts for its velocities (decided).
+ARC, BETWEEN = 8, 4
+#: Residuals beyond so many robust standard deviations are left out, in so many rounds (decided).
+OUTLIER, ROUNDS = 4.0, 4
+#: Frames at either side of a contact that are not used, since the tracker's median filter smears them.
+GUARD = 1
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Values with standard errors by name, how many tosses gave them, and the scatter that is left [its unit]."""
+
+    values: dict[str, tuple[float, float, str]]
+    tosses: int
+    scatter: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers."""
+        rows = {k: {"value": float(v), "se": float(s), "unit": u} for k, (v, s, u) in self.values.items()}
+        return {"values": rows, "tosses": self.tosses, "scatter": float(self.scatter)}
+
+
+def flight_arcs(poses: Poses, used: np.ndarray) -> Measured:
+    """Gravity (3), drag and the centre of mass from the parabolas of the tracked point, by linear least squares.
+
+    x_t + Lambda c = a + b t + g t^2/2 - d v t^2/2: every arc has its own a and b; g, d [1/s] and c, the centre of mass
+    from the tracked point in body axes [m], are common. poses : tracked, in the frame of the throw; used : (B,) frames.
+    """
+    rows, right = [], []
+    for i in np.flatnonzero(used >= ARC):
+        n = int(used[i])
+        t = poses.t[:n]
+        velocity = (poses.x[i, n - 1] - poses.x[i, 0]) / t[-1]
+        A = np.zeros((n, 3, 7))
+        A[:, [0, 1, 2], [0, 1, 2]] = (t * t / 2)[:, None]
+        A[:, :, 3] = -np.outer(t * t / 2, velocity)
+        A[:, :, 4:] = -poses.Lambda[i, :n]
+        Q, _ = np.linalg.qr(np.stack([np.ones(n), t], axis=-1))
+        for j in range(3):
+            rows.append(A[:, j] - Q @ (Q.T @ A[:, j]))
+            right.append(poses.x[i, :n, j] - Q @ (Q.T @ poses.x[i, :n, j]))
+    if len(rows) < 9:
+        return Measured({}, 0, float("nan"))
+    A, y = np.concatenate(rows), np.concatenate(right)
+    p, se, scatter, _ = robust(A, y, lost=2 * len(rows))
+    names = ("g_x", "g_y", "g_z", "drag", "centre_x", "centre_y", "centre_z")
+    units = ("m/s2",) * 3 + ("1/s",) + ("m",) * 3
+    return Measured(
+        {k: (v, s, u) for k, v, s, u in zip(names, p, se, units, strict=True)}, len(rows) // 3, float(scatter)
+    )
+
+
+def robust(A: np.ndarray, y: np.ndarray, lost: int = 0) -> tuple[np.ndarray, np.ndarray, float, np.ndarray]:
+    """Least squares with far residuals left out: values, standard errors, scatter, which rows were kept.
+
+    lost : degrees of freedom that were taken out of the rows before.
+    """
+    keep = np.ones(len(y), bool)
+    for _ in range(ROUNDS):
+        p = np.linalg.lstsq(A[keep], y[keep], rcond=None)[0]
+        r = y - A @ p
+        keep = np.abs(r) < OUTLIER * 1.4826 * np.median(np.abs(r[keep])) + 1e-300
+    p = np.linalg.lstsq(A[keep], y[keep], rcond=None)[0]
+    r = y[keep] - A[keep] @ p
+    scatter = float(np.sqrt(r @ r / max(keep.sum() - A.shape[1] - lost * keep.mean(), 1)))
+    se = scatter * np.sqrt(np.diag(np.linalg.pinv(A[keep].T @ A[keep])))
+    return p, se, scatter, keep
+
+
+@dataclass(frozen=True)
+class Impacts:
+    """States just before and after the first impact at its middle, of the tracked point or the centre of mass.
+
+    v_before, v_after (B, 3) [m/s]; L_before, L_after (B, 3, 3) attitudes; W_before, W_after (B, 3) body rates [rad/s];
+    corner (B,) number of the point that struck; r (B, 3) its place from the origin of the poses, plate axes [m];
+    which (B,) numbers of the tosses.
+    """
+
+    v_before: np.ndarray
+    v_after: np.ndarray
+    L_before: np.ndarray
+    L_after: np.ndarray
+    W_before: np.ndarray
+    W_after: np.ndarray
+    corner: np.ndarray
+    r: np.ndarray
+    which: np.ndarray
+
+
+def first_impacts(poses: Poses, P: np.ndarray, inertia: np.ndarray, g: np.ndarray, clearance: float) -> Impacts:
+    """The first impacts with one corner only and enough flight before and after; P (n, 3) from the poses' origin."""
+    low = lowest(poses.x, poses.Lambda, P)
+    near = (low < clearance) & poses.measured
+    first = np.where(near.any(axis=1), near.argmax(axis=1), 0)
+    which, spans = [], []
+    for i in range(len(first)):
+        f, n = int(first[i]), int(poses.frames[i])
+        end = f
+        while end < n and near[i, end]:
+            end += 1
+        second = end
+        while second < n and not near[i, second]:
+            second += 1
+        if f >= BETWEEN + GUARD and second - end >= BETWEEN + GUARD and end - f <= 6:
+            which.append(i)
+            spans.append((f, end, second - GUARD))
+    if not which:
+        raise_none()
+    index, span = np.array(which), np.array(spans)
+    before = _segment(poses, index, np.zeros(len(index), int), np.minimum(span[:, 0], MOST))
+    start = span[:, 1] + GUARD - 1
+    after = _segment(poses, index, start, span[:, 2] - start)
+    a = ballistic_starts(before, before.frames, g, inertia)
+    b = ballistic_starts(after, after.frames, g, inertia)
+    dt = poses.t[1]
+    middle = (span[:, 0] + span[:, 1] - 1) / 2
+    from rockref.model.rotation import exponential
+
+    L1 = a.Lambda @ exponential(a.W * (middle * dt)[:, None])
+    L2 = b.Lambda @ exponential(b.W * ((middle - start) * dt)[:, None])
+    v1, v2 = a.v + g * (middle * dt)[:, None], b.v + g * ((middle - start) * dt)[:, None]
+    at = np.rint(middle).astype(int)
+    Lambda = poses.Lambda[index, at]
+    heights = Lambda[:, 2, :] @ P.T
+    corner = heights.argmin(axis=1)
+    r = (Lambda @ P[corner][..., None])[..., 0]
+    return Impacts(v1, v2, L1, L2, a.W, b.W, corner, r, index)
+
+
+def raise_none() -> None:
+    """Refuse tosses without a usable impact (E-SIZE)."""
+    from rockref.model.errors import InputError
+
+    raise InputError("E-SIZE", "tosses", "none has a first impact with flight on both sides", "Give more tosses.")
+
+
+def _segment(poses: Poses, index: np.ndarray, start: np.ndarray, count: np.ndarray) -> Poses:
+    n = int(count.max())
+    at = np.minimum(start[:, None] + np.arange(n), (start + count - 1)[:, None])
+    return poses._replace(
+        t=poses.t[:n], x=poses.x[index[:, None], at], Lambda=poses.Lambda[index[:, None], at], frames=count,
+        v=poses.v[index], W=poses.W[index],
+    )  # fmt: skip
+
+
+def impulse_balance(k: Impacts) -> Measured:
+    """Principal inertias over the mass (3) [m2] from L+ J W+ - L- J W- = m r x (v+ - v-), r the corner's lever."""
+    turned = np.einsum
+    A = turned("bij,bj->bij", k.L_after, k.W_after) - turned("bij,bj->bij", k.L_before, k.W_before)
+    y = np.cross(k.r, k.v_after - k.v_before)
+    p, se, scatter, keep = robust(A.reshape(-1, 3), y.ravel())
+    names = ("inertia_xx", "inertia_yy", "inertia_zz")
+    rows = {k_: (v, s, "m2") for k_, v, s in zip(names, p, se, strict=True)}
+    return Measured(rows, len(k.which), scatter)
+
+
+def corner_ratios(k: Impacts) -> Measured:
+    """Tangential over normal impulse where the corner keeps sliding, and restitution of the corner's normal speed."""
+    dv = k.v_after - k.v_before
+    u1 = k.v_before + np.cross((k.L_before @ k.W_before[..., None])[..., 0], k.r)
+    u2 = k.v_after + np.cross((k.L_after @ k.W_after[..., None])[..., 0], k.r)
+    ratio = np.hypot(dv[:, 0], dv[:, 1]) / dv[:, 2]
+    speed = np.hypot(u2[:, 0], u2[:, 1])
+    along = np.sum(u1[:, :2] * u2[:, :2], axis=1) / np.maximum(np.hypot(u1[:, 0], u1[:, 1]) * speed, 1e-9)
+    # The corner slid throughout where it still moves the same way: within 30 degrees, at 0.2 m/s or more (decided).
+    slid = (speed > 0.2) & (along > np.cos(np.pi / 6))
+    restitution = -u2[:, 2] / u1[:, 2]
+    values = {}
+    for name, a in (("friction", ratio[slid]), ("restitution", restitution)):
+        if len(a) > 4:
+            spread = 1.4826 * np.median(np.abs(a - np.median(a)))
+            values[name] = (float(np.median(a)), float(1.2533 * spread / np.sqrt(len(a))), "1")
+    return Measured(values, int(slid.sum()), float(np.std(ratio[slid])) if slid.any() else float("nan"))
+
+
+def energy_change(k: Impacts, inertia_over_mass: np.ndarray) -> np.ndarray:
+    """(B,) kinetic energy after over before, less one, with principal inertias over the mass (3) [m2]."""
+    before = np.sum(k.v_before**2, axis=1) + np.sum(inertia_over_mass * k.W_before**2, axis=1)
+    after = np.sum(k.v_after**2, axis=1) + np.sum(inertia_over_mass * k.W_after**2, axis=1)
+    return after / before - 1

@@ -1,0 +1,70 @@
+"""`rockref reproduce cube`: measured tosses compared, diagnosed and explained, on one page."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+from rockref.discover.tosses.compare import compare
+from rockref.discover.tosses.diagnose import diagnose
+from rockref.measure.tosses import load_tosses
+from rockref.model.storage import write_text
+from rockref.report import toss_text
+from rockref.report.output import made_folder
+from rockref.report.page import Page
+from rockref.report.toss_page import add_diagnosis, staircase_picture
+
+#: Where the tosses are if no folder is named.
+VARIABLE = "ROCKREF_CUBE_TOSSES"
+
+
+def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[str], None]) -> Path:
+    """Make the page in `folder` from the tosses in `data` (default: the folder that ROCKREF_CUBE_TOSSES names).
+
+    quick : one effect deep.
+
+    Raises
+    ------
+    InputError
+        E-FOLDER, where no tosses are named.
+    """
+    path = data or named_folder()
+    folder = made_folder(folder)
+    tosses = load_tosses(path)
+    say("stated values")
+    before = compare(tosses).to_dict()
+    found = diagnose(tosses, deepest=1 if quick else 6, progress=say)
+    record = found.to_dict()
+    say("where the explained model fails")
+    after = compare(tosses, [found.model], ["explained"]).to_dict()
+    write_text(folder / "diagnosis.json", json.dumps(record, indent=1) + "\n")
+    write_text(folder / "comparison.json", json.dumps({"before": before, "after": after}, indent=1) + "\n")
+    found.model.save(folder / "model.toml")
+    (folder / "staircase.png").write_bytes(staircase_picture(record))
+    page = Page("Tosses of a cube, explained", record["sentence"])
+    page.add_section("Stated values", "The plain law with what the data's authors state, beside published simulators.")
+    page.add_table(toss_text.errors_table(before))
+    add_diagnosis(page, record)
+    page.add_section("Where the error grows", "Before, and with the effects that were found; held-out tosses.")
+    for part in (before, after):
+        for row in part["rows"]:
+            if row["start"] == "flight" and row["use"] == "holdout":
+                page.add_table(toss_text.stretches_table(row))
+    page.add_provenance({"tosses": len(tosses.tosses), "copies set aside": len(tosses.copies), "sha256": tosses.sha256})
+    return page.write(folder / "index.html")
+
+
+def named_folder() -> Path:
+    """The folder of tosses that the environment names. Raises InputError E-FOLDER."""
+    import os
+
+    from rockref.model.errors import InputError
+
+    named = os.environ.get(VARIABLE)
+    if not named:
+        raise InputError(
+            "E-FOLDER", VARIABLE, "is not set, and no --data was given",
+            "Clone github.com/DAIRLab/contact-nets and run `rockref import contactnets CLONE -o tosses`.",
+        )  # fmt: skip
+    return Path(named)

@@ -1,0 +1,96 @@
+"""Tosses on a page: tables, and pictures of where models fail and how the error falls."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any
+
+from rockref.discover.tosses.compare import PUBLISHED
+from rockref.discover.tosses.diagnose import sentences
+from rockref.report import toss_text
+from rockref.report.page import Page, Table
+
+INK, SECOND, PALE = "#1f4e79", "#c05a00", "#9aa5b1"
+
+
+def write_toss_comparison(record: dict[str, Any], folder: Path) -> Path:
+    """Write ``index.html`` for a comparison; returns its path."""
+    page = Page(f"Tosses: {record['experiment']}", "Models beside measured tosses of a rigid block.")
+    page.add_section("How far off")
+    page.add_table(toss_text.errors_table(record))
+    page.add_section("Where")
+    for row in record["rows"]:
+        if row["start"] == "flight":
+            page.add_table(toss_text.stretches_table(row))
+    page.add_section("What the tosses say by themselves")
+    page.add_table(toss_text.measured_table(record["measured"]))
+    page.add_provenance({"experiment": record["experiment"], "sha256 of the table": record["sha256"]})
+    return page.write(folder / "index.html")
+
+
+def write_toss_diagnosis(record: dict[str, Any], folder: Path) -> Path:
+    """Write ``index.html`` and ``staircase.png`` for a diagnosis; returns the page's path."""
+    page = Page(f"What is missing: {record['experiment']}", record["sentence"])
+    add_diagnosis(page, record)
+    (folder / "staircase.png").write_bytes(staircase_picture(record))
+    page.add_provenance({"experiment": record["experiment"], "sha256 of the table": record["sha256"]})
+    return page.write(folder / "index.html")
+
+
+def add_diagnosis(page: Page, record: dict[str, Any]) -> None:
+    """The sections of a diagnosis."""
+    page.add_section("The staircase", "Each step adds the effect that explains most of the fit tosses.")
+    page.add_figure(
+        staircase_picture(record),
+        "Held-out error after each added effect; the dashed line is the floor that the starts' uncertainty sets.",
+        toss_text.staircase_table(record),
+    )
+    page.add_table(toss_text.staircase_table(record))
+    said = sentences()
+    page.add_sentences([f"{s['added']}: {said[s['added']]}" for s in record["staircase"] if s["added"] in said])
+    page.add_section(
+        "Two ways to one number",
+        "The fit sees impacts through a contact model; flight arcs and the balance of momenta need none.",
+    )
+    page.add_table(toss_text.agreement_table(record))
+    page.add_table(toss_text.measured_table(record["measured_without_contact_model"]))
+    page.add_section("The numbers")
+    last = record["staircase"][-1]
+    rows = tuple((k, f"{v['value']:.5g}", v["unit"]) for k, v in last["parameters"].items())
+    page.add_table(Table("Parameters of the last step", ("parameter", "value", "unit"), rows))
+
+
+def staircase_picture(record: dict[str, Any]) -> bytes:
+    """PNG: mean position and rotation error on the held-out tosses, from both starts, over the added effects."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    steps = record["staircase"]
+    names = ["stated\nvalues", "contact\nfitted"] + ["+ " + s["added"].replace("_", "\n") for s in steps[1:]]
+    figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
+    for k, (axis, key, unit) in enumerate(
+        zip(
+            axes,
+            ("position_percent", "rotation_deg"),
+            ("position error, % of width", "rotation error, deg"),
+            strict=True,
+        )
+    ):
+        for start, color, mark in (("raw", PALE, "s"), ("flight", INK, "o")):
+            y = [record["nominal_holdout"][start][key]["mean"]] + [s["holdout"][start][key]["mean"] for s in steps]
+            axis.plot(range(len(y)), y, mark + "-", color=color, label=f"start: {start}")
+        axis.axhline(record["floor"][key], color=INK, ls="--", lw=1, label="floor of the starts")
+        axis.axhline(min(v[2 * k] for v in PUBLISHED.values()), color=SECOND, lw=1, label="best published (raw)")
+        axis.set_xticks(range(len(names)), names, fontsize=7)
+        axis.set_ylabel(unit)
+        axis.set_ylim(bottom=0)
+        for side in ("top", "right"):
+            axis.spines[side].set_visible(False)
+    axes[0].legend(frameon=False, fontsize=8)
+    out = io.BytesIO()
+    figure.savefig(out, format="png", dpi=110, metadata={"Software": None})
+    plt.close(figure)
+    return out.getvalue()

@@ -1,0 +1,141 @@
+"""Tosses on the terminal: tables and sentences."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rockref.discover.tosses.compare import PUBLISHED
+from rockref.report.page import Table
+from rockref.report.text import print_table
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+HEAD = ("", "start", "tosses", "position %", "median", "rotation deg", "median")
+
+
+def error_cells(summary: dict[str, Any]) -> tuple[str, ...]:
+    """Mean ± deviation and median of position and rotation."""
+    p, r = summary["position_percent"], summary["rotation_deg"]
+    return (
+        f"{p['mean']:.1f} ± {p['sd']:.1f}", f"{p['median']:.1f}",
+        f"{r['mean']:.1f} ± {r['sd']:.1f}", f"{r['median']:.1f}",
+    )  # fmt: skip
+
+
+def errors_table(record: dict[str, Any]) -> Table:
+    """The models of a comparison beside the published simulators."""
+    rows = [
+        (f"{r['model']}, {r['use']}", r["start"], str(r["tosses"]), *error_cells(r)) for r in record["rows"]
+    ]  # fmt: skip
+    for name, (p, ps, a, s) in PUBLISHED.items():
+        rows.append((f"{name}, published", "raw", "550", f"{p:.1f} ± {ps:.1f}", "", f"{a:.1f} ± {s:.1f}", ""))
+    note = (
+        "Mean over all frames of a toss, then over the tosses. Published: identified and reported on the same tosses."
+    )
+    return Table("Errors", HEAD, tuple(rows), note)
+
+
+def stretches_table(row: dict[str, Any]) -> Table:
+    """Where the errors of one row grow."""
+    rows = tuple(
+        (
+            s["stretch"], str(s["tosses"]), f"{s['frames_percent']:.0f}",
+            f"{s['position_percent']:.1f}", f"{s['growth']['position_percent']:+.1f}",
+            f"{s['rotation_deg']:.1f}", f"{s['growth']['rotation_deg']:+.1f}",
+        )
+        for s in row["stretches"]
+    )  # fmt: skip
+    head = ("stretch", "tosses", "frames %", "position %", "grows by", "rotation deg", "grows by")
+    return Table(f"Where: {row['model']}, {row['use']} tosses, start from the {row['start']}", head, rows, "")
+
+
+def measured_table(found: dict[str, Any]) -> Table:
+    """What the tosses say without a contact model."""
+    rows = []
+    for key, v in found.get("flight_arcs", {}).get("values", {}).items():
+        rows.append((f"flight arcs: {key}", f"{v['value']:.5g} ± {v['se']:.2g}", v["unit"]))
+    for name in ("stated_centre", "measured_centre"):
+        part = found.get(name)
+        if part is None:
+            continue
+        words = name.replace("_", " ")
+        rows.append((f"{words}: moment left in the impulse balance, over the mass",
+                     f"{part['impulse_balance']['scatter']:.4g}", "m2/s"))  # fmt: skip
+        rows += [(f"{words}: inertia {a}", f"{v:.3g}", "kg m2") for a, v in part["inertia_kg_m2"].items()]
+        for key, v in part["corner"]["values"].items():
+            rows.append((f"{words}: {key} of the corner", f"{v['value']:.3f} ± {v['se']:.2g}", "1"))
+        e = part["energy_change"]
+        rows.append((f"{words}: impacts that gain kinetic energy", f"{e['gains']} of {e['tosses']}", ""))
+    return Table("Without a contact model", ("what", "value", "unit"), tuple(rows), "First impacts on one corner.")
+
+
+def staircase_table(record: dict[str, Any]) -> Table:
+    """Held-out errors after each added effect."""
+    first = record["nominal_holdout"]
+    rows = [
+        (
+            "stated values",
+            "",
+            *error_cells(first["flight"]),
+            "",
+            error_cells(first["raw"])[0],
+            error_cells(first["raw"])[2],
+        )
+    ]
+    for s in record["staircase"]:
+        proof = s["proof"]
+        fall = f"{proof['mean']:.2f} ({proof['low']:.2f} to {proof['high']:.2f})"
+        raw = error_cells(s["holdout"]["raw"])
+        rows.append((s["added"], s["verdict"], *error_cells(s["holdout"]["flight"]), fall, raw[0], raw[2]))
+    head = (
+        "added",
+        "verdict",
+        "position %",
+        "median",
+        "rotation deg",
+        "median",
+        "falls by (90 %)",
+        "raw: position",
+        "rotation",
+    )
+    f = record["floor"]
+    note = (
+        f"Held-out tosses. A true model would have {f['position_percent']:.1f} % and {f['rotation_deg']:.1f} deg "
+        f"(medians {f['position_percent_median']:.1f}, {f['rotation_deg_median']:.1f}): the uncertainty of the starts."
+    )
+    return Table("The staircase", head, tuple(rows), note)
+
+
+def agreement_table(record: dict[str, Any]) -> Table:
+    """Two ways to one quantity."""
+    rows = tuple(
+        (
+            a["quantity"], f"{a['with_contact_model']:.4g}", f"{a['without']:.4g} ± {a['standard_error']:.2g}",
+            a["unit"], a["how"],
+        )
+        for a in record["agreement"]
+    )  # fmt: skip
+    return Table("Two ways", ("quantity", "fit of the tosses", "without contact model", "unit", "how"), rows, "")
+
+
+def print_toss_comparison(console: Console, record: dict[str, Any]) -> None:
+    """Print a comparison."""
+    if record["copies"]:
+        console.print(f"{len(record['copies'])} turned copies of other tosses were set aside.", highlight=False)
+    print_table(console, errors_table(record))
+    for row in record["rows"]:
+        if row["start"] == "flight":
+            print_table(console, stretches_table(row))
+    print_table(console, measured_table(record["measured"]))
+
+
+def print_toss_diagnosis(console: Console, record: dict[str, Any]) -> None:
+    """Print a diagnosis."""
+    console.print(f"{record['verdict']}: {record['sentence']}", style="bold", markup=False, highlight=False)
+    print_table(console, staircase_table(record))
+    print_table(console, agreement_table(record))
+    for gate in record["gates"]:
+        state = "passed" if gate["passed"] else "NOT PASSED"
+        console.print(f"  gate {gate['name']}: {state} ({gate['value']:g}, limit {gate['limit']:g})", highlight=False)
+    console.print(f"  {record['seconds']:.0f} s", highlight=False)

@@ -1,0 +1,49 @@
+"""What tosses say without a contact model, on tosses with known truth."""
+
+import pytest
+
+from rockref.discover.tosses.body import frames_of, throw_frame
+from rockref.discover.tosses.compare import measured, nominal_corners
+from rockref.effects.shape.inertia_deviation import InertiaDeviation
+from rockref.effects.shape.mass_eccentricity import MassEccentricity
+from rockref.measure.flight import flight_frames, side_by_side
+from rockref.measure.toss_balance import flight_arcs
+from rockref.measure.tosses import CUBE_INERTIA, load_tosses
+from tests.tosses import made, stated, write_tosses
+
+OFF = (0.001, -0.0005, 0.006)
+
+
+@pytest.fixture(scope="module")
+def tosses(tmp_path_factory):
+    model = stated().replace(effects=(MassEccentricity(*OFF), InertiaDeviation(1.4, 1.5, 1.3)))
+    x, Lambda, _ = made(model, 60, frames=60, seed=2, noise=2e-5)
+    return load_tosses(write_tosses(tmp_path_factory.mktemp("made"), x, Lambda))
+
+
+def test_arcs_find_gravity_and_the_centre_of_mass(tosses):
+    poses = side_by_side(tosses.tosses, tosses.rate)
+    x, Lambda = frames_of(stated(), throw_frame(poses)).to_body(poses.x, poses.Lambda)
+    own = poses._replace(x=x, Lambda=Lambda)
+    found = flight_arcs(own, flight_frames(own, 1.1 * nominal_corners(stated()), 2e-3))
+    for axis, true in zip("xyz", OFF, strict=True):
+        value, se, _ = found.values[f"centre_{axis}"]
+        assert abs(value - true) < 4 * se + 1e-5
+        assert se < 3e-4
+    assert abs(found.values["g_z"][0] + 9.81) < 4 * found.values["g_z"][1] + 1e-3
+    assert abs(found.values["drag"][0]) < 4 * found.values["drag"][1]
+
+
+def test_impulses_balance_about_the_measured_centre_and_give_the_inertia(tosses):
+    found = measured(tosses.tosses, tosses, stated())
+    wrong, right = (found[k]["impulse_balance"]["scatter"] for k in ("stated_centre", "measured_centre"))
+    assert right < 0.6 * wrong
+    for axis, factor in (("xx", 1.4), ("yy", 1.5), ("zz", 1.3)):
+        # Contacts last two frames, in which the lever turns: a tenth is what one middle lever can promise.
+        assert found["measured_centre"]["inertia_kg_m2"][axis] == pytest.approx(factor * CUBE_INERTIA, rel=0.1)
+
+
+def test_no_impact_gains_energy(tosses):
+    energy = measured(tosses.tosses, tosses, stated())["measured_centre"]["energy_change"]
+    assert energy["tosses"] > 10
+    assert energy["largest"] < 0
