@@ -20,5 +20,6 @@ MODULES: tuple[str, ...] = (
     "blind",
     "conform",
     "import_contactnets",
+    "reproduce",
     "version_info",
 )

@@ -17,13 +17,13 @@ SHOWN = 4
 
 
 @contextmanager
-def searching(space: Space, every_line: bool = False) -> Iterator[Callable[[str, Progress], None]]:
-    """Give a function that takes (stage, progress) after every generation."""
+def searching(every_line: bool = False) -> Iterator[Callable[[Space, str, Progress], None]]:
+    """Give a function that takes (space, stage, progress) after every generation."""
     if every_line:
-        yield lambda stage, p: print(f"{stage} {_line(space, p)}", file=sys.stderr, flush=True)
+        yield lambda space, stage, p: print(f"{stage} {_line(space, p)}", file=sys.stderr, flush=True)
         return
     if not sys.stderr.isatty():
-        yield lambda stage, p: None
+        yield lambda space, stage, p: None
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn
@@ -38,7 +38,7 @@ def searching(space: Space, every_line: bool = False) -> Iterator[Callable[[str,
     with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
         tasks: dict[str, Any] = {}
 
-        def show(stage: str, p: Progress) -> None:
+        def show(space: Space, stage: str, p: Progress) -> None:
             if stage not in tasks:
                 tasks[stage] = bar.add_task("", total=p.generations, stage=stage)
             bar.update(tasks[stage], completed=p.generation, description=_line(space, p))

@@ -47,41 +47,22 @@ def identify(
     from rockref.commands._models import named_model
     from rockref.commands._searching import searching
     from rockref.identify.campaign import campaign
-    from rockref.identify.genes import space_12, space_54
-    from rockref.identify.identifiability import identifiability
-    from rockref.identify.identification import identify as run
-    from rockref.identify.outcome import files_in, found_model, record
-    from rockref.identify.runs import run_errors
+    from rockref.identify.from_experiment import identify_experiment
+    from rockref.identify.outcome import files_in
     from rockref.identify.search import Settings
-    from rockref.identify.target import chosen_runs, targets_of
-    from rockref.measure.experiment import load_experiment
-    from rockref.model.errors import InputError
     from rockref.model.storage import write_text
     from rockref.report.output import made_folder
 
-    if genes not in (12, 54):
-        raise InputError("E-KEY", "--genes", f"is {genes}", "Use 12 or 54.")
     folder = made_folder(output)
-    data = load_experiment(experiment, uses=("fit",))
-    targets = targets_of(data)
-    base = named_model(model).replace(
-        mass=data.mass, width=data.width, depth=data.width, height=data.height, points="eight_points", effects=()
-    )
-    chosen = chosen_runs(targets, search_runs)
-    space = (space_12 if genes == 12 else space_54)(base, chosen[0].tilt)
-    settings = Settings(population, generations, seed)
-    with searching(space, verbose) as say, campaign(workers, dask) as work:
-        end = run(space, chosen, targets, settings, work, folder, resume, say)
-    known = identifiability(space, targets, end.polished)
-    # Only now, with the parameters fixed, are the holdout runs opened.
-    everything = load_experiment(experiment)
-    holdout = targets_of(everything, everything.holdout_runs())
-    errors = run_errors(space, end.polished, targets, holdout)
-    result = record(end, known, errors, chosen, targets, settings, everything.digests)
+    with searching(verbose) as say, campaign(workers, dask) as work:
+        result, found = identify_experiment(
+            experiment, Settings(population, generations, seed), work, folder, base=named_model(model), genes=genes,
+            search_runs=search_runs, resume=resume, report=say,
+        )  # fmt: skip
     files = files_in(folder)
     text = json.dumps(result, indent=1)
     write_text(files["result"], text + "\n")
-    found_model(end, known, everything.digests, seed).save(files["model"])
+    found.save(files["model"])
     if as_json:
         typer.echo(text)
     else:
@@ -92,5 +73,5 @@ def identify(
         print_identification(Console(), result)
         for path in files.values():
             typer.echo(f"wrote {path}")
-    if not end.at_floor:
+    if not result["least_squares"]["at_noise_floor"]:
         raise typer.Exit(1)

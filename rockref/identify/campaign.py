@@ -28,6 +28,8 @@ class Campaign:
 
     def __init__(self, make: Callable[[], Executor | None], workers: int):
         self.make, self.workers = make, workers
+        #: Threads for what is computed in this process, between the pieces.
+        self.threads = min(workers, os.cpu_count() or 1)
         self.executor = make()
 
     def __call__(self, function: Callable[..., Sequence], shared: tuple, items: Sequence) -> list:

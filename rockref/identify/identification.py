@@ -14,14 +14,11 @@ from rockref.identify.campaign import Campaign
 from rockref.identify.candidates import STEP, evaluate, feature_costs
 from rockref.identify.cost import Terms
 from rockref.identify.genes import Space
-from rockref.identify.polish import Polished, polish
+from rockref.identify.polish import FLOOR, Effort, Polished, polish
 from rockref.identify.search import Found, Progress, Settings, search
 from rockref.identify.target import Target
 from rockref.identify.unknowns import Unknowns, signal_costs
 
-#: A fit is at the noise floor below this mean square of the residual over the noise. Decided: 1 is the floor of white
-#: noise; the step of 1e-5 s adds some hundredths to it, a wrong order of landings some units.
-FLOOR = 1.1
 #: Rounds of search on the signals where the polish ends above the floor, their generations, and their first spread.
 #: Decided: landings in a wrong order are a tenth of a range away, and forty generations are enough to tell.
 ROUNDS, ROUND_GENERATIONS, ROUND_SIGMA = 3, 60, 0.08
@@ -55,11 +52,13 @@ def identify(
     report: Callable[[str, Progress], None] | None = None,
     rounds: int = ROUNDS,
     step: float = STEP,
+    effort: Effort = Effort(),  # noqa: B008 - frozen
 ) -> Identified:
     """Search on `search_targets`, then least squares on `targets`.
 
     folder : where checkpoints are written, one a stage;  resume : go on from them;  report : (stage, progress).
     rounds : at most so many further searches, on the signals, where the least squares end above the noise floor.
+    effort : of the least squares.
 
     Raises InputError (E-RESUME, E-FILE) as `rockref.identify.search.search`.
     """
@@ -73,7 +72,7 @@ def identify(
         "search", feature_costs, (space, search_targets), len(space.genes), settings, fingerprint(space, search_targets)
     )
     terms = evaluate(space, search_targets, found.u[None])[0][1]
-    best, made = polish(space, targets, found.u, step), 0
+    best, made = polish(space, targets, found.u, step, campaign.threads, effort=effort), 0
     unknowns = Unknowns(space, targets)
     while best.chi2 >= FLOOR and made < rounds:
         made += 1
@@ -83,7 +82,7 @@ def identify(
         )  # fmt: skip
         identity = fingerprint(space, targets) | {"round": made, "step": step}
         more = stage(f"signals_{made}", signal_costs, (space, targets, step), len(unknowns.names), how, identity)
-        again = polish(space, targets, more.u, step, z=True)
+        again = polish(space, targets, more.u, step, campaign.threads, z=True, effort=replace(effort, windows=()))
         best = again if again.chi2 < best.chi2 else best
     return Identified(space, found, terms, best, made)
 

@@ -4,6 +4,9 @@ The residual as a function of the parameters is smooth between small jumps: wher
 changes, the response jumps by some 0.01 deg/s. So the slopes are taken over steps that change the response by about
 the noise, and where the descent ends in a dent between two jumps, each parameter is moved a long way, the others
 following, and the descent begins again from the best of these places.
+
+What is wrong early is wrong by much more later: the residual over the whole time has its valley only where everything
+is nearly right. So the first descents look at the record up to the first main impact, and then further and further.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ import numpy as np
 
 from rockref.identify.candidates import STEP
 from rockref.identify.genes import Space
-from rockref.identify.target import Target
+from rockref.identify.target import Target, seen_until
 from rockref.identify.unknowns import Unknowns, mean_squares, residuals
 
 #: Change of the response that a finite difference makes, in parts of the noise (quadratic mean): first large, to see
@@ -27,11 +30,30 @@ SMALLEST, LARGEST, FIRST = 2e-4, 0.04, 1e-3
 DAMPING, FACTORS, STEPS, LEAST_GAIN = 1e-2, (0.04, 0.2, 1.0, 5.0, 25.0), 12, 1e-3
 #: Shifts of one unknown in a long move, how many of the best places are descended from and with how many steps, and
 #: most rounds of moves. Decided: a twentieth of a range is beyond a dent, two fifths reach anywhere in three rounds.
-SHIFTS, PLACES, SHORT, ROUNDS = (-0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4), 4, 5, 4
+SHIFTS, PLACES, SHORT, MOVES = (-0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4), 4, 5, 4
+#: How far beyond the first main impact the first descents look [s]. Decided: the impact itself, a tooth of the saw,
+#: two, four, eight; each window is then some standard errors from the end of the one before, not some hundred.
+WINDOWS = (0.0, 0.06, 0.15, 0.35, 0.6)
+#: Within a window: long moves while the mean square is above this and each gains, at most so many. Decided: 1 is the
+#: noise; in the first windows moves are cheap, in the later ones a place is taken over that fits already.
+NEARLY, WINDOW_MOVES, CHEAP_WINDOW = 1.05, 3, 0.1
+#: A fit is at the noise floor below this mean square of the residual over the noise. Decided: 1 is the floor of white
+#: noise; the step of 1e-5 s adds some hundredths to it, a wrong order of landings some units.
+FLOOR = 1.1
 #: Moves end where a round gains less than this share; decided: 4000 samples of noise scatter the mean square by 2 %.
 LEAST_ROUND_GAIN = 5e-3
 #: Two ends are as good as each other where their mean squares differ by less than this share; decided: that scatter.
 ALIKE = 0.02
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How hard the least squares try: windows, ends of the first descents after the first main impact [s] (none, where
+    the start is near); steps of one descent and rounds of long moves, at most."""
+
+    windows: tuple[float, ...] = WINDOWS
+    steps: int = STEPS
+    moves: int = MOVES
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +89,15 @@ class _Place:
 class _Descent:
     """The functions that a polish shares: residuals and slopes of one problem."""
 
-    def __init__(self, unknowns: Unknowns, step: float, workers: int | None, report: Callable[[float], None] | None):
-        self.unknowns, self.step, self.workers = unknowns, step, workers
+    def __init__(
+        self,
+        unknowns: Unknowns,
+        step: float = STEP,
+        workers: int | None = None,
+        report: Callable[[float], None] | None = None,
+        steps: int = STEPS,
+    ):
+        self.unknowns, self.step, self.workers, self.steps = unknowns, step, workers, steps
         self.report = report or (lambda chi2: None)
         self.ends: list[_Place] = []
 
@@ -93,10 +122,10 @@ class _Descent:
         J = self.jacobian(z, h)
         return J, _steps(J, change)
 
-    def descend(self, at: _Place, change: float, steps: int = STEPS) -> _Place:
+    def descend(self, at: _Place, change: float, steps: int | None = None) -> _Place:
         """Levenberg-Marquardt from `at`, five dampings a step side by side."""
         damping, h = DAMPING, None
-        for _ in range(steps):
+        for _ in range(self.steps if steps is None else steps):
             J, h = self.slopes(at.z, change, h)
             trials = np.array([damped_step(J, at.r, at.z, damping * f) for f in FACTORS])
             rs = self.residuals(trials)
@@ -136,24 +165,46 @@ def polish(
     workers: int | None = None,
     report: Callable[[float], None] | None = None,
     z: bool = False,
-    rounds: int = ROUNDS,
+    effort: Effort = Effort(),  # noqa: B008 - frozen
 ) -> Polished:
     """Least squares within the ranges, from the chromosome u (G,), or with `z` from the unknowns u (Z,).
 
-    report : called with the mean square after each gain;  rounds : of long moves at most.
+    report : called with the mean square after each gain.
     """
     unknowns = Unknowns(space, targets)
-    descent = _Descent(unknowns, step, workers, report)
-    at = descent.place(np.clip(np.asarray(u, float) if z else unknowns.z(np.asarray(u, float)), 0.0, 1.0))
+    start = np.clip(np.asarray(u, float) if z else unknowns.z(np.asarray(u, float)), 0.0, 1.0)
+    for after in effort.windows:
+        seen = [seen_until(t, after) for t in targets]
+        short = _Descent(Unknowns(space, seen), step, workers, report, effort.steps)
+        start = _in_window(short, start, after if effort.moves else CHEAP_WINDOW).z
+    descent = _Descent(unknowns, step, workers, report, effort.steps)
+    at = descent.place(start)
     for change in CHANGES:
         at = descent.descend(at, change)
-    for _ in range(rounds):
+    for _ in range(effort.moves):
         before = at.chi2
+        if before < FLOOR:
+            break
         at = descent.descend(descent.long_moves(at), CHANGES[2])
         if at.chi2 > (1 - LEAST_ROUND_GAIN) * before:
             break
     alike = [end.z for end in descent.ends if end.chi2 < (1 + ALIKE) * at.chi2]
     return _result(unknowns, at, descent.slopes(at.z, CHANGES[1])[0], np.array(alike))
+
+
+def _in_window(descent: _Descent, z: np.ndarray, after: float) -> _Place:
+    """The end of the descents that look no further than `after` [s] beyond the first main impact."""
+    at = descent.place(z)
+    for change in CHANGES[:2]:
+        at = descent.descend(at, change)
+    for _ in range(WINDOW_MOVES if after < CHEAP_WINDOW else 0):
+        before = at.chi2
+        if before < NEARLY:
+            break
+        at = descent.descend(descent.long_moves(at), CHANGES[1])
+        if at.chi2 > (1 - ALIKE) * before:
+            break
+    return at
 
 
 def _steps(J: np.ndarray, change: float) -> np.ndarray:

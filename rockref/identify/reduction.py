@@ -6,12 +6,19 @@ common to all points, damping by one ratio for the inner and one for the outer p
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from rockref.identify.genes import Space
-from rockref.identify.search import Found
+from rockref.api import Model
+from rockref.identify.campaign import Campaign
+from rockref.identify.candidates import feature_costs
+from rockref.identify.genes import Space, space_54
+from rockref.identify.identification import fingerprint
+from rockref.identify.search import Found, Settings, search
+from rockref.identify.target import Target
 
 #: What the reduction says should be one number, by the names of the 54 genes: pattern of point, property.
 GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
@@ -40,7 +47,7 @@ class Together:
     def comes_out(self) -> bool:
         """Whether the search itself made the members one: they end within half the spread that chance would give, and
         move together more than with the rest."""
-        return self.spread < 0.5 * self.chance and self.correlation > self.others + 0.1
+        return bool(self.spread < 0.5 * self.chance and self.correlation > self.others + 0.1)
 
 
 def ways(space: Space, found: Found, mass: float) -> tuple[tuple[str, ...], np.ndarray]:
@@ -83,7 +90,7 @@ def groups(space: Space, found: Found, mass: float) -> list[Together]:
         pairs = block[np.triu_indices(len(inside), 1)]
         rest = np.abs(correlation[np.ix_(inside, outside)])
         # Standard deviation of numbers drawn evenly from [0, 1].
-        chance = 1 / np.sqrt(12.0)
+        chance = float(1 / np.sqrt(12.0))
         member_names = tuple(names[i] for i in inside)
         table.append(
             Together(
@@ -96,3 +103,30 @@ def groups(space: Space, found: Found, mass: float) -> list[Together]:
             )
         )
     return table
+
+
+def reduction_study(
+    target: Target, settings: Settings, work: Campaign, checkpoint: Path | None = None
+) -> dict[str, Any]:
+    """Search the 54 genes for `target` and say whether the reduction comes out.
+
+    Returns, for JSON: simulations, cost; genes; ways (generations, 54) of the best chromosomes in parts of the ranges,
+    damping as ratio; correlation (54, 54) of their changes; groups, as `Together`, with `comes_out`.
+    """
+    model = Model.table_3_1()
+    space = space_54(model, target.tilt)
+    found = search(
+        feature_costs, (space, [target]), len(space.genes), settings, work, fingerprint(space, [target]), checkpoint,
+        resume=True,
+    )  # fmt: skip
+    names, way = ways(space, found, model.mass)
+    _, correlation = evolve_together(space, found, model.mass)
+    return {
+        "simulations": sum(map(len, found.history.costs)),
+        "cost": found.cost,
+        "best_cost_by_generation": found.history.best_cost,
+        "genes": list(names),
+        "ways": np.round(way, 4).tolist(),
+        "correlation": np.round(correlation, 3).tolist(),
+        "groups": [asdict(g) | {"comes_out": g.comes_out} for g in groups(space, found, model.mass)],
+    }

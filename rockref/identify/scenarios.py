@@ -8,7 +8,7 @@ with the same budget to a reference made by the eight-point model.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -18,11 +18,10 @@ from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
 from rockref.effects.friction.uneven_foot_friction import UnevenFootFriction
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
-from rockref.identify.campaign import Campaign
-from rockref.identify.candidates import evaluate, feature_costs
-from rockref.identify.cost import Terms
-from rockref.identify.genes import TILT_RANGE, Gene, Space, gene
-from rockref.identify.search import Found, Settings, search
+from rockref.identify.campaign import Campaign, campaign
+from rockref.identify.candidates import evaluate, feature_costs, releases
+from rockref.identify.genes import TILT_RANGE, Gene, Space, gene, model_of, space_12
+from rockref.identify.search import Settings, search
 from rockref.identify.target import Target
 from rockref.measure.phases import phases
 from rockref.model.parameters import Parameters
@@ -94,44 +93,53 @@ def start_of(space: Space, u: np.ndarray) -> dict[str, float]:
     return {"out_of_plane": float(space.values(u)[space.names.index("out_of_plane")])}
 
 
-@dataclass(frozen=True, eq=False)
-class Outcome:
-    """What a scenario reached: defects, number of genes, cost and its terms, values by gene, start of the last planar
-    arcs [s] (infinite: none within `LONG`), and the search."""
-
-    defects: tuple[str, ...]
-    genes: int
-    cost: float
-    terms: Terms | None
-    values: dict[str, float]
-    quasi_2d_from: float
-    found: Found
-
-    @property
-    def name(self) -> str:
-        """The defects in words."""
-        return " + ".join(self.defects) or "none"
+#: The row to hold the others against: the eight-point model with its twelve genes, fitted with the same budget.
+REFERENCE = ("eight_points",)
 
 
 def try_scenarios(
-    target: Target,
-    settings: Settings,
-    campaign: Campaign,
-    scenarios: Sequence[Sequence[str]] = SCENARIOS,
-    report: Callable[[str], None] | None = None,
-) -> list[Outcome]:
-    """Fit every scenario to the target with the same budget."""
-    outcomes = []
-    for defects in scenarios:
-        space = scenario_space(defects, target.tilt)
-        found = search(feature_costs, (space, [target]), len(space.genes), settings, campaign)
-        _, terms = evaluate(space, [target], found.u[None])[0]
-        values = dict(zip(space.names, map(float, space.values(found.u)), strict=True))
-        late = returns_to_plane(model_of_scenario(space, space.values(found.u)), **start_of(space, found.u))
-        outcomes.append(Outcome(tuple(defects), len(space.genes), found.cost, terms[0], values, late, found))
-        if report is not None:
-            report(outcomes[-1].name)
-    return outcomes
+    target: Target, settings: Settings, work: Campaign, scenarios: Sequence[Sequence[str]] = (REFERENCE, *SCENARIOS)
+) -> list[dict[str, Any]]:
+    """One row a scenario (`try_scenario`), all fitted with the same budget; they are spread over the workers."""
+    return work(_several, (target, settings), [tuple(s) for s in scenarios])
+
+
+def _several(target: Target, settings: Settings, scenarios: Sequence[tuple[str, ...]]) -> list[dict[str, Any]]:
+    return [try_scenario(target, settings, defects) for defects in scenarios]
+
+
+def try_scenario(target: Target, settings: Settings, defects: tuple[str, ...]) -> dict[str, Any]:
+    """Fit a four-point model with these defects (or the eight-point model, `REFERENCE`) to the target.
+
+    Returns, for JSON: name; genes, their number; cost and its terms; rms_deg_s (3,) of the difference up to the second
+    main impact; values by gene; quasi_2d_from, start of the last planar arcs [s] (None: none within `LONG`).
+    """
+    space = space_12(Model.table_3_1(), target.tilt) if defects == REFERENCE else scenario_space(defects, target.tilt)
+    with campaign(1) as here:
+        found = search(feature_costs, (space, [target]), len(space.genes), settings, here)
+    terms = evaluate(space, [target], found.u[None])[0][1][0]
+    t, crv = releases(space, target, [found.u])
+    n = int(np.searchsorted(target.t, target.until))
+    seen = np.stack([np.interp(target.t[:n], t, crv[0, :, j]) for j in range(3)], axis=-1)
+    late = returns_to_plane(model_of(space, found.u), **start_of(space, found.u))
+    return {
+        "name": words(defects),
+        "defects": list(defects),
+        "genes": len(space.genes),
+        "cost": found.cost,
+        "terms": None if terms is None else terms._asdict(),
+        "rms_deg_s": np.degrees(np.sqrt(np.mean(np.square(seen - target.crv[:n]), axis=0))).tolist(),
+        "u": found.u.tolist(),
+        "values": dict(zip(space.names, map(float, space.values(found.u)), strict=True)),
+        "quasi_2d_from": late if np.isfinite(late) else None,
+    }
+
+
+def words(defects: Sequence[str]) -> str:
+    """A scenario in words."""
+    if tuple(defects) == REFERENCE:
+        return "eight points"
+    return "four points" + (", uneven or off: " + ", ".join(defects) if defects else ", no defect")
 
 
 def returns_to_plane(model: Model, duration: float = LONG, **start) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -60,6 +60,13 @@ def target(name: str, t: np.ndarray, crv: np.ndarray, gyro: Gyro, tilt: float, t
         raise InputError("E-IMPACTS", f"run {name}", what, "Give a run that reaches its second main impact.")
     last = int(np.searchsorted(t, found.impacts[1] + BEYOND))
     return Target(name, t[:last], crv[:last], gyro, tilt, turned, found)
+
+
+def seen_until(seen: Target, after: float) -> Target:
+    """The target, looked at no further than `after` [s] beyond its first main impact."""
+    first, second = seen.features.impacts[:2]
+    end = np.array([first, min(second, first + after)])
+    return replace(seen, features=replace(seen.features, impacts=end))
 
 
 def targets_of(experiment: Experiment, runs: tuple[Run, ...] | None = None) -> tuple[Target, ...]:

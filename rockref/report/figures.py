@@ -36,7 +36,7 @@ def write_figures(c: Comparison, folder: Path, k: int = 0) -> list[Path]:
     return written
 
 
-def rendered(figure: Any, kind: str) -> bytes:
+def rendered(figure: Any, kind: str, dpi: float = 150) -> bytes:
     """Return a figure as the bytes of a PNG or SVG file; the same figure gives the same bytes."""
     import matplotlib
 
@@ -44,7 +44,7 @@ def rendered(figure: Any, kind: str) -> bytes:
     # Ids from a fixed salt and no date: two runs of the program write the same file.
     with matplotlib.rc_context({"svg.hashsalt": "rockref", "svg.fonttype": "none"}):
         metadata = {"Date": None} if kind == "svg" else {"Software": None}
-        figure.savefig(buffer, format=kind, dpi=150, metadata=metadata)
+        figure.savefig(buffer, format=kind, dpi=dpi, metadata=metadata)
     return buffer.getvalue()
 
 

@@ -1,11 +1,16 @@
 """Campaigns: the same results from any executor, in order, and nothing lost with a worker."""
 
+import os
+import signal
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 from rockref.identify.campaign import campaign, split
+from rockref.identify.candidates import feature_costs
+from rockref.identify.genes import space_12
+from rockref.identify.search import Settings, search
 from rockref.model.errors import InputError
 from tests.unit.identify import analytic
 
@@ -40,6 +45,7 @@ def test_a_killed_process_loses_nothing(tmp_path):
     assert (tmp_path / "mark").exists()
 
 
+@pytest.mark.slow
 def test_dask_cluster_with_a_worker_killed_in_the_middle(tmp_path):
     """A real cluster of two worker processes; one is killed while it computes."""
     distributed = pytest.importorskip("distributed")
@@ -57,8 +63,35 @@ def test_a_number_of_workers_below_one_is_refused():
     assert error.value.code == "E-WORKERS"
 
 
+@pytest.mark.slow
 def test_a_cluster_that_does_not_answer_is_named():
     pytest.importorskip("distributed")
     with pytest.raises(InputError) as error, campaign(dask="tcp://127.0.0.1:1"):
         pass
     assert error.value.code == "E-DASK"
+
+
+@pytest.mark.slow
+def test_a_search_on_a_cluster_ends_as_one_here(table_3_1, twin):
+    """Simulated costs, the same bits: in this process, in two others, on a cluster that loses a worker on the way."""
+    distributed = pytest.importorskip("distributed")
+    shared, how = (space_12(table_3_1), [twin]), Settings(6, 3, seed=4)
+
+    def end(work, report=None):
+        found = search(feature_costs, shared, 12, how, work, report=report)
+        return found.u.tolist(), found.history.costs
+
+    with campaign(1) as here, campaign(2) as processes:
+        wanted = end(here)
+        assert end(processes) == wanted
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        campaign(dask=cluster.scheduler_address) as work,
+    ):
+        pids = [w.pid for w in cluster.workers.values()]
+
+        def lose_a_worker(progress):
+            if progress.generation == 1:
+                os.kill(pids[0], signal.SIGKILL)
+
+        assert end(work, lose_a_worker) == wanted

@@ -7,7 +7,7 @@ import pytest
 
 from rockref.identify.genes import chromosome, model_of, space_12
 from rockref.identify.identifiability import identifiability, profile
-from rockref.identify.polish import narrowed, polish, with_genes
+from rockref.identify.polish import Effort, narrowed, polish, with_genes
 from rockref.identify.runs import run_error
 from rockref.identify.target import target
 from rockref.identify.unknowns import Unknowns, residuals, signal_costs
@@ -31,7 +31,7 @@ def end(space, truth, noisy_twin):
     """From a start that is off by a tenth of a last digit in every parameter, to the end, without long moves."""
     signs = np.random.default_rng(2).choice([-1.0, 1.0], 12)
     start = space.units(space.values(truth) + 0.1 * PRECISION * signs)
-    return polish(space, [noisy_twin], start, rounds=0)
+    return polish(space, [noisy_twin], start, effort=Effort(windows=(), moves=0))
 
 
 def test_recovers_what_the_data_determine_within_half_a_last_digit(space, end, noisy_twin):
@@ -47,7 +47,9 @@ def test_from_half_a_digit_off_the_long_moves_lead_back(space, truth, noisy_twin
     """With long moves the dents between are left behind; the friction of the inner points is what the data see
     least."""
     signs = np.random.default_rng(2).choice([-1.0, 1.0], 12)
-    far = polish(space, [noisy_twin], space.units(space.values(truth) + 0.5 * PRECISION * signs))
+    far = polish(
+        space, [noisy_twin], space.units(space.values(truth) + 0.5 * PRECISION * signs), effort=Effort(windows=())
+    )
     off = np.abs(space.values(far.u) - space.values(truth)) / PRECISION
     assert far.chi2 < 1.03 and np.delete(off, 4).max() < 1.0
     assert not identifiability(space, [noisy_twin], far).determined()["mu_int"]

@@ -1,0 +1,61 @@
+"""An experiment folder to an identified model: the holdout runs are opened when the parameters are fixed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from rockref.api import Model
+from rockref.identify.campaign import Campaign
+from rockref.identify.genes import space_12, space_54
+from rockref.identify.identifiability import identifiability
+from rockref.identify.identification import ROUNDS, identify
+from rockref.identify.outcome import found_model, record
+from rockref.identify.polish import Effort
+from rockref.identify.runs import run_errors
+from rockref.identify.search import Progress, Settings
+from rockref.identify.target import chosen_runs, targets_of
+from rockref.measure.experiment import load_experiment
+from rockref.model.errors import InputError
+
+
+def identify_experiment(
+    experiment: Path,
+    settings: Settings,
+    work: Campaign,
+    folder: Path,
+    *,
+    base: Model | None = None,
+    genes: int = 12,
+    search_runs: str | None = None,
+    resume: bool = False,
+    report: Callable[[Any, str, Progress], None] | None = None,
+    effort: Effort = Effort(),  # noqa: B008 - frozen
+    rounds: int = ROUNDS,
+) -> tuple[dict[str, Any], Model]:
+    """The record (`rockref.identify.outcome.record`) and the model that were identified from an experiment.
+
+    folder : of the checkpoints;  base : gives what is not searched;  genes : 12 or 54;  search_runs : of the
+    evolutionary search, as "01,06";  report : called with (space, stage, progress).
+
+    Raises InputError (E-KEY, E-KIND, E-RUN, E-RESUME, ...).
+    """
+    if genes not in (12, 54):
+        raise InputError("E-KEY", "--genes", f"is {genes}", "Use 12 or 54.")
+    data = load_experiment(experiment, uses=("fit",))
+    targets = targets_of(data)
+    model = (base or Model.table_3_1()).replace(
+        mass=data.mass, width=data.width, depth=data.width, height=data.height, points="eight_points", effects=()
+    )
+    chosen = chosen_runs(targets, search_runs)
+    space = (space_12 if genes == 12 else space_54)(model, chosen[0].tilt)
+    say = None if report is None else (lambda stage, p: report(space, stage, p))
+    end = identify(space, chosen, targets, settings, work, folder, resume, say, rounds, effort=effort)
+    known = identifiability(space, targets, end.polished)
+    # Only now, with the parameters fixed, are the holdout runs opened.
+    everything = load_experiment(experiment)
+    holdout = targets_of(everything, everything.holdout_runs())
+    errors = run_errors(space, end.polished, targets, holdout)
+    result = record(end, known, errors, chosen, targets, settings, everything.digests)
+    return result, found_model(end, known, everything.digests, settings.seed)

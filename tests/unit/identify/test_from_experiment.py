@@ -1,0 +1,62 @@
+"""An identification from an experiment folder: killed and resumed it has the same record; holdouts are in the table."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from rockref.identify.campaign import campaign
+from rockref.identify.from_experiment import identify_experiment
+from rockref.identify.search import Settings
+from rockref.model.errors import InputError
+
+ROOT = Path(__file__).parents[3]
+SHIPPED = ROOT / "data/experiments/mystery-08"
+
+
+@pytest.fixture(scope="module")
+def two_runs(tmp_path_factory):
+    """A fit run and a holdout run of the control experiment."""
+    folder = tmp_path_factory.mktemp("two")
+    head, *runs = (SHIPPED / "experiment.toml").read_text(encoding="utf-8").split("[[run]]")
+    kept = [r for r in runs if re.search(r'id = "0[13]"', r)]
+    (folder / "experiment.toml").write_text("[[run]]".join([head, *kept]), encoding="utf-8")
+    for k in ("01", "03"):
+        shutil.copy(SHIPPED / f"run{k}.csv.gz", folder)
+    return folder
+
+
+@pytest.mark.slow
+def test_killed_and_resumed_gives_the_same_record(two_runs, tmp_path):
+    pytest.importorskip("numba")
+
+    def command(folder):
+        folder.mkdir(exist_ok=True)
+        return [sys.executable, "-m", "tests.unit.identify.short_identification", str(two_runs), str(folder)]
+
+    whole = subprocess.run(command(tmp_path / "a"), cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    checkpoint = tmp_path / "b" / "search.json"
+    process = subprocess.Popen(command(tmp_path / "b"), cwd=ROOT, stdout=subprocess.DEVNULL)
+    while process.poll() is None and not (checkpoint.exists() and '"cost"' in checkpoint.read_text()):
+        time.sleep(0.02)
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
+    assert 1 <= len(json.loads(checkpoint.read_text())["costs"]) < 12, "it was killed on the way"
+    again = subprocess.run(command(tmp_path / "b"), cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert again == whole
+    record = json.loads(again)
+    assert [r["use"] for r in record["runs"]] == ["fit", "holdout"]
+    assert record["seed"] == 3 and record["versions"]["cmaes"] and len(record["inputs"]) >= 2
+
+
+def test_a_number_of_genes_that_is_not_known_is_refused(two_runs, tmp_path):
+    with pytest.raises(InputError) as error, campaign(1) as work:
+        identify_experiment(two_runs, Settings(4, 1), work, tmp_path, genes=13)
+    assert error.value.code == "E-KEY" and error.value.where == "--genes"

@@ -1,0 +1,45 @@
+"""Pieces of a long study: made once, made again for another budget, whole after any interruption."""
+
+import json
+
+import pytest
+
+from rockref.identify.pieces import Pieces
+from rockref.model.errors import InputError
+
+
+def test_a_piece_is_made_once_and_again_for_another_budget(tmp_path):
+    made = []
+
+    def make():
+        made.append(1)
+        return {"n": len(made)}
+
+    kept = Pieces(tmp_path, {"versions": 1})
+    assert kept.once("a", make, {"budget": (1, 2)}) == kept.once("a", make, {"budget": (1, 2)}) == {"n": 1}
+    assert kept.once("a", make, {"budget": (1, 3)}) == {"n": 2}
+    assert Pieces(tmp_path, {"versions": 2}).once("a", make, {"budget": (1, 3)}) == {"n": 3}
+
+
+def test_what_was_done_before_an_interruption_is_not_done_again(tmp_path):
+    asked = []
+
+    def make(keys):
+        asked.append(list(keys))
+        if 4 in keys and len(asked) == 2:
+            raise KeyboardInterrupt
+        return [{"key": k} for k in keys]
+
+    kept = Pieces(tmp_path, {})
+    with pytest.raises(KeyboardInterrupt):
+        kept.each("p", [1, 2, 3, 4, 5], make, together=2)
+    assert kept.each("p", [1, 2, 3, 4, 5], make, together=2) == [{"key": k} for k in (1, 2, 3, 4, 5)]
+    assert asked == [[1, 2], [3, 4], [3, 4], [5]]
+    assert all(json.loads(p.read_text())["schema"] for p in tmp_path.glob("*.json"))
+
+
+def test_a_broken_piece_is_named(tmp_path):
+    (tmp_path / "a.json").write_text("{")
+    with pytest.raises(InputError) as error:
+        Pieces(tmp_path, {}).once("a", dict)
+    assert error.value.code == "E-FILE" and "a.json" in error.value.where
