@@ -11,8 +11,9 @@ from rockref.measure.flight import MOST, Poses, ballistic_starts, lowest
 
 #: Fewest frames of an arc for its curvature, and of a flight between two impacts for its velocities (decided).
 ARC, BETWEEN = 8, 4
-#: Residuals beyond so many robust standard deviations are left out, in so many rounds (decided).
-OUTLIER, ROUNDS = 4.0, 4
+#: Residuals beyond so many robust standard deviations are left out, in so many rounds. Decided: gross errors only; at
+#: four deviations the fast spins go first, and with them what is measured (of the public tosses' centre a tenth).
+OUTLIER, ROUNDS = 12.0, 4
 #: Frames at either side of a contact that are not used, since the tracker's median filter smears them.
 GUARD = 1
 
@@ -37,7 +38,7 @@ def flight_arcs(poses: Poses, used: np.ndarray) -> Measured:
     x_t + Lambda c = a + b t + g t^2/2 - d v t^2/2: every arc has its own a and b; g, d [1/s] and c, the centre of mass
     from the tracked point in body axes [m], are common. poses : tracked, in the frame of the throw; used : (B,) frames.
     """
-    rows, right = [], []
+    rows, right, owner = [], [], []
     for i in np.flatnonzero(used >= ARC):
         n = int(used[i])
         t = poses.t[:n]
@@ -50,10 +51,11 @@ def flight_arcs(poses: Poses, used: np.ndarray) -> Measured:
         for j in range(3):
             rows.append(A[:, j] - Q @ (Q.T @ A[:, j]))
             right.append(poses.x[i, :n, j] - Q @ (Q.T @ poses.x[i, :n, j]))
+            owner += [i] * n
     if len(rows) < 9:
         return Measured({}, 0, float("nan"))
     A, y = np.concatenate(rows), np.concatenate(right)
-    p, se, scatter, _ = robust(A, y, lost=2 * len(rows))
+    p, se, scatter, _ = robust(A, y, np.array(owner), lost=2 * len(rows))
     names = ("g_x", "g_y", "g_z", "drag", "centre_x", "centre_y", "centre_z")
     units = ("m/s2",) * 3 + ("1/s",) + ("m",) * 3
     return Measured(
@@ -61,10 +63,13 @@ def flight_arcs(poses: Poses, used: np.ndarray) -> Measured:
     )
 
 
-def robust(A: np.ndarray, y: np.ndarray, lost: int = 0) -> tuple[np.ndarray, np.ndarray, float, np.ndarray]:
-    """Least squares with far residuals left out: values, standard errors, scatter, which rows were kept.
+def robust(
+    A: np.ndarray, y: np.ndarray, groups: np.ndarray, lost: int = 0
+) -> tuple[np.ndarray, np.ndarray, float, np.ndarray]:
+    """Least squares with gross errors left out: values, standard errors, scatter, which rows were kept.
 
-    lost : degrees of freedom that were taken out of the rows before.
+    groups : number of the toss of each row; the errors of one toss hang together, so that the standard errors are those
+        of whole tosses (sandwich estimator).  lost : degrees of freedom that were taken out of the rows before.
     """
     keep = np.ones(len(y), bool)
     for _ in range(ROUNDS):
@@ -74,7 +79,10 @@ def robust(A: np.ndarray, y: np.ndarray, lost: int = 0) -> tuple[np.ndarray, np.
     p = np.linalg.lstsq(A[keep], y[keep], rcond=None)[0]
     r = y[keep] - A[keep] @ p
     scatter = float(np.sqrt(r @ r / max(keep.sum() - A.shape[1] - lost * keep.mean(), 1)))
-    se = scatter * np.sqrt(np.diag(np.linalg.pinv(A[keep].T @ A[keep])))
+    scores = np.zeros((int(groups.max()) + 1, A.shape[1]))
+    np.add.at(scores, groups[keep], A[keep] * r[:, None])
+    bread = np.linalg.pinv(A[keep].T @ A[keep])
+    se = np.sqrt(np.diag(bread @ (scores.T @ scores) @ bread))
     return p, se, scatter, keep
 
 
@@ -159,7 +167,7 @@ def impulse_balance(k: Impacts) -> Measured:
     turned = np.einsum
     A = turned("bij,bj->bij", k.L_after, k.W_after) - turned("bij,bj->bij", k.L_before, k.W_before)
     y = np.cross(k.r, k.v_after - k.v_before)
-    p, se, scatter, keep = robust(A.reshape(-1, 3), y.ravel())
+    p, se, scatter, keep = robust(A.reshape(-1, 3), y.ravel(), np.repeat(np.arange(len(y)), 3))
     names = ("inertia_xx", "inertia_yy", "inertia_zz")
     rows = {k_: (v, s, "m2") for k_, v, s in zip(names, p, se, strict=True)}
     return Measured(rows, len(k.which), scatter)

@@ -69,7 +69,9 @@ def staircase_picture(record: dict[str, Any]) -> bytes:
     import matplotlib.pyplot as plt
 
     steps = record["staircase"]
-    names = ["stated\nvalues", "contact\nfitted"] + ["+ " + s["added"].replace("_", "\n") for s in steps[1:]]
+    names = ["stated\nvalues", "contact\nfitted"] + [
+        "+ " + s["added"].split(":")[0].replace("_", "\n") for s in steps[1:]
+    ]
     figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
     for k, (axis, key, unit) in enumerate(
         zip(

@@ -87,7 +87,9 @@ def staircase_table(record: dict[str, Any]) -> Table:
         proof = s["proof"]
         fall = f"{proof['mean']:.2f} ({proof['low']:.2f} to {proof['high']:.2f})"
         raw = error_cells(s["holdout"]["raw"])
-        rows.append((s["added"], s["verdict"], *error_cells(s["holdout"]["flight"]), fall, raw[0], raw[2]))
+        rows.append(
+            (s["added"].split(":")[0], s["verdict"], *error_cells(s["holdout"]["flight"]), fall, raw[0], raw[2])
+        )
     head = (
         "added",
         "verdict",

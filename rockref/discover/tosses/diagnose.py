@@ -33,6 +33,8 @@ LEAST_GAIN = 0.015
 REFITTED, REFIT_ITERATIONS, ITERATIONS, FIRST_ITERATIONS = 4, 3, 5, 8
 #: The horizon on which candidates compete: there an effect shows before bounces have multiplied it.
 SHORT = HORIZONS[0]
+#: How many of the small ones are fitted together at the end, and how the rung begins.
+TOGETHER, SMALL = 8, "small ones together: "
 #: Fractions of the Gauss-Newton step at which a candidate is tried in the screen.
 TRIED = (1.0, 0.5, 0.2)
 #: Resamples of the paired bootstrap, and the share of its interval.
@@ -160,6 +162,8 @@ def diagnose(
             break
         steps.append(step)
         say(f"{step.effect}: {steps[-2].objective:.3f} -> {step.objective:.3f}")
+    if len(steps) <= deepest:
+        steps.append(small_ones(steps[-1], say))
     held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
     say("the held-out tosses")
     return conclude(tosses, base, steps, poses, held, begun)
@@ -185,6 +189,15 @@ def look_further(last: Step, say: Callable[[str], None]) -> Step | None:
         return None
     fit, z, _ = found[best]
     return Step(best, gains, fit, *fit.run(z, ITERATIONS))
+
+
+def small_ones(last: Step, say: Callable[[str], None]) -> Step:
+    """The last rung: the candidates that are each too small to be named, fitted together."""
+    promised = screen(last)
+    order = sorted(promised, key=lambda id: promised[id][0])[:TOGETHER]
+    fit = TossFit(last.fit.base, (*last.fit.effects, *order), last.fit.poses, last.fit.width, log=say)
+    z = np.concatenate([last.z, *[promised[id][1][len(last.z) :] / len(order) for id in order]])
+    return Step(SMALL + ", ".join(order), {}, fit, *fit.run(z, ITERATIONS))
 
 
 def screen(last: Step) -> dict[str, tuple[float, np.ndarray]]:
@@ -247,7 +260,7 @@ def word(step: Step) -> str:
         return ""
     if step.proof["high"] < 0:
         return "none"
-    if step.proof["low"] <= 0:
+    if step.proof["low"] <= 0 or step.effect.startswith(SMALL):
         return "indicated"
     best = step.gains[step.effect]
     near = [id for id, g in step.gains.items() if id != step.effect and g > RIVAL * best]
