@@ -93,6 +93,10 @@ def said_in(path: Path) -> list[Said]:
     place = path.relative_to(ROOT).as_posix()
     found = []
     for node in ast.walk(tree):
+        if isinstance(node, ast.JoinedStr) and (
+            whole := re.search(r": (.*?\.) (.*)\[(E-[A-Z]+)\]$", words(node) or "")
+        ):
+            found.append(Said(whole[3], place, whole[1], whole[2].strip()))
         if not isinstance(node, (ast.Call, ast.Tuple)):
             continue
         items = list(node.args) if isinstance(node, ast.Call) else list(node.elts)

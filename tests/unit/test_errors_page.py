@@ -29,7 +29,9 @@ def sections(maker):
 def codes_in_the_code():
     """Codes anywhere in the sources, found without the maker."""
     text = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "rockref").rglob("*.py"))
-    return set(re.findall(r"[\"']([EW](?:-[A-Z]+)+)[\"']", text))
+    quoted = set(re.findall(r"[\"']([EW](?:-[A-Z]+)+)[\"']", text))
+    # the command line says what the system says, in one text
+    return quoted | set(re.findall(r"\. \[(E(?:-[A-Z]+)+)\]", text))
 
 
 def test_every_code_is_on_the_page_and_no_other(sections):

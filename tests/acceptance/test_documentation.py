@@ -1,0 +1,163 @@
+"""What the README and the documentation tell a reader to type is typed here."""
+
+import itertools
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rockref import cli
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    *sorted(p for p in (ROOT / "docs").rglob("*.md") if "_build" not in p.parts and p.name not in ("errors.md",)),
+]
+#: Commands that search or fit take minutes each; `make` targets and installations are the test run itself.
+SLOW = {"fit", "diagnose", "add", "identify", "sensitivity", "plan", "blind", "compare", "reproduce", "demo"}
+SHELLS = ("sh", "bash", "console")
+
+
+def name_of(page):
+    return page.relative_to(ROOT).as_posix()
+
+
+def blocks(page, languages):
+    """Contents of the fenced blocks of a page in one of the languages, without their indentation."""
+    found = re.findall(r"^( *)```(\w+)[^\n]*\n(.*?)^ *```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return [re.sub(rf"^{indent}", "", text, flags=re.MULTILINE) for indent, kind, text in found if kind in languages]
+
+
+def commands_of(page):
+    """The commands in the shell blocks of a page: of a console block the lines with a prompt."""
+    lines = []
+    for block in blocks(page, SHELLS):
+        block = block.replace("\\\n", " ")
+        typed = [line.removeprefix("$ ") for line in block.splitlines() if line.startswith("$ ")]
+        lines += typed or block.splitlines()
+    return [words for line in lines if (words := shlex.split(line.replace(".venv/bin/", ""), comments=True))]
+
+
+def mentioned(page):
+    """`rockref ...` in running text that is whole: options and names, no capitals that stand for something."""
+    text = re.sub(r"^ *```.*?^ *```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+    for span in re.findall(r"`(rockref [^`\n]+)`", text):
+        if not re.search(r"\b[A-Z]{3,}\b|[|…<>{}]|\.\.\.", span):
+            yield shlex.split(span)
+
+
+EVERY = [(page, words) for page in PAGES for words in commands_of(page)]
+MENTIONED = [(page, words) for page in PAGES for words in mentioned(page)]
+
+
+def labelled(pairs):
+    return [pytest.param(page, words, id=f"{name_of(page)}: {' '.join(words)}") for page, words in pairs]
+
+
+def parses(words):
+    """Make the command line understand these words, without running anything; it raises what it does not."""
+    words = list(itertools.takewhile(lambda word: word not in (">", "<", "|"), words))
+    group = typer_command()
+    context = group.make_context("rockref", words)
+    name, command, rest = group.resolve_command(context, [*context._protected_args, *context.args])
+    command.make_context(name, rest, parent=context)
+
+
+def typer_command():
+    import typer.main
+
+    return typer.main.get_command(cli.application())
+
+
+def test_there_is_something_to_type():
+    assert len(EVERY) > 20
+    assert len(MENTIONED) > 5
+
+
+@pytest.mark.parametrize("page, words", labelled(EVERY + MENTIONED))
+def test_commands_and_options_are_there(page, words, capsys):
+    """Every command, also those that take too long to be run."""
+    if words[0] == "make":
+        targets = re.findall(r"^([a-z-]+):.*##", (ROOT / "Makefile").read_text(), re.MULTILINE)
+        assert all(target in targets for target in words[1:] if "=" not in target)
+    if words[0] == "rockref":
+        try:
+            parses(words[1:])
+        except Exception as e:
+            # --help and --version end the command line with Exit; in running text a command may stand without arguments
+            fine = ("Exit",) if (page, words) in EVERY else ("Exit", "MissingParameter")
+            assert type(e).__name__ in fine, getattr(e, "message", e)
+
+
+def typed(words, folder, **more):
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    environment = os.environ | {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "110"}
+    return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=1800, **more)
+
+
+@pytest.fixture
+def place(tmp_path):
+    """A folder that looks like a checkout to the commands of the pages."""
+    for name in ("data", "examples", "README.md", "pyproject.toml"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    return tmp_path
+
+
+def runnable(page):
+    return [words for words in commands_of(page) if words[0] == "rockref"]
+
+
+def is_slow(page):
+    """Minutes for a page that searches, fits, judges, or runs an own effect in NumPy; others stay in `make test`."""
+    return any(words[1] in SLOW | {"conform"} or ".py:" in " ".join(words) for words in runnable(page))
+
+
+def pages_that(have, slow):
+    """Parameters: the pages that have something, marked slow where they are."""
+    marks = [pytest.mark.slow]
+    return [pytest.param(page, id=name_of(page), marks=marks if slow(page) else []) for page in PAGES if have(page)]
+
+
+def follow(page, place):
+    for words in runnable(page):
+        done = typed(words, place)
+        # 1: what was asked about falls short, which is an answer; 2 would be a command that the page has wrong
+        assert done.returncode in (0, 1), (words, done.stderr[-2000:])
+        assert "Traceback" not in done.stderr, words
+
+
+@pytest.mark.parametrize("page", pages_that(runnable, is_slow))
+def test_commands_of_a_page_in_their_order(page, place):
+    """Each page is followed as a reader would, from a folder beside the data."""
+    follow(page, place)
+
+
+def programs(page):
+    return [b for b in blocks(page, ("python",)) if re.match(r"(import|from) ", b)] if page.name != "review.md" else []
+
+
+@pytest.mark.parametrize("page", pages_that(programs, lambda page: page.name != "README.md"))
+def test_python_of_a_page(page, place):
+    for program in programs(page):
+        done = typed([sys.executable, "-W", "error::DeprecationWarning:__main__", "-c", program], place)
+        assert done.returncode == 0, (program, done.stderr[-2000:])
+
+
+@pytest.mark.parametrize("command", ["simulate", "compare", "diagnose", "fit", "add", "conform", "identify", "effects"])
+def test_examples_of_the_help_are_understood(command, capsys):
+    with pytest.raises(SystemExit):
+        cli.main([command, "--help"])
+    # an example may go on on the next line
+    text = capsys.readouterr().out.split("Example")[1].split("Arguments:")[0].split("Options:")[0]
+    lines = [line.strip() for line in text.splitlines() if line.strip().startswith("rockref ")]
+    assert lines
+    for line in lines:
+        try:
+            parses(shlex.split(line)[1:])
+        except Exception as e:
+            assert type(e).__name__ == "Exit", (line, getattr(e, "message", e))
