@@ -13,6 +13,7 @@ from typing import Any
 
 from rockref.conformance import jsonlines
 from rockref.conformance.rules import PIECES
+from rockref.conformance.vectors import flat
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
 
@@ -51,14 +52,26 @@ class Executable:
         self.name = str(facts.get("name") or command[0])
         self.version, self.language = str(facts.get("version", "")), str(facts.get("language", "executable"))
         self.precision = str(facts.get("precision", "float64"))
-        shown = [p for p in facts.get("capabilities", []) if p in PIECES]
+        shown = [p for p in facts.get("capabilities", []) if p in (*PIECES, *jsonlines.CLAIMS)]
         for piece in shown:
             setattr(self, piece, self._piece(piece))
 
     def _piece(self, piece: str) -> Any:
         if piece == "step":
             return lambda problem: self._run(jsonlines.of_problem(self._new_id(), piece, problem), self.small)
+        if piece == "effect":
+            return self._effect
+        if piece == "sensor":
+            return self._sensor
         return lambda **inputs: self._run(jsonlines.question(self._new_id(), piece, inputs), self.small)
+
+    def _effect(self, problem: Problem, effect: str, parameters: dict[str, Any]) -> dict[str, Any] | None:
+        inputs = flat(problem) | {"effect": effect, "parameters": parameters}
+        return self._run(jsonlines.question(self._new_id(), "effect", inputs), self.small)
+
+    def _sensor(self, effect: str, parameters: dict[str, Any], t: Any, crv_deg_s: Any) -> dict[str, Any] | None:
+        inputs = {"effect": effect, "parameters": parameters, "t": t, "crv_deg_s": crv_deg_s}
+        return self._run(jsonlines.question(self._new_id(), "sensor", inputs), self.small)
 
     def _new_id(self) -> str:
         self.asked += 1
@@ -68,7 +81,7 @@ class Executable:
         """A run."""
         return self._run(jsonlines.of_problem(self._new_id(), "simulate", problem), self.long)
 
-    def _run(self, request: dict[str, Any], patience: float) -> dict[str, Any]:
+    def _run(self, request: dict[str, Any], patience: float) -> Any:
         piece = request["piece"]
         if self.failures.get(piece, 0) >= PATIENCE:
             raise Misbehaved(f"not asked any more: {PATIENCE} questions to {piece} ended badly")
@@ -86,6 +99,8 @@ class Executable:
             raise Misbehaved(f"answered to id {reply.get('id')!r}, not {request['id']!r}")
         if "error" in reply:
             raise Misbehaved(f"says: {reply['error']}")
+        if piece in jsonlines.CLAIMS and reply.get("out", 0) is None:
+            return None
         try:
             return jsonlines.readable(reply.get("out"), piece)
         except ValueError as e:

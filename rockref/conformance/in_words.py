@@ -143,6 +143,10 @@ def text(v: Verdict, colour: bool = False) -> str:
     if f.properties:
         lines.append(f"Properties (L6): {len(f.properties) - len(broken)} of {len(f.properties)} hold")
     lines += [f"  {p.name}: {p.note}" for p in broken]
+    claimed = [e for e in f.effects if e.grade != "not shown"]
+    if claimed:
+        lines.append(f"Effects (LE): {len([e for e in claimed if not e.failed])} of {len(claimed)} claimed ones inside")
+    lines += [f"  {e.effect}: {e.note or bars(e.worst)}" for e in claimed if e.failed]
     lines += ["Rules:"] + rule_lines(v) if v.status == "FAIL" else []
     lines += [f"Remark: {r}" for r in f.remarks]
     counted = grades(v)

@@ -20,6 +20,8 @@ from rockref.model.problem import Problem
 
 PROTOCOL = 1
 WHOLE = ("step", "simulate")
+#: Pieces that show effects of the catalogue.
+CLAIMS = ("effect", "sensor")
 
 
 def plain(value: Any) -> Any:
@@ -74,7 +76,7 @@ def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
     """What a Python backend says to one request."""
     command = request.get("cmd")
     if command == "start":
-        shown = ["simulate", *(p for p in PIECES if has(backend, p))]
+        shown = ["simulate", *(p for p in (*PIECES, *CLAIMS) if has(backend, p))]
         facts = {
             k: str(getattr(backend, k, "")) for k in ("name", "version", "language", "precision") if hasattr(backend, k)
         }
@@ -84,8 +86,13 @@ def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
     piece = request["piece"]
     try:
         q = {k: _array(v) for k, v in request["in"].items()}
-        out = getattr(backend, piece)(problem_of(q)) if piece in WHOLE else getattr(backend, piece)(**q)
-        return {"id": request["id"], "out": as_mapping(out, piece)}
+        if piece == "effect":
+            out = backend.effect(problem_of(q), q["effect"], q["parameters"])
+        else:
+            out = getattr(backend, piece)(problem_of(q)) if piece in WHOLE else getattr(backend, piece)(**q)
+        # Effects that are not claimed are answered with null.
+        like = "simulate" if piece == "effect" else piece
+        return {"id": request["id"], "out": None if out is None else as_mapping(out, like)}
     except Exception as e:
         return {"id": request["id"], "error": f"{type(e).__name__}: {e}"}
 

@@ -9,13 +9,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from rockref.conformance import asking, vectors
+from rockref.conformance.claims import ClaimCheck, judge_claims
 from rockref.conformance.compare import Check, compare, no_answer
 from rockref.conformance.rules import PIECES
 from rockref.conformance.runs import RunCheck, judge_runs
 from rockref.conformance.vectors import Vector
 from rockref.model.errors import InputError
 
-LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "L5", "L6", "L7")
+LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "L5", "L6", "L7", "LE")
 PROFILES = ("float64", "float32", "scheme")
 #: What a backend with another integrator is not asked: its own step is its own.
 NOT_OF_THE_SCHEME = {"integrate", "step", "simulate"}
@@ -31,6 +32,7 @@ class Findings:
     checks: list[Check] = field(default_factory=list)
     runs: list[RunCheck] = field(default_factory=list)
     properties: list[Any] = field(default_factory=list)
+    effects: list[ClaimCheck] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
     pieces: tuple[str, ...] = ()
     seconds: float = 0.0
@@ -72,7 +74,8 @@ def judge(
     Parameters
     ----------
     backend : an object with `simulate`, and as many of the other pieces as it likes to show (`rules.PIECES`).
-    layers : some of L0 .. L4, L5s (short runs), L5 (trajectories), L6 (properties), L7; all by default.
+    layers : some of L0 .. L4, L5s (short runs), L5 (trajectories), L6 (properties), L7, LE (effects that it claims);
+        all by default.
     profile : "float64", "float32", or "scheme" (the same physics by another integrator).
     progress : called with the layer and the share of it that is done.
     examples : drawn for each property of L6.
@@ -96,6 +99,8 @@ def judge(
         report = None if progress is None else (lambda share, layer=layer: progress(layer, share))
         if layer == "L5":
             findings.runs = judge_runs(backend, profile, report)
+        elif layer == "LE":
+            findings.effects = judge_claims(backend) if profile == "float64" else []
         elif layer == "L6":
             _properties(backend, findings, examples)
         else:

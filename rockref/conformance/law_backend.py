@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance import pieces
+from rockref.conformance.claims import with_effect
 from rockref.conformance.pieces import Made, Rows, Rules
+from rockref.effects import catalogue
 from rockref.engines import run
 from rockref.model import integrator, parameters
 from rockref.model.integrator import prepared_inertia
@@ -122,6 +124,11 @@ class RulesBackend:
 STATE = ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "a", "T", "F")
 
 
+def claimed(problem: Problem, effect: str, parameters: dict[str, Any]) -> Problem:
+    """The problem with an effect by name."""
+    return with_effect(problem, catalogue.make(catalogue.find(effect), parameters, "effect"))
+
+
 class NumpyEngine(RulesBackend):
     """The law itself: `rockref.model` as users run it, with the pieces that its functions make up."""
 
@@ -149,6 +156,15 @@ class NumpyEngine(RulesBackend):
         """A run of the engine."""
         return run(problem, engine="numpy", dtype=self.dtype)
 
+    def effect(self, problem: Problem, effect: str, parameters: dict[str, Any]) -> Any:
+        """A run with an effect of the catalogue."""
+        return run(claimed(problem, effect, parameters), engine="numpy", dtype=self.dtype)
+
+    def sensor(self, effect: str, parameters: dict[str, Any], t: Any, crv_deg_s: Any) -> dict[str, Any]:
+        """What the gyroscope makes of rates."""
+        of = (catalogue.make(catalogue.find(effect), parameters, "effect"),)
+        return {"crv_deg_s": np.degrees(catalogue.measured(of, np.asarray(t), np.radians(crv_deg_s)))}
+
     def simulate_many(self, problems: list[Problem]) -> list[Any]:
         """A batch of the engine."""
         response = run(stack(problems), engine="numpy", dtype=self.dtype)
@@ -165,6 +181,10 @@ class NumbaEngine:
     def simulate(self, problem: Problem) -> Any:
         """A run of the engine."""
         return run(problem, engine="numba")
+
+    def effect(self, problem: Problem, effect: str, parameters: dict[str, Any]) -> Any:
+        """A run with an effect of the catalogue."""
+        return run(claimed(problem, effect, parameters), engine="numba")
 
     def step(self, problem: Problem) -> dict[str, Any]:
         """One step: a run that long, from a state that brings a, T and F."""

@@ -34,7 +34,7 @@ def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config
         if layer == "L5":
             names = vectors.trajectory_names()
             items += [RunItem.from_parent(session, name=f"{layer}/{n}", given=(backend, n, profile)) for n in names]
-        elif layer != "L6":
+        elif layer not in ("L6", "LE"):
             for vector in vectors.layer(layer):
                 own_step = profile == "scheme" and vector.piece in NOT_OF_THE_SCHEME
                 if asking.has(backend, vector.piece) and not own_step:

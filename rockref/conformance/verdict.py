@@ -124,7 +124,8 @@ def answered(check: Check) -> bool:
 def something_judged(findings: Findings) -> bool:
     """Whether any result was weighed at all: who shows nothing of what is asked has not passed."""
     shown = any(c.grade not in ("not shown", "not judged") for c in findings.checks)
-    return shown or bool(findings.runs or findings.properties)
+    claimed = any(e.grade != "not shown" for e in findings.effects)
+    return shown or claimed or bool(findings.runs or findings.properties)
 
 
 def verdict(findings: Findings, backend: Any = None) -> Verdict:
@@ -134,7 +135,7 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     if rule is not None and not any(answered(c) for c in findings.checks):
         rule, says = None, "No question was answered in a way that can be weighed: that speaks of no rule."
     bad_run = next((r for r in findings.runs if r.failed), None)
-    bad_properties = [p for p in findings.properties if not p.holds]
+    bad_properties = [p for p in findings.properties if not p.holds] + [e for e in findings.effects if e.failed]
     status = (
         "FAIL" if check or bad_run or bad_properties else "PASS" if something_judged(findings) else "NOTHING JUDGED"
     )
@@ -170,7 +171,8 @@ def resembling(found: Verdict, backend: Any) -> None:
 def grades(verdict: Verdict) -> dict[str, int]:
     """How many results have each grade."""
     found: dict[str, int] = {}
-    for grade in [*(c.grade for c in verdict.findings.checks), *(r.grade for r in verdict.findings.runs)]:
+    f = verdict.findings
+    for grade in [*(c.grade for c in f.checks), *(r.grade for r in f.runs), *(e.grade for e in f.effects)]:
         found[grade] = found.get(grade, 0) + 1
     return found
 
@@ -216,6 +218,7 @@ def as_json(v: Verdict) -> dict[str, Any]:
                          "vectors": sorted({c.vector for c in v.consequences})[:50]},
         "runs": [run_as_json(r) for r in f.runs],
         "properties": [vars(p) for p in f.properties],
+        "effects": [vars(e) | {"worst": finite(e.worst)} for e in f.effects],
         "remarks": f.remarks,
         "seconds": round(f.seconds, 2),
     }  # fmt: skip

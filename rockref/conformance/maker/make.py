@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.maker import fingerprints, small, trajectories
+from rockref.conformance.maker import cases_effects, fingerprints, small, trajectories
 from rockref.conformance.vectors import SCHEMA
 from rockref.conformance.zoo.mistakes import MISTAKES
 from rockref.model.storage import write_bytes
@@ -102,6 +102,7 @@ def make(parts: tuple[str, ...] = ("small", "runs", "fingerprints")) -> list[str
             say(f"{layer}: {len(document['vectors'])} vectors; not admitted: {len(refused)}")
             for line in refused:
                 say(f"  {line}")
+        put("LE.json", cases_effects.document(say))
     runs, windows = trajectories.names()
     if "runs" in parts:
         for name, data in trajectories.files(say):

@@ -1,0 +1,115 @@
+"""LE: effects of the catalogue that a backend claims to have, each put to it by one small vector.
+
+A backend that has effects shows `effect(problem, effect, parameters)`, a run of a problem of the plain law with one
+effect added, rows as of `simulate`; and `sensor(effect, parameters, t, crv_deg_s)`, what the gyroscope makes of rates.
+What it gives None for, it does not claim.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance.asking import as_mapping, has
+from rockref.conformance.compare import grade_of, in_bars
+from rockref.conformance.vectors import problem_of, read_bytes, value_of
+from rockref.model.problem import Problem
+
+PIECES = ("effect", "sensor")
+ROWS = ("W", "x", "Lambda")
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One vector: an effect with its parameters (SI), the inputs, and expected results with bars.
+
+    resolving : by how many bars the run or the record without the effect is off
+    """
+
+    id: str
+    effect: str
+    piece: str
+    parameters: dict[str, Any]
+    inputs: dict[str, Any]
+    expect: dict[str, tuple[np.ndarray, np.ndarray]]
+    resolving: float
+
+
+@dataclass(frozen=True)
+class ClaimCheck:
+    """One effect, judged: grade, deviation in bars, note."""
+
+    effect: str
+    grade: str
+    worst: float = 0.0
+    note: str = ""
+
+    @property
+    def failed(self) -> bool:
+        """Whether the claim does not hold."""
+        return self.grade == "outside"
+
+
+@lru_cache
+def claims() -> tuple[Claim, ...]:
+    """All vectors of effects."""
+    document = json.loads(read_bytes("LE.json"))
+    return tuple(claim_of(entry, document["sets"]) for entry in document["vectors"])
+
+
+def claim_of(entry: dict[str, Any], sets: dict[str, Any]) -> Claim:
+    """A vector from its stored form; `sets` holds the inputs, which many share."""
+    inputs = {k: value_of(v) for k, v in sets[entry["set"]].items()}
+    values = {k: np.asarray(value_of(v)) for k, v in entry["expect"].items()}
+    expect = {k: (v, np.full(v.shape, float(entry["expect"][k]["bar"]))) for k, v in values.items()}
+    facts = (entry["id"], entry["effect"], entry["piece"], entry["parameters"])
+    return Claim(*facts, inputs, expect, entry["resolving"]["absent"])
+
+
+def with_effect(problem: Problem, effect: Any) -> Problem:
+    """The problem with an effect of the catalogue: body, points and start changed as it says, and its terms added."""
+    block, points = effect.points(problem.block, problem.points)
+    start = effect.release(block, points, problem.start)
+    return replace(problem, block=block, points=points, start=start, effects=(effect,))
+
+
+def ask(backend: Any, claim: Claim) -> dict[str, Any] | None:
+    """The backend's answer; None where it does not claim the effect."""
+    if claim.piece == "effect":
+        answer = backend.effect(problem_of(claim.inputs), claim.effect, dict(claim.parameters))
+        return None if answer is None else as_mapping(answer, "simulate")
+    answer = backend.sensor(claim.effect, dict(claim.parameters), claim.inputs["t"], claim.inputs["crv_deg_s"])
+    return None if answer is None else as_mapping(answer, "channel")
+
+
+def judge_claims(backend: Any) -> list[ClaimCheck]:
+    """Every effect that the backend claims; it claims none where it shows neither piece."""
+    checks = []
+    for claim in claims():
+        if has(backend, claim.piece):
+            try:
+                answer = ask(backend, claim)
+                checks.append(ClaimCheck(claim.effect, "not shown") if answer is None else compare(claim, answer))
+            except Exception as e:  # the backend is a stranger's
+                said = f"{type(e).__name__}: {e}".splitlines()[0][:200]
+                checks.append(ClaimCheck(claim.effect, "outside", float("inf"), said))
+    return checks
+
+
+def compare(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
+    """One answer against its vector."""
+    worst = 0.0
+    for name, (right, bar) in claim.expect.items():
+        got = answer.get(name)
+        if got is None and name not in ("W", "crv_deg_s"):
+            continue
+        shape = None if got is None else np.shape(got)
+        if shape != right.shape:
+            note = f"{name} has shape {shape}, not {right.shape}"
+            return ClaimCheck(claim.effect, "outside", float("inf"), note)
+        worst = max(worst, float(np.max(in_bars(np.asarray(got), right, bar))))
+    return ClaimCheck(claim.effect, grade_of(worst), worst)
