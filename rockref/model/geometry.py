@@ -53,6 +53,11 @@ def four_points(width: float, depth: float, height: float) -> np.ndarray:
     return np.array([(sx * width / 2, sy * depth / 2, -height / 2) for sx, sy in CORNER_SIGNS])
 
 
+#: No block's mass, side, stiffness or gravity is as large in SI units, or as small. Decided: products of four of them
+#: stay within float64, so that no number of a block overflows before its run.
+LARGEST, SMALLEST = 1e30, 1e-30
+
+
 def check_number(key: str, value, least: float = 0.0, more_than_least: bool = False) -> None:
     """Refuse what is no finite number (E-TYPE, E-RANGE), or too small (E-RANGE)."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
@@ -60,6 +65,8 @@ def check_number(key: str, value, least: float = 0.0, more_than_least: bool = Fa
     if not np.isfinite(value) or value < least or (more_than_least and value == least):
         limit = f"{'above' if more_than_least else 'not below'} {least:g}"
         raise InputError("E-RANGE", key, f"is {value!r}", f"Give a finite number, {limit}.")
+    if np.isfinite(least) and (value > LARGEST or (more_than_least and value < SMALLEST)):
+        raise InputError("E-RANGE", key, f"is {value!r}", "No block has such a number: check its unit.")
 
 
 def check_inertia(inertia: np.ndarray) -> None:

@@ -41,6 +41,12 @@ def largest_step(problem: Problem) -> float:
     return float(np.min(2 * (np.sqrt(d * d + w2) - d) / w2))
 
 
+def rounded_down(a: float) -> float:
+    """A positive number cut to two digits."""
+    place = 10.0 ** (np.floor(np.log10(a)) - 1)
+    return float(np.floor(a / place * (1 - 1e-12)) * place)
+
+
 def check(problem: Problem) -> None:
     """Refuse a problem that cannot be simulated.
 
@@ -72,7 +78,7 @@ def check(problem: Problem) -> None:
             "E-STEP",
             "step",
             f"{problem.step:g} s is too large for the stiffest contact",
-            f"Use a step of at most {np.floor(limit * 1e7) / 1e7:.2g} s.",
+            f"Use a step of at most {rounded_down(limit):.2g} s.",
         )
 
 

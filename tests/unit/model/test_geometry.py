@@ -102,6 +102,15 @@ def test_limits_belong_or_do_not():
         geometry.check_number("K_N", 0.0, more_than_least=True)
 
 
+@pytest.mark.parametrize("value", [1e31, 1e308, 1e-31, 5e-324])
+def test_numbers_of_no_block_are_refused(value):
+    with pytest.raises(InputError, match="No block has such a number"):
+        geometry.check_number("mass", value, more_than_least=True)
+    geometry.check_number("mass", geometry.LARGEST, more_than_least=True)
+    geometry.check_number("mass", geometry.SMALLEST, more_than_least=True)
+    geometry.check_number("beta_int", 1e-31)
+
+
 @pytest.mark.parametrize(
     "J", [np.zeros((3, 3)), -np.eye(3), np.triu(np.ones((3, 3))), np.eye(2), np.full((3, 3), np.nan)]
 )

@@ -127,6 +127,12 @@ class TestBody:
         assert code_of(lambda: loop.simulate(problem)) == ("E-START", "start.Lambda")
 
 
+def test_the_step_that_is_offered_is_not_rounded_up():
+    assert [loop.rounded_down(a) for a in (2.99e-5, 3e-5 + 1e-9, 1.234e-12, 0.999)] == pytest.approx(
+        [2.9e-5, 3e-5, 1.2e-12, 0.99], rel=1e-12
+    )
+
+
 class TestLargestStep:
     @pytest.mark.parametrize("C_T", [0.0, 1e3, 2e4, 2e5])
     def test_is_where_a_damped_spring_begins_to_grow(self, C_T, monkeypatch):
