@@ -134,6 +134,6 @@ def scenarios_figure(t: np.ndarray, wanted: np.ndarray, found: Sequence[tuple[st
     axes[0][1].legend(frameon=False, fontsize=8, loc="upper right", ncols=2)
     for column, name in enumerate(style.AXIS_NAMES[1:]):
         axes[-1][column].set_xlabel(f"time (s); {name} in deg/s", fontsize=8)
-    figure.subplots_adjust(hspace=0.35)
+    figure.subplots_adjust(hspace=0.35, top=1.0 - 0.65 / figure.get_figheight())
     figure.suptitle("The models that failed, each at its best", fontsize=10, x=0.02, ha="left")
     return figure
