@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.diagnose import Family, baseline_model
+from rockref.discover.diagnose import Family, afresh, baseline_model, mean_loss
 from rockref.discover.errors import FIT_STRETCH, STRETCHES, Errors, errors_of, holdout_errors, spread_of
 from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of
 from rockref.discover.fitting import started_family, usable
 from rockref.discover.information import covariance, information
 from rockref.discover.presearch import MISLEADING, release_fit, tone
-from rockref.discover.search import Setup, screen
+from rockref.discover.search import Setup, baseline, screen
 from rockref.discover.stretches import AXES
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, Experiment, load_experiment
@@ -190,16 +190,18 @@ def with_tone(setup: Setup, effects: tuple[str, ...]) -> Setup:
 def with_one_more(setup: Setup, before: Family, effect: str, seed: int) -> Family:
     """The family with one more effect, refitted jointly."""
     effects = (*before.effects, effect)
+    plain = replace(setup, base=before.fit.base)
     if effect in FROM_THE_START:
         family = started_family(setup, effects, iterations=START)
         fit, point = family.fit, family.point
     else:
-        plain = replace(setup, base=before.fit.base)
         trial = screen(before.fit, before.point, (catalogue.find(effect),), plain, before.effects)[0]
-        fit, point = trial.fit, trial.point
-        if len(point.z) != len(fit.parameters):  # no step along the effect was better: it begins absent
-            z = np.concatenate([before.point.z, np.zeros(len(fit.parameters) - len(before.point.z))])
-            point = fit.point(z, before.point.corrections)[0]
+        z = np.zeros(len(trial.fit.parameters))
+        z[: len(trial.point.z)] = trial.point.z  # where no step along the effect was better, it begins absent
+        # From short windows on: from long ones a large effect is reached in steps that are too small.
+        found = Family(effects, *baseline(plain, effects, z, iterations=START))
+        found = min(found, afresh(plain, found), key=mean_loss)
+        fit, point = found.fit, found.point
     return Family(effects, fit, fit.run(point, ITERATIONS, np.random.default_rng(seed + 1)))
 
 

@@ -15,6 +15,9 @@ from rockref.discover import verdict as rules
 from rockref.discover.candidates import SHAPES, kinds, value_of
 from rockref.discover.evidence import HeldOut, clipped_gain, held_out, rms_deg_s
 from rockref.discover.fit import Fit, Point
+from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
+from rockref.discover.information import information
+from rockref.discover.on_this_data import seen_by
 from rockref.discover.presearch import STRONG, suspects
 from rockref.discover.search import Setup, Trial, baseline, screen
 from rockref.discover.signature import signature
@@ -23,6 +26,10 @@ from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
 REFITTED, ITERATIONS = 6, 3
+#: Further iterations of the family that is gone on with, and whose sizes are read.
+POLISH = 4
+#: Iterations of both stages of a fit from the nominal parameters.
+FRESH = (8, 6)
 #: The plain baseline is built on unless a suspect of the presearch, on windows of its own, fits better by this factor
 #: of mean loss (decided).
 NO_WORSE = 1.1
@@ -46,7 +53,8 @@ class Diagnosis:
     sentence: str
     seconds: float
     model: Model
-    detection_limits: dict[str, float] = field(default_factory=dict)
+    detection_limits: dict[str, dict[str, Any]] = field(default_factory=dict)
+    confusion: dict[str, dict[str, float]] = field(default_factory=dict)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers and words."""
@@ -63,6 +71,7 @@ class Diagnosis:
             "separating_experiment": self.separating_experiment,
             "signature": self.signature,
             "detection_limits": self.detection_limits,
+            "confusion": self.confusion,
             "gates": self.gates,
             "seconds": round(self.seconds, 1),
             "versions": versions(self.experiment),
@@ -84,10 +93,10 @@ def baseline_model(experiment: Experiment, model: Model | None = None) -> Model:
     return base.replace(mass=experiment.mass, width=experiment.width, depth=experiment.width, height=experiment.height)
 
 
-def refit(trial: Trial, iterations: int, seed: int) -> Family:
-    """Go on from a trial with the same budget that the baseline gets."""
+def refit(family: Family, iterations: int, seed: int) -> Family:
+    """Go on from where a family stands; the baseline and every candidate get the same iterations."""
     rng = np.random.default_rng(seed)
-    return Family(trial.effects, trial.fit, trial.fit.run(trial.point, iterations, rng))
+    return Family(family.effects, family.fit, family.fit.run(family.point, iterations, rng))
 
 
 def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
@@ -176,7 +185,7 @@ def diagnose(
         better = mean_loss(start) * NO_WORSE < mean_loss(null)
     start = start if better else null
     looks = []
-    while len(start.effects) < rules.MOST_EFFECTS:
+    while len(start.effects) < rules.MOST_EFFECTS and (not start.effects or room(start) > rules.SECOND_ROOM):
         look = look_further(setup, experiment, start, seed, say)
         looks.append(look)
         if not look.order:
@@ -184,16 +193,35 @@ def diagnose(
         winner = look.order[0]
         if not rules.is_detected(look.gains[winner.effects[-1]], size_of(winner), second=bool(start.effects)):
             break
-        start = duel(setup, look, say)
+        wider = duel(setup, look, say)
+        if room(wider) > rules.SECOND_ROOM / 2:
+            wider = refit(wider, POLISH, seed)
+        say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
+        if start.effects and not rules.settles(structured(start), structured(wider)):
+            break
+        start = wider
         if structured(start) > rules.HOPELESS:
             break
+    if looks and not looks[0].kept.effects:
+        null = looks[0].kept
+    if not start.effects:
+        # Nothing was found: the baseline itself has to be taken down to what it can reach before that is said.
+        null = start = refit(null, 2 * POLISH, seed)
     held = load_experiment(path, uses=(FIT, HOLDOUT))
     return conclude(setup, held, null, start, looks, seen, begun)
 
 
-def structured(family: Family) -> float:
-    """Share of the windows that the family leaves structured."""
-    return float(np.mean(2 * family.point.loss / family.fit.series.count > 1.5))
+def structured(family: Family, run: int | None = None) -> float:
+    """Share of the windows (of one run, if given) that the family leaves structured."""
+    series = family.fit.series
+    mine = slice(None) if run is None else series.run_of == run
+    return float(np.mean((2 * family.point.loss / series.count > 1.5)[mine]))
+
+
+def room(family: Family) -> float:
+    """What any further effect could gain: the loss above noise, each window's clipped as in a gain."""
+    count = family.fit.series.count
+    return clipped_gain(family.point.loss, rules.NOISE * count / 2, count)
 
 
 def mean_loss(family: Family) -> float:
@@ -213,11 +241,12 @@ class Look:
 
 def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int, say) -> Look:
     """Screen all candidates on top of a family, refit the best, and the family itself with the same budget."""
-    candidates = kinds(experiment.baseline, (*start.effects, "base_vibration", "gyro_saturation"))
+    had = (e.id for e in setup.base.active_effects())
+    candidates = kinds(experiment.baseline, (*start.effects, *had, "base_vibration", "gyro_saturation"))
     trials = screen(start.fit, start.point, candidates, setup, start.effects)
-    kept = refit(Trial(start.effects, 0.0, 0.0, start.fit, start.point), ITERATIONS, seed + 1)
+    kept = refit(start, ITERATIONS, seed + 1)
     worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
-    refitted = [refit(t, ITERATIONS, seed + 1) for t in worth]
+    refitted = [refit(Family(t.effects, t.fit, t.point), ITERATIONS, seed + 1) for t in worth]
     gains = {f.effects[-1]: gain_over(kept, f) for f in refitted}
     order = sorted(refitted, key=lambda f: -gains[f.effects[-1]])
     for f in order:
@@ -227,20 +256,33 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
 
 
 def duel(setup: Setup, look: Look, say) -> Family:
-    """The winner of a look and its near rivals, each fitted again from short windows on; gains are mended."""
+    """The winner of a look and its near rivals, each fitted once more from the nominal parameters; gains are mended."""
     near = rules.RIVAL_BEFORE_DUEL * look.gains[look.order[0].effects[-1]]
-    polished = []
+    fitted = []
     for family in look.order[:3]:
         if look.gains[family.effects[-1]] < near:
             continue
-        fit, point = baseline(setup, family.effects, family.point.z, iterations=(4, 4))
-        polished.append(Family(family.effects, fit, point))
-        floor = 0.5 * fit.series.count.sum() * mean_loss(look.kept)
-        gain = gain_over(look.kept, polished[-1]) if same_windows(look.kept, polished[-1]) else floor - point.objective
-        look.gains[family.effects[-1]] = max(gain, 0.0)
-        say(f"  duel: {family.effects[-1]} {gain:.0f}")
-    look.order = sorted(polished, key=lambda f: -look.gains[f.effects[-1]])
+        fitted.append(min(family, afresh(setup, family), key=mean_loss))
+        look.gains[family.effects[-1]] = max(gain_between(look.kept, fitted[-1]), 0.0)
+        say(f"  duel: {family.effects[-1]} {look.gains[family.effects[-1]]:.0f}")
+    look.order = sorted(fitted, key=lambda f: -look.gains[f.effects[-1]])
     return look.order[0]
+
+
+def afresh(setup: Setup, family: Family) -> Family:
+    """A family fitted from the nominal parameters and the sizes of its effects.
+
+    What it started from was bent to make up for the effect, and holds it back.
+    """
+    z = np.array([zi if "." in p.name else 0.0 for p, zi in zip(family.fit.parameters, family.point.z, strict=True)])
+    return Family(family.effects, *baseline(setup, family.effects, z, iterations=FRESH))
+
+
+def gain_between(kept: Family, other: Family) -> float:
+    """The gain, also where a sensor effect has moved the cuts of the windows."""
+    if same_windows(kept, other):
+        return gain_over(kept, other)
+    return 0.5 * other.fit.series.count.sum() * mean_loss(kept) - other.point.objective
 
 
 def same_windows(one: Family, other: Family) -> bool:
@@ -265,11 +307,9 @@ def conclude(
         if final is null or not final.effects
         else held_out(setup, final.fit, final.point, experiment, final.effects)
     )
-    look = (
-        looks[-2]
-        if len(looks) > 1 and looks[-1].kept.effects != () and final.effects == looks[-1].kept.effects
-        else looks[-1]
-    )
+    looks = looks or [Look(final, [], {}, [])]
+    unfruitful = len(looks) > 1 and looks[-1].kept.effects != () and final.effects == looks[-1].kept.effects
+    look = looks[-2] if unfruitful else looks[-1]
     facts = rules.Facts(
         effects=final.effects,
         sizes={e: size_of(final, e) for e in final.effects},
@@ -279,6 +319,7 @@ def conclude(
         held_gain=held_gains(plain, with_effect),
         held_floor=float(np.median(2 * plain.loss / plain.count)),
         at_start=() if not looks or looks[0].kept.effects == () else looks[0].kept.effects,
+        by_run={r.id: structured(final, i) for i, r in enumerate(setup.runs)},
     )
     decision = rules.decide(facts)
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
@@ -286,6 +327,11 @@ def conclude(
     total = {id: max(g, 0.0) for id, g in look.gains.items()}
     noise = float(np.degrees(gyro_of(setup.experiment).noise))
     shown = final if kept else null
+    had = (*shown.effects, *(e.id for e in setup.base.active_effects()))
+    limits, confusion = seen_by(setup, shown.fit, shown.point, had)
+    found = information(shown.fit, shown.point)
+    checks = (gradient_small(shown.fit, shown.point, found), step_small(shown.fit, shown.point),
+              off_bounds(shown.fit, shown.point), runs_agree(shown.fit, shown.point, found))  # fmt: skip
     return Diagnosis(
         experiment=experiment,
         verdict=decision.verdict,
@@ -305,7 +351,9 @@ def conclude(
         },
         separating_experiment=rules.separating(decision, total),
         signature=card,
-        gates=rules.gates(facts, decision),
+        gates=rules.gates(facts, decision) | {g.name: g.to_dict() for g in checks},
+        detection_limits=limits,
+        confusion=confusion,
         sentence=decision.sentence,
         seconds=time.perf_counter() - begun,
         model=shown.fit.models(shown.point.z)[0][0],

@@ -58,7 +58,8 @@ def errors_of(fit: Fit, point: Point) -> Errors:
     table = np.full((len(STRETCHES), 3), np.nan)
     kinds = stretch_of(fit)
     for i, name in enumerate(STRETCHES):
-        mask = kept & (kinds == name)
+        # A release is not restarted: it cannot be out of step, and is never left out.
+        mask = (kinds == name) & (kept | s.first)
         if mask.any():
             table[i] = np.sqrt(per_axis[mask].sum(axis=0) / samples[mask].sum())
     total = float(np.sqrt(square[kept].sum() / s.count[kept].sum()))

@@ -29,6 +29,14 @@ RATE_ERROR = 9e-4
 ATTITUDE_ERROR, ATTITUDE_GROWTH = 2.5e-5, 4e-5
 
 
+#: Roll of a release against the posture at rest [rad]; decided: feet of twice and half the common stiffness sink 5 to
+#: 10 um apart under half the weight, over 0.1 m.
+ROLL_UNCERTAINTY = 1e-4
+#: Rise of a window's loss, per sample value, that tells that a joint step threw it into another order of impacts.
+THROWN = 0.03
+#: Shares of a window on which its corrections are found one after the other; decided: some 25 ms at a time, the
+#: distance of corner impacts.
+GROWTH = (0.35, 0.7, 1.0)
 #: Mean loss above which a window's corrections are improved by themselves before each joint step (1 is noise).
 ROUGH = 1.3
 
@@ -114,22 +122,28 @@ class Fit:
         offsets = np.array([m.origin.get("tilt_offset", 0.0) for m in models])
         return models, self.stated + offsets
 
-    def residual(self, z: np.ndarray, corrections: np.ndarray, which=None) -> np.ndarray:
-        """Residuals of the windows `which` in sigmas."""
+    def residual(self, z: np.ndarray, corrections: np.ndarray, which=None, upto=None) -> np.ndarray:
+        """Residuals of the windows `which` in sigmas, of their first `upto` samples (default all)."""
         models, tilt = self.models(z)
-        return self.series.residual(models, tilt, corrections, which)
+        return self.series.residual(models, tilt, corrections, which, upto)
 
-    def window_loss(self, r: np.ndarray, which=None) -> np.ndarray:
+    def counts(self, which=None, upto=None) -> np.ndarray:
+        """Sample values of each window that count."""
+        if which is None:
+            return self.series.count
+        return self.series.count[which] if upto is None else self.series.counted(which, upto)
+
+    def window_loss(self, r: np.ndarray, which=None, upto=None) -> np.ndarray:
         """Robust loss of each window, as half a sum of squares: Cauchy per sample, logarithm above CAP."""
         total = CAUCHY**2 / 2 * np.sum(np.log1p((r / CAUCHY) ** 2), axis=(1, 2))
-        count = self.series.count if which is None else self.series.count[which]
+        count = self.counts(which, upto)
         mean = total / count * 2
         return np.where(mean <= CAP, total, count / 2 * CAP * (1 + np.log(np.maximum(mean, CAP) / CAP)))
 
-    def weights(self, r: np.ndarray, which=None) -> np.ndarray:
+    def weights(self, r: np.ndarray, which=None, upto=None) -> np.ndarray:
         """Weight of each squared residual for which Gauss and Newton see the robust loss, (B, M, 3)."""
         total = CAUCHY**2 / 2 * np.sum(np.log1p((r / CAUCHY) ** 2), axis=(1, 2))
-        count = self.series.count if which is None else self.series.count[which]
+        count = self.counts(which, upto)
         mean = total / count * 2
         return (1 / (1 + (r / CAUCHY) ** 2)) * np.where(mean <= CAP, 1.0, CAP / mean)[:, None, None]
 
@@ -144,39 +158,63 @@ class Fit:
         loss = self.window_loss(r) + self.penalties(corrections)
         return Point(z.copy(), corrections.copy(), loss, float(np.sum((z / self.prior) ** 2) / 2)), r
 
+    def carried(self, point: Point) -> Point:
+        """The same, with what lives on from window to window handed on."""
+        models, tilt = self.models(point.z)
+        if not self.series.carry(models, tilt, point.corrections):
+            return point
+        return self.point(point.z, point.corrections)[0]
+
     def begin(self) -> Point:
         """The centre of all priors."""
         return self.point(np.zeros(len(self.parameters)), np.zeros((self.series.B, STATES)))[0]
 
-    def state_jacobian(self, z: np.ndarray, corrections: np.ndarray, r: np.ndarray, which=None) -> np.ndarray:
+    def state_jacobian(self, z: np.ndarray, corrections: np.ndarray, r: np.ndarray, which=None, upto=None):
         """d residual / d corrections, (B, STATES, M, 3); the release windows have none."""
         columns = []
         for j in range(STATES):
             moved = corrections.copy()
             moved[:, j] += STATE_STEP[j]
-            columns.append((self.residual(z, moved, which) - r) / STATE_STEP[j])
+            columns.append((self.residual(z, moved, which, upto) - r) / STATE_STEP[j])
         J = np.stack(columns, axis=1)
         J[self.series.first if which is None else self.series.first[which]] = 0
         return J
 
     def parameter_jacobian(self, z: np.ndarray, corrections: np.ndarray, r: np.ndarray, only=None) -> np.ndarray:
-        """d residual / d z, (B, G, M, 3), by forward differences (of the parameters `only`, if given)."""
-        columns = []
-        for j in range(len(z)) if only is None else only:
-            moved = z.copy()
-            moved[j] += self.parameters[j].step
-            columns.append((self.residual(moved, corrections) - r) / self.parameters[j].step)
-        return np.stack(columns, axis=1)
+        """d residual / d z, (B, G, M, 3), by forward differences (of the parameters `only`, if given).
 
-    def relax_states(self, point: Point, iterations: int = 2, which=None, damping: float = 1e-3) -> Point:
-        """Improve the corrections of each window by itself (Levenberg-Marquardt), parameters fixed."""
+        What belongs to one run moves only the windows of that run: such parameters of all runs are moved together.
+        """
+        only = range(len(z)) if only is None else only
+        columns = np.zeros((len(only), *r.shape))
+        together: dict[str, list[int]] = {}
+        for at, j in enumerate(only):
+            p = self.parameters[j]
+            together.setdefault(p.name if p.run is None else p.name.split("[")[0] + "[", []).append(at)
+        for group in together.values():
+            moved = z.copy()
+            for at in group:
+                moved[only[at]] += self.parameters[only[at]].step
+            change = self.residual(moved, corrections) - r
+            for at in group:
+                p = self.parameters[only[at]]
+                mine = slice(None) if p.run is None else self.series.run_of == p.run
+                columns[at][mine] = change[mine] / p.step
+        return columns.swapaxes(0, 1)
+
+    def relax_states(self, point: Point, iterations: int = 2, which=None, damping: float = 1e-3, upto=None) -> Point:
+        """Improve the corrections of each window by itself (Levenberg-Marquardt), parameters fixed.
+
+        upto : samples of each window that count (default all).
+        """
         which = np.arange(self.series.B) if which is None else which
-        c, loss = point.corrections[which].copy(), point.loss[which].copy()
+        c = point.corrections[which].copy()
         lam = np.full(len(which), damping)
-        r = self.residual(point.z, c, which)
+        r = self.residual(point.z, c, which, upto)
+        loss = self.window_loss(r, which, upto) + self.penalties(c, which)
         for _ in range(iterations):
-            J = self.state_jacobian(point.z, c, r, which)
-            w = self.weights(r, which)
+            J = self.state_jacobian(point.z, c, r, which, upto)
+            w = self.weights(r, which, upto)
             Jw = J * w[:, None]
             H = np.einsum("bimk,bjmk->bij", Jw, J)
             g = np.einsum("bimk,bmk->bi", Jw, r) + c / self.state_prior[which] ** 2
@@ -185,8 +223,8 @@ class Fit:
             A += lam[:, None, None] * np.einsum("bi,ij->bij", np.einsum("bii->bi", A), np.eye(STATES))
             new = c - np.linalg.solve(A, g[..., None])[..., 0]
             new[self.series.first[which]] = 0
-            r_new = self.residual(point.z, new, which)
-            loss_new = self.window_loss(r_new, which) + self.penalties(new, which)
+            r_new = self.residual(point.z, new, which, upto)
+            loss_new = self.window_loss(r_new, which, upto) + self.penalties(new, which)
             better = loss_new < loss
             c[better], loss[better], r[better] = new[better], loss_new[better], r_new[better]
             lam = np.where(better, lam / 5, lam * 10)
@@ -194,20 +232,24 @@ class Fit:
         out.corrections[which], out.loss[which] = c, loss
         return out
 
-    def kick(self, point: Point, rng: np.random.Generator, tries: int = 3, level: float = 1.6) -> Point:
-        """Try other starts for windows in a wrong order of corner impacts: random roll and rates, then relaxation."""
-        for _ in range(tries):
-            mean = 2 * point.loss / self.series.count
-            bad = np.flatnonzero((mean > level) & ~self.series.first)
-            if not len(bad):
-                break
-            moved = point.corrections.copy()
-            moved[bad] = rng.normal(size=(len(bad), STATES)) * self.state_prior[bad] * np.array([1, 2, 1, 2, 2])
-            trial = Point(point.z, moved, np.full(self.series.B, np.inf), point.penalty)
-            trial = self.relax_states(trial, 2, bad, damping=1e-2)
-            better = bad[trial.loss[bad] < point.loss[bad]]
-            point = Point(point.z, point.corrections.copy(), point.loss.copy(), point.penalty)
-            point.corrections[better], point.loss[better] = trial.corrections[better], trial.loss[better]
+    def grow(self, point: Point, which: np.ndarray, rng: np.random.Generator | None = None) -> Point:
+        """Find the corrections of windows anew, on their beginning first and then on more and more of them.
+
+        A window that holds several corner impacts has many local minima; its first milliseconds have one. Kept where
+        it ends better. With `rng` the search begins at a drawn start.
+        """
+        which = which[~self.series.first[which]]
+        if not len(which):
+            return point
+        c = np.zeros((len(which), STATES)) if rng is None else rng.normal(size=(len(which), STATES))
+        trial = Point(point.z, point.corrections.copy(), np.full(self.series.B, np.inf), point.penalty)
+        trial.corrections[which] = c * self.state_prior[which]
+        for share in GROWTH:
+            upto = np.ceil(share * self.series.length[which]).astype(int) if share < 1 else None
+            trial = self.relax_states(trial, 2, which, upto=upto)
+        better = which[trial.loss[which] < point.loss[which]]
+        point = Point(point.z, point.corrections.copy(), point.loss.copy(), point.penalty)
+        point.corrections[better], point.loss[better] = trial.corrections[better], trial.loss[better]
         return point
 
     def normal_equations(self, point: Point):
@@ -252,6 +294,11 @@ class Fit:
             kept, _ = self.point(point.z + dz, point.corrections)
             swap = kept.loss < trial.loss  # a window may keep its corrections where the joint step overshoots
             trial.corrections[swap], trial.loss[swap] = kept.corrections[swap], kept.loss[swap]
+            thrown = np.flatnonzero((trial.loss - point.loss > THROWN * self.series.count) & ~self.series.first)
+            if len(thrown):
+                trial = self.relax_states(trial, 2, thrown)
+                thrown = thrown[trial.loss[thrown] - point.loss[thrown] > THROWN * self.series.count[thrown]]
+                trial = self.grow(trial, thrown)
             if trial.objective < point.objective:
                 return trial, max(lam / 5, 1e-4)
             lam *= 10
@@ -260,13 +307,16 @@ class Fit:
     def run(
         self, point: Point, iterations: int, rng: np.random.Generator, lam: float = 1e-2, tolerance: float = 2.0
     ) -> Point:
-        """Iterate: states, kicks, joint step; until the objective falls by less than `tolerance`."""
+        """Iterate: corrections of rough windows, joint step; until the objective falls by less than `tolerance`."""
         for i in range(iterations):
+            point = self.carried(point)
             before = point.objective
             rough = np.flatnonzero((2 * point.loss / self.series.count > ROUGH) & ~self.series.first)
             if len(rough):
                 point = self.relax_states(point, 1, rough)
-                point = self.kick(point, rng, 1)
+                if i % 2 == 0:
+                    rough = rough[2 * point.loss[rough] / self.series.count[rough] > ROUGH]
+                    point = self.grow(point, rough, rng if i % 4 else None)
             point, lam = self.step(point, lam)
             mean = 2 * point.loss / self.series.count
             self.log(
@@ -295,6 +345,19 @@ def set_parameter(name: str):
 def set_tilt_offset(model: Model, value: float) -> Model:
     """The release tilt of a run against the stated one [rad]."""
     return replace(model, origin={**model.origin, "tilt_offset": value})
+
+
+def set_roll_offset(model: Model, value: float) -> Model:
+    """Roll of a run at its release against the settled posture, about the transverse axis [rad]."""
+    return replace(model, origin={**model.origin, "roll_offset": value})
+
+
+def roll_parameters(runs: int) -> tuple[Parameter, ...]:
+    """A roll of each run, which all its restarts share: the block was not let go quite as it stands at rest."""
+    return tuple(
+        Parameter(f"roll_offset[{i}]", set_roll_offset, 0.0, ROLL_UNCERTAINTY, run=i, unit="rad", step=0.05)
+        for i in range(runs)
+    )
 
 
 def baseline_parameters(model: Model, runs: int, tilt_uncertainty: float) -> tuple[Parameter, ...]:

@@ -93,7 +93,8 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
     if seen["loss"] > STRONG:
         whole = excess(fit, point)
         ranked = []
-        for id in MISLEADING[:5]:
+        had = {e.id for e in setup.base.active_effects()}
+        for id in (id for id in MISLEADING[:5] if id not in had):
             other, trial = release_fit(setup, (id,))
             share = 1 - excess(other, trial) / max(whole, 1e-9)
             ranked.append((share, id, other, trial))

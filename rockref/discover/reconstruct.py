@@ -78,6 +78,62 @@ def roughness(crv: np.ndarray) -> np.ndarray:
 
 
 @numba.njit(cache=True)
+def yaw_since_touch(Lambda, W, P, starts, dt, most):
+    """Turn about the vertical on the carrying point since it touched, (w,) [rad], at the samples `starts` (w,).
+
+    Lambda : (N, 3, 3), W : (N, 3) of a whole record; P (n, 3); the turn stays within +-most [rad], beyond which the
+    point slips in spin. A point touches since it is the lowest.
+    """
+    out = np.zeros(len(starts))
+    pivots = np.empty(Lambda.shape[0], np.int64)
+    for k in range(Lambda.shape[0]):
+        lowest = 1e9
+        for i in range(P.shape[0]):
+            z = Lambda[k, 2, 0] * P[i, 0] + Lambda[k, 2, 1] * P[i, 1] + Lambda[k, 2, 2] * P[i, 2]
+            if z < lowest:
+                pivots[k], lowest = i, z
+    for a in range(len(starts)):
+        begin = starts[a]
+        while begin > 0 and pivots[begin - 1] == pivots[starts[a]]:
+            begin -= 1
+        for k in range(begin, starts[a]):
+            rate = Lambda[k, 2, 0] * W[k, 0] + Lambda[k, 2, 1] * W[k, 1] + Lambda[k, 2, 2] * W[k, 2]
+            out[a] = min(max(out[a] + rate * dt, -most), most)
+    return out
+
+
+@numba.njit(cache=True)
+def plate_motion(Lambda, W, P, dt, mass, plate_mass, stiffness, damping):
+    """Sinking q [m] and its rate [m/s] of a plate on a spring under the block, (N, 2), at every sample of a record.
+
+    The block stands on its lowest point, which moves with the plate; so the plate feels -m dv_z/dt of the centre of
+    mass: (M + m) q'' = -m a_z - k q - c q', a_z against the plate. masses [kg], stiffness [N/m], damping [N s/m].
+    """
+    n = Lambda.shape[0]
+    out = np.zeros((n, 2))
+    q, rate, before = 0.0, 0.0, 0.0
+    fine, total = 16, mass + plate_mass
+    for k in range(n):
+        lowest, at = 1e9, 0
+        for i in range(P.shape[0]):
+            z = Lambda[k, 2, 0] * P[i, 0] + Lambda[k, 2, 1] * P[i, 1] + Lambda[k, 2, 2] * P[i, 2]
+            if z < lowest:
+                lowest, at = z, i
+        # v_G = -omega x r, of which the vertical part is -(L (W x P))_z.
+        cx = W[k, 1] * P[at, 2] - W[k, 2] * P[at, 1]
+        cy = W[k, 2] * P[at, 0] - W[k, 0] * P[at, 2]
+        cz = W[k, 0] * P[at, 1] - W[k, 1] * P[at, 0]
+        v = -(Lambda[k, 2, 0] * cx + Lambda[k, 2, 1] * cy + Lambda[k, 2, 2] * cz)
+        push = -mass * (v - before) / total if k else 0.0
+        before = v
+        for _ in range(fine):
+            rate += push / fine - dt / fine * (stiffness * q + damping * rate) / total
+            q += dt / fine * rate
+        out[k, 0], out[k, 1] = q, rate
+    return out
+
+
+@numba.njit(cache=True)
 def _solve3(A, b):
     d = (
         A[0, 0] * (A[1, 1] * A[2, 2] - A[1, 2] * A[2, 1])

@@ -9,7 +9,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.candidates import parameters_of
-from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters
+from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters, roll_parameters
 from rockref.discover.windows import STATES, Cut, Series, gyro_of, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
@@ -38,10 +38,10 @@ class Setup:
     frequency: float | None = None  # of a base vibration, from the scan
 
     def parameters(self, effects: tuple[str, ...] = ()) -> tuple[Parameter, ...]:
-        """Baseline, tilts, and those of the effects."""
+        """Baseline, tilts and rolls, and those of the effects."""
         own = baseline_parameters(self.base, len(self.runs), self.experiment.tilt_uncertainty or TILT_UNCERTAINTY)
         extra = [p for e in effects for p in parameters_of(catalogue.find(e), len(self.runs), self.frequency)]
-        return (*own, *extra)
+        return (*own, *roll_parameters(len(self.runs)), *extra)
 
     def fit(self, windows: Series, effects: tuple[str, ...] = ()) -> Fit:
         """A fit of the baseline with these effects over windows."""
@@ -70,25 +70,31 @@ def moved(point: Point, fit: Fit) -> Point:
     return fit.point(z, np.zeros((fit.series.B, STATES)))[0]
 
 
+def stage(setup: Setup, effects: tuple[str, ...], z: np.ndarray, lengths: tuple[float, float], iterations: int):
+    """Fit the baseline with effects on windows of these lengths, from z on: (Fit, Point)."""
+    start = Fit(release_windows(setup), setup.base, setup.parameters(effects))
+    fit = setup.fit(windows(setup, lengths, start.models(z)[0][0]), effects)
+    point = fit.point(z, np.zeros((fit.series.B, STATES)))[0]
+    name = " + ".join(effects) or "baseline"
+    setup.log(f"{name}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s, {point.objective:.0f}")
+    return fit, fit.run(point, iterations, np.random.default_rng(setup.seed))
+
+
+def early(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int):
+    """The first stage: short windows of the first seconds, where nearly every window finds its place."""
+    return stage(replace(setup, end=min(setup.end, FIRST_STAGE)), effects, z, SHORT, iterations)
+
+
+def late(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int):
+    """The second stage: longer windows over all that is used."""
+    return stage(setup, effects, z, MIDDLE, iterations)
+
+
 def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None = None, iterations=(8, 6)):
-    """Fit the baseline with effects through the stages: (Fit, Point) on the windows of the last one."""
-    rng = np.random.default_rng(setup.seed)
-    parameters = setup.parameters(effects)
-    z = np.zeros(len(parameters)) if z is None else z
-    fit = point = None
-    for lengths, end, most in zip((SHORT, MIDDLE), (min(setup.end, FIRST_STAGE), setup.end), iterations, strict=True):
-        start = Fit(release_windows(setup), setup.base, parameters)
-        model = start.models(z)[0][0]
-        fit = setup.fit(windows(replace(setup, end=end), lengths, model), effects)
-        point = fit.point(z, np.zeros((fit.series.B, STATES)))[0]
-        setup.log(
-            f"{' + '.join(effects) or 'baseline'}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s, "
-            f"{point.objective:.0f}"
-        )
-        point = fit.relax_states(point, 2)
-        point = fit.run(point, most, rng)
-        z = point.z
-    return fit, point
+    """Fit the baseline with effects through both stages: (Fit, Point) on the windows of the last one."""
+    z = np.zeros(len(setup.parameters(effects))) if z is None else z
+    _, point = early(setup, effects, z, iterations[0])
+    return late(setup, effects, point.z, iterations[1])
 
 
 #: Size, in typical sizes, at which a candidate's derivative is taken: large enough for laws that do not show at zero.

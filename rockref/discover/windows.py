@@ -12,13 +12,24 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.reconstruct import attitudes, corner_starts, local_rates, roughness, standing_place, undo_low_pass
+from rockref.discover.reconstruct import (
+    attitudes,
+    corner_starts,
+    local_rates,
+    plate_motion,
+    roughness,
+    standing_place,
+    undo_low_pass,
+    yaw_since_touch,
+)
 from rockref.discover.record import filter_coefficients, records
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
 from rockref.measure.experiment import Experiment, Gyro
 from rockref.model.errors import InputError
+from rockref.model.problem import Problem
+from rockref.model.rotation import exponential
 
 #: Step inside windows [s]; decided: 16 steps a millisecond; halving it changes the residual by less than a hundredth
 #: of the noise (the gate measures it again on every experiment).
@@ -82,8 +93,6 @@ class Sensor:
 
     def matrix(self) -> np.ndarray:
         """(3, 3) scale times rotation: what the axes of the record are made of."""
-        from rockref.model.rotation import exponential
-
         return self.scale[:, None] * exponential(np.asarray(self.turn, float))
 
 
@@ -106,6 +115,25 @@ def sensor_of(model: Model) -> Sensor:
         elif e.id == "clock_error":
             values["clock"] = v["rate"]
     return Sensor(**values)
+
+
+def spin_slip(model: Model, problem: Problem) -> float:
+    """Turn at which the carrying point slips in spin under the block's weight [rad]; 0 without spin friction."""
+    radius = sum(e.values()["radius"] for e in model.active_effects() if e.id == "spin_friction")
+    if not radius:
+        return 0.0
+    points, block = problem.points, problem.block
+    return float(np.mean(points.mu) * np.mean(block.mass) * np.mean(block.g) / (np.mean(points.K_T) * radius))
+
+
+def plate_of(model: Model) -> tuple[float, float, float] | None:
+    """Mass [kg], stiffness [N/m] and damping [N s/m] of a plate that yields; None where it is rigid."""
+    for e in model.active_effects():
+        if e.id == "compliant_support":
+            v = e.values()
+            stiffness = (2 * np.pi * v["frequency"]) ** 2 * v["mass"]
+            return v["mass"], stiffness, 2 * v["ratio"] * float(np.sqrt(stiffness * v["mass"]))
+    return None
 
 
 def true_rates(crv: np.ndarray, t: np.ndarray, rate: float, bandwidth: float, sensor: Sensor) -> np.ndarray:
@@ -150,6 +178,7 @@ class Series:
         self._rates: dict = {}
         self._rows = np.empty((0, col.STATE))
         self._prepared: tuple | None = None
+        self._carried = np.zeros((self.B, 2))
 
     def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
         """True rates of run i and the smoothed ones; kept for the sensors that were seen last."""
@@ -166,7 +195,8 @@ class Series:
     def prepared(self, models, tilt: np.ndarray, sensor: Sensor) -> tuple[np.ndarray, ...]:
         """All windows but for their corrections; the last answer is kept, since corrections move far more often.
 
-        body, P, props, effects rows, attitude, rates, standing orientation and place, release state and memory.
+        body, P, props, effects rows, attitude, rates, standing orientation and place, release state and memory, and
+        the turn in spin of the carrying point and the motion of the plate under it.
         """
         key = (tuple(id(m) for m in models), tilt.tobytes())
         if self._prepared is not None and self._prepared[0] == key:
@@ -175,10 +205,12 @@ class Series:
         body, P, props = np.empty((B, col.BODY)), np.empty((B, n, 3)), np.empty((B, n, col.PROPS))
         effects, state = np.empty((B, slots.SLOTS)), np.zeros((B, col.STATE))
         memory, Lambda, W = np.zeros((B, n, col.MEMORY)), np.empty((B, 3, 3)), np.empty((B, 3))
-        upright, place = np.empty((B, 3, 3)), np.empty((B, 3))
+        upright, place, yaw, plate = np.empty((B, 3, 3)), np.empty((B, 3)), np.zeros(B), np.zeros((B, 2))
         for i, run in enumerate(self.runs):
             turned = bool(run.block_turned)
-            problem = pack.with_memory(models[i].problem(duration=1.0, theta_0=tilt[i], turned=turned))
+            roll = float(models[i].origin.get("roll_offset", 0.0))
+            start_of = {"theta_0": tilt[i], "turned": turned, "out_of_plane": roll}
+            problem = pack.with_memory(models[i].problem(duration=1.0, **start_of))
             at = np.flatnonzero(self.run_of == i)
             body[at], P[at], props[at] = pack.body_row(problem), problem.points.P, pack.props_rows(problem)
             effects[at] = pack.effects_row(problem)
@@ -189,32 +221,62 @@ class Series:
             standing = np.diag([-1.0, -1.0, 1.0]) if turned else np.eye(3)
             upright[at], place[at] = standing, standing_place(problem.points.P, standing, start.x, start.Lambda)
             state[at], memory[at] = pack.state_row(problem), pack.memory_rows(start)
-        result = (body, P, props, effects, Lambda, W, upright, place, state, memory)
+            if most := spin_slip(models[i], problem):
+                dt = sensor.clock / self.rate
+                yaw[at] = yaw_since_touch(L, w, problem.points.P, self.start[at], dt, most)
+            if support := plate_of(models[i]):
+                dt = sensor.clock / self.rate
+                plate[at] = plate_motion(L, w, problem.points.P, dt, float(problem.block.mass), *support)[
+                    self.start[at]
+                ]
+        result = (body, P, props, effects, Lambda, W, upright, place, state, memory, yaw, plate)
         self._prepared = (key, models, result)
         return result
 
-    def batch(self, models, tilt: np.ndarray, corrections: np.ndarray, which: np.ndarray, sensor: Sensor) -> Batch:
+    def counted(self, which: np.ndarray, upto: np.ndarray) -> np.ndarray:
+        """Sample values of the windows `which` that count among their first `upto` samples, (len(which),)."""
+        return 3 * np.maximum(np.sum(self.valid[which] & (np.arange(self.M) < upto[:, None]), axis=1), 1)
+
+    def batch(
+        self, models, tilt: np.ndarray, corrections: np.ndarray, which: np.ndarray, sensor: Sensor, length
+    ) -> Batch:
         """Windows `which` as one batch. models: one a run; tilt (runs,) [rad]; corrections (len(which), STATES)."""
         arrays = [a[which] for a in self.prepared(models, tilt, sensor)]
-        body, P, props, effects, Lambda, W, upright, place, release, release_memory = arrays
+        body, P, props, effects, Lambda, W, upright, place, release, release_memory, yaw, plate = arrays
+        plate = plate + self._carried[which]
         state, memory = np.empty_like(release), np.empty_like(release_memory)
         loads = np.zeros((len(which), 3))
         corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, loads)
+        state[:, col.Q : col.Q_RATE + 1] = plate
+        state[:, [col.X + 2, col.V + 2]] += plate
+        memory[:, :, col.YAW] = memory[:, :, col.ANCHORED] * yaw[:, None]
         state[:, col.TIME] = state[:, col.ORIGIN] = self.time[which] * sensor.clock
         first = self.first[which]
         state[first], memory[first] = release[first], release_memory[first]
         per_sample = int(round(1 / self.rate / (STEP / self.refine)))
-        rows = np.arange(int(self.length[which].max()) * self.ROWS_PER_SAMPLE + 1) * (
-            per_sample // self.ROWS_PER_SAMPLE
-        )
-        wanted = np.minimum(rows[None, :], self.length[which, None] * per_sample).astype(np.int64)
+        rows = np.arange(int(length.max()) * self.ROWS_PER_SAMPLE + 1) * (per_sample // self.ROWS_PER_SAMPLE)
+        wanted = np.minimum(rows[None, :], length[:, None] * per_sample).astype(np.int64)
         return Batch(body, P, props, memory, effects, state, sensor.clock / self.rate / per_sample, wanted)
 
-    def simulate(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None) -> np.ndarray:
+    def carry(self, models, tilt: np.ndarray, corrections: np.ndarray) -> bool:
+        """Let the plate under each window begin as the window before it left it; whether there is such a plate."""
+        if plate_of(models[0]) is None:
+            return False
+        sensor = sensor_of(models[0])
+        batch = self.batch(models, tilt, corrections, np.arange(self.B), sensor, self.length)
+        states = run_batch(batch, self.workers, out=self._buffer(self.B, batch.wanted.shape[1]))
+        ends = states[np.arange(self.B), self.length * self.ROWS_PER_SAMPLE][:, col.Q : col.Q_RATE + 1]
+        follows = np.flatnonzero((self.stop[:-1] == self.start[1:]) & (self.run_of[:-1] == self.run_of[1:])) + 1
+        plate = self.prepared(models, tilt, sensor)[-1]
+        self._carried[follows] = np.nan_to_num(ends[follows - 1] - plate[follows])
+        return True
+
+    def simulate(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None, upto=None) -> np.ndarray:
         """Modelled records at the samples of the windows `which` (default all), (len(which), M, 3) [rad/s]."""
         which = np.arange(self.B) if which is None else np.asarray(which)
+        length = self.length[which] if upto is None else np.minimum(upto, self.length[which])
         s = sensor_of(models[0])
-        batch = self.batch(models, tilt, corrections, which, s)
+        batch = self.batch(models, tilt, corrections, which, s, length)
         states = run_batch(batch, self.workers, out=self._buffer(len(which), batch.wanted.shape[1]))
         step = 1 / self.rate / self.ROWS_PER_SAMPLE
         follows = np.zeros(len(which), bool)
@@ -224,7 +286,7 @@ class Series:
             same_run = self.run_of[which[:-1]] == self.run_of[which[1:]]
             follows[1:] = (self.stop[which[:-1]] == self.start[which[1:]]) & same_run
         return records(
-            states, s.matrix(), filter_coefficients(step, self.bandwidth), slow, follows, self.length[which], self.M,
+            states, s.matrix(), filter_coefficients(step, self.bandwidth), slow, follows, length, self.M,
             self.ROWS_PER_SAMPLE, self.time[which], 1 / self.rate, s.bias, s.drift, s.range,
         )  # fmt: skip
 
@@ -234,12 +296,14 @@ class Series:
             self._rows = np.empty((B * R, col.STATE))
         return self._rows[: B * R].reshape(B, R, col.STATE)
 
-    def residual(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None) -> np.ndarray:
+    def residual(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None, upto=None) -> np.ndarray:
         """(measured - modelled) / sigma, (len(which), M, 3); zero where a sample does not count."""
         which = np.arange(self.B) if which is None else np.asarray(which)
-        r = self.simulate(models, tilt, corrections, which)
+        r = self.simulate(models, tilt, corrections, which, upto)
         np.subtract(self.measured[which], r, out=r)
         r *= self._weight[which]
+        if upto is not None:
+            r *= (np.arange(self.M) < upto[:, None])[:, :, None]
         return r
 
 

@@ -200,6 +200,8 @@ def add_sure(page: Page, record: dict[str, Any]) -> None:
         page.add_sentences(sentences)
     if record.get("detection_limits"):
         page.add_table(diagnosis_text.limits_table(record))
+    if record.get("confusion"):
+        page.add_table(diagnosis_text.confusion_table(record))
     rows = [[k.replace("_", " "), diagnosis_text.in_words(v)] for k, v in record["gates"].items()]
     page.add_table(Table("Checks before the verdict", ("check", "found"), rows, prose=True))
 

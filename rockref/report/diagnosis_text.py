@@ -45,6 +45,8 @@ def print_diagnosis(console: Console, d: dict[str, Any]) -> None:
         print_table(console, ranking_table(d))
     if d.get("detection_limits"):
         print_table(console, limits_table(d))
+    if d.get("confusion"):
+        print_table(console, confusion_table(d))
     print_table(console, signature_table(d))
     if d["separating_experiment"]:
         say(console, f"To be sure: {d['separating_experiment']}")
@@ -120,8 +122,27 @@ def ranking_table(d: dict[str, Any]) -> Table:
 
 def limits_table(d: dict[str, Any]) -> Table:
     """How large an effect could have been without being seen."""
-    rows = [[name, quantity(value)] for name, value in d["detection_limits"].items()]
-    return Table("Could have stayed unseen up to", ("number", "limit"), rows)
+    rows = [
+        [name, quantity(row["value"]), "" if row["unit"] == "1" else row["unit"]]
+        for name, row in d["detection_limits"].items()
+    ]
+    return Table("Could have stayed unseen up to", ("number", "limit", "unit"), rows)
+
+
+#: Cosine from which two candidates are listed as alike; decided: a fifth of either is then left for itself.
+ALIKE = 0.9
+
+
+def confusion_table(d: dict[str, Any]) -> Table:
+    """The pairs of candidates that these runs hardly tell apart."""
+    pairs = [
+        (value, a, b)
+        for a, row in d["confusion"].items()
+        for b, value in row.items()
+        if a < b and value is not None and value > ALIKE
+    ]
+    rows = [[a, b, f"{value:.3f}"] for value, a, b in sorted(pairs, reverse=True)]
+    return Table("Hardly told apart by these runs", ("effect", "and", "cosine"), rows)
 
 
 #: Words for the entries of a signature.
@@ -147,6 +168,8 @@ def signature_table(d: dict[str, Any]) -> Table:
 
 def in_words(value: Any) -> str:
     """A value of the record in a few words."""
+    if isinstance(value, dict) and "sentence" in value:
+        return value["sentence"] if value.get("passed", True) else f"Not passed. {value['sentence']}"
     if isinstance(value, dict):
         return ", ".join(f"{k} {in_words(v)}" for k, v in value.items())
     if isinstance(value, (list, tuple)):

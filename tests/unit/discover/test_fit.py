@@ -94,3 +94,33 @@ def test_parameter_values():
     assert log.value(0.0) == 2.0 and log.value(2.0) == pytest.approx(2.0 * np.e)
     bounded = Parameter("b", None, 0.0, 3.0, low=0.0)
     assert bounded.value(-1.0) == 0.0 and bounded.value(1.0) == 3.0
+
+
+def test_parameters_of_runs_are_moved_together_and_kept_apart():
+    """One evaluation gives the columns of a parameter that each run has of its own."""
+    fit = object.__new__(Fit)
+    fit.series = SimpleNamespace(run_of=np.array([0, 0, 1, 2]))
+    slopes = np.random.default_rng(0).normal(size=(5, 4, M, 3))
+    make = dict(set=lambda model, value: model, centre=0.0, spread=1.0)
+    fit.parameters = (
+        Parameter("K_N", **make), Parameter("mu", **make),
+        *(Parameter(f"tilt_offset[{i}]", run=i, step=0.01, **make) for i in range(3)),
+    )  # fmt: skip
+    calls = []
+
+    def residual(z, corrections):
+        calls.append(z)
+        mine = np.ones((5, 4))
+        for i in range(3):
+            mine[2 + i] = fit.series.run_of == i
+        return np.einsum("j,jb,jbmk->bmk", z, mine, slopes)
+
+    fit.residual = residual
+    z = np.zeros(5)
+    J = fit.parameter_jacobian(z, None, residual(z, None))
+    assert len(calls) == 1 + 3  # the start, two shared parameters, one group
+    for j in range(5):
+        mine = np.ones(4, bool) if j < 2 else fit.series.run_of == j - 2
+        # A linear model: forward differences are exact but for rounding.
+        np.testing.assert_allclose(J[mine, j], slopes[j][mine], rtol=1e-9)
+        assert np.all(J[~mine, j] == 0)

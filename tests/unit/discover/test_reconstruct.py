@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 from rockref import Model
-from rockref.discover.reconstruct import attitudes, corner_starts, standing_place, undo_low_pass
+from rockref.discover.reconstruct import (
+    attitudes,
+    corner_starts,
+    plate_motion,
+    standing_place,
+    undo_low_pass,
+    yaw_since_touch,
+)
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
@@ -99,3 +106,32 @@ def test_acceleration_is_kept(corner):
     assert np.linalg.norm(late - early) < 0.15 * np.linalg.norm(early)
     spin = [(w[b] - w[a]) / (200 * h) for a, b in ((0, 200), (600, 800))]
     assert np.linalg.norm(spin[1] - spin[0]) < 0.15 * np.linalg.norm(spin[0])
+
+
+def test_yaw_is_counted_since_the_point_touched_and_slips():
+    corners = np.array([[0.1, 0.1, -0.5], [0.1, -0.1, -0.5]])
+    lean = exponential(np.array([-0.05, 0.0, 0.0])), exponential(np.array([0.05, 0.0, 0.0]))
+    Lambda = np.array([lean[0]] * 40 + [lean[1]] * 60)
+    W = np.array([L.T @ np.array([0.0, 0.0, 0.2]) for L in Lambda])
+    starts = np.array([30, 40, 70, 99])
+    # 0.2 rad/s about the vertical; the other corner touches from sample 40 on.
+    np.testing.assert_allclose(
+        yaw_since_touch(Lambda, W, corners, starts, DT, 1.0), [6e-3, 0, 6e-3, 11.8e-3], rtol=1e-9
+    )
+    np.testing.assert_allclose(yaw_since_touch(Lambda, -W, corners, starts, DT, 5e-3), [-5e-3, 0, -5e-3, -5e-3])
+
+
+def test_plate_rings_with_the_block_on_it():
+    """A change of the centre's vertical velocity starts free vibration at the frequency of plate and block together."""
+    mass, plate, stiffness = 50.0, 100.0, 1.5e7
+    corners = np.array([[0.0, 0.1, -0.5]])
+    W = np.zeros((400, 3))
+    W[10:, 0] = 0.1  # v_z = -(W x P)_z = -0.01 m/s from then on
+    motion = plate_motion(np.tile(np.eye(3), (400, 1, 1)), W, corners, DT, mass, plate, stiffness, 0.0)
+    assert np.all(motion[:10] == 0)
+    omega = np.sqrt(stiffness / (mass + plate))
+    jump = mass * 0.01 / (mass + plate)
+    t = DT * np.arange(390)
+    # Semi-implicit steps of 1/16 ms: the phase is off by less than (omega h)^2/24 of itself, the start by one sample.
+    np.testing.assert_allclose(motion[10:, 0], jump / omega * np.sin(omega * (t + DT)), atol=0.2 * jump / omega)
+    assert motion[10:, 0].max() == pytest.approx(jump / omega, rel=0.02)

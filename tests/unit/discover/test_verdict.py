@@ -1,0 +1,67 @@
+"""The rules of the verdict, each at the fact that it speaks of."""
+
+import numpy as np
+import pytest
+
+from rockref.discover import verdict as rules
+from rockref.discover.verdict import Facts, decide, is_detected, ranking, settles
+
+
+def facts(effects=("quadratic_drag",), gains=None, bad=0.0, held=(0.5, 0.4)) -> Facts:
+    gains = {"quadratic_drag": 3000.0, "rolling_resistance": 500.0} if gains is None else gains
+    return Facts(effects, {e: 1.0 for e in effects}, gains, bad, 1.0, list(held), 1.0)
+
+
+def test_nothing_found_is_none():
+    assert decide(facts(effects=())).verdict == "none"
+
+
+def test_one_effect_that_helps_held_out_runs_is_named():
+    found = decide(facts())
+    assert (found.verdict, found.effects) == ("named", ("quadratic_drag",))
+
+
+def test_two_effects_are_a_pair():
+    found = decide(facts(effects=("quadratic_drag", "gyro_scale")))
+    assert found.verdict == "pair" and set(found.effects) == {"quadratic_drag", "gyro_scale"}
+
+
+def test_near_rival_makes_a_class_of_at_most_three():
+    gains = {"quadratic_drag": 3000.0} | {id: 2990.0 for id in ("rolling_resistance", "cable_restraint", "adhesion")}
+    found = decide(facts(gains=gains))
+    assert found.verdict == "class" and found.effects[0] == "quadratic_drag" and len(found.effects) == 3
+
+
+def test_windows_that_stay_structured_are_something_else():
+    found = decide(facts(bad=rules.UNEXPLAINED + 0.01))
+    assert found.verdict == "something_else" and found.effects == ()
+    assert "quadratic_drag" in found.sentence  # the nearest candidate
+
+
+def test_no_gain_on_held_out_runs_is_only_indicated():
+    assert decide(facts(held=(0.0, 0.0))).verdict == "indicated"
+
+
+def test_harm_on_held_out_runs_is_not_accepted():
+    assert decide(facts(held=(-0.5, -0.5))).verdict == "none"
+
+
+@pytest.mark.parametrize("second", [False, True])
+def test_detection_asks_for_gain_and_size(second):
+    gain = (rules.SECOND if second else rules.DETECTED) + 1
+    size = (rules.SECOND_SIZE if second else rules.LEAST_SIZE) + 0.01
+    assert is_detected(gain, size, second)
+    assert not is_detected(gain - 2, size, second) and not is_detected(gain, size - 0.02, second)
+
+
+def test_second_effect_must_settle_the_windows():
+    assert settles(0.5, 0.1) and settles(0.04, 0.03)
+    assert not settles(0.125, 0.111)
+
+
+def test_weights_add_up_and_follow_the_gains():
+    table = ranking({"adhesion": 10.0, "quadratic_drag": 900.0, "clock_error": 400.0}, facts())
+    assert [row["effect"] for row in table] == ["quadratic_drag", "clock_error", "adhesion"]
+    # Weights are rounded to four digits.
+    assert sum(row["weight"] for row in table) == pytest.approx(1, abs=2e-4)
+    assert np.all(np.diff([row["gain"] for row in table]) <= 0)
