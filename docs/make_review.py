@@ -147,7 +147,7 @@ def vectors_of(rule: str) -> str:
     manifest = json.loads((VECTORS / "MANIFEST.json").read_text(encoding="utf-8"))
     layers = []
     for path in sorted(VECTORS.glob("L*.json")):
-        count = sum(entry["rule"] == rule for entry in json.loads(path.read_text(encoding="utf-8"))["vectors"])
+        count = sum(entry.get("rule") == rule for entry in json.loads(path.read_text(encoding="utf-8"))["vectors"])
         if count:
             layers.append(f"{count} in {path.stem}")
     says = {key: value["says"] for key, value in manifest["mistakes"].items()}
