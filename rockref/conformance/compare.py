@@ -109,7 +109,7 @@ def compare_one(name: str, vector: Vector, out: dict[str, Any], profile: str) ->
     except (TypeError, ValueError, IndexError) as e:
         return Check(**common, grade="outside", worst=float("inf"), note=f"unusable answer: {e}")
     flag = expected.value.dtype == bool
-    bar = np.zeros(()) if flag and profile == "float64" else bar_of(expected, profile)
+    bar = np.zeros(()) if flag and profile != "float32" else bar_of(expected, profile)
     if bar is None:
         return Check(**common, grade="not judged")
     if got.shape != expected.value.shape or (got.dtype.kind not in "bfiu"):
