@@ -110,3 +110,16 @@ def test_block_of_54_kg_is_of_steel():
     """The decided size: 0.1 x 0.1 x 0.688 m at the density of steel, 7850 kg/m3, to the precision of the mass."""
     b = {k: given.value for k, given in p.BLOCK.items()}
     assert b["width"] * b["depth"] * b["height"] * 7850 == pytest.approx(b["mass"], abs=0.5)
+
+
+@pytest.mark.parametrize("point", range(8))
+def test_every_point_counts_in_the_mean(point):
+    """One point changed by a tenth changes the mean over its four by a fortieth, and that of the others not at all."""
+    table = p.Parameters()
+    genes = p.chromosome_54(table, 54.0)
+    mu = slice(6 * point + 4, 6 * point + 6)
+    genes[mu] *= 1.1
+    reduced = p.reduce_54(genes, 54.0)
+    external = point < 4
+    assert reduced.mu_ext / table.mu_ext == pytest.approx(1.025 if external else 1, rel=1e-14)
+    assert reduced.mu_int / table.mu_int == pytest.approx(1 if external else 1.025, rel=1e-14)

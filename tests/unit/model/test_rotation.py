@@ -191,3 +191,9 @@ def test_inverse():
     # condition numbers here are below 100
     assert np.max(np.abs(rotation.product(A, rotation.inverse(A)) - np.eye(3))) < 1e-13
     assert np.array_equal(rotation.transposed(A), A.transpose(0, 2, 1))
+
+
+def test_logarithm_of_a_rotation_whose_square_vanishes():
+    """1e-170 rad: its square is zero, it is not."""
+    Theta = np.array([1e-170, -2e-170, 3e-170])
+    assert rotation.logarithm(np.eye(3) + rotation.hat(Theta)) == pytest.approx(Theta, rel=1e-15)
