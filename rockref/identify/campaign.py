@@ -7,11 +7,12 @@ pieces: each chromosome is evaluated by itself.
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from typing import Any
 
 from rockref.model.errors import InputError
@@ -98,7 +99,20 @@ def campaign(
 
 def _processes(n: int) -> ProcessPoolExecutor:
     # Fresh processes: a forked one would inherit threads of numba and BLAS in an unknown state.
-    return ProcessPoolExecutor(n, mp_context=get_context("spawn"))
+    return ProcessPoolExecutor(n, mp_context=get_context("spawn"), initializer=_end_with_parent)
+
+
+def _end_with_parent() -> None:
+    """Let this worker end when the process that made it is killed; without this it would wait for work for ever."""
+    parent = parent_process()
+    if parent is None:
+        return
+
+    def wait() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=wait, daemon=True).start()
 
 
 @contextmanager

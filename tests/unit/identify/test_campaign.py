@@ -2,7 +2,11 @@
 
 import os
 import signal
+import subprocess
+import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +18,7 @@ from rockref.identify.search import Settings, search
 from rockref.model.errors import InputError
 from tests.unit.identify import analytic
 
+ROOT = Path(__file__).parents[3]
 ITEMS = list(np.random.default_rng(0).random((11, 3)))
 WANTED = analytic.bowl(0.3, ITEMS)
 
@@ -43,6 +48,34 @@ def test_a_killed_process_loses_nothing(tmp_path):
     with campaign(2) as work:
         assert work(analytic.bowl_whose_worker_dies_once, (str(tmp_path / "mark"),), ITEMS) == WANTED
     assert (tmp_path / "mark").exists()
+
+
+def test_workers_end_when_the_process_that_made_them_is_killed():
+    code = (
+        "import os, signal\n"
+        "from rockref.identify.campaign import campaign\n"
+        "from tests.unit.identify import analytic\n"
+        "if __name__ == '__main__':\n"
+        "    with campaign(2) as work:\n"
+        "        work(analytic.bowl, (0.3,), [[0.1], [0.2]])\n"
+        "        print(*work.executor._processes, flush=True)\n"
+        "        os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, stdout=subprocess.PIPE, text=True, timeout=120)
+    pids = [int(pid) for pid in done.stdout.split()]
+    assert len(pids) == 2
+    patience = time.monotonic() + 30
+    while any(map(_runs, pids)) and time.monotonic() < patience:
+        time.sleep(0.05)
+    assert not [pid for pid in pids if _runs(pid)]
+
+
+def _runs(pid: int) -> bool:
+    """Whether a process is there and is not a zombie."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
 
 
 @pytest.mark.slow
