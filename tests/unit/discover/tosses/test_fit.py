@@ -1,0 +1,50 @@
+"""Fits and staircases of tosses with known truth."""
+
+import numpy as np
+import pytest
+
+from rockref.discover.tosses.diagnose import Step, paired, word
+from rockref.discover.tosses.errors import Errors
+from rockref.discover.tosses.parameters import CANDIDATES, apply, effect_parameters, law_parameters
+from rockref.effects import catalogue
+from tests.tosses import stated
+
+
+def test_every_candidate_is_absent_at_zero():
+    base = stated()
+    for id in CANDIDATES:
+        found = effect_parameters(id)
+        model = apply(base, found, np.zeros(len(found)))
+        assert not model.active_effects(), id
+        assert {p.name for p in found} <= {f"{id}.{key}" for key in catalogue.find(id).quantities}
+
+
+def test_the_laws_numbers_are_those_of_the_model_at_zero():
+    base = stated()
+    model = apply(base, law_parameters(base), np.zeros(5))
+    for key in ("K_N", "K_T", "C_N", "C_T", "mu", "mu_0"):
+        assert np.array_equal(getattr(model.custom_points, key), getattr(base.custom_points, key))
+
+
+def made_errors(position, rotation):
+    return Errors(np.array(position), np.array(rotation), np.zeros((0, 0)), np.zeros((0, 0)))
+
+
+def test_the_paired_interval_sees_what_is_common_to_all_tosses():
+    rng = np.random.default_rng(0)
+    position, rotation = rng.lognormal(size=100), rng.lognormal(size=100)
+    # A fall by one on every toss is certain however much the tosses differ; the same fall on average is not.
+    sure = paired(made_errors(position, rotation + 1), made_errors(position, rotation))
+    assert sure["low"] == sure["high"] == pytest.approx(1.0)
+    unsure = paired(made_errors(position, rng.permutation(rotation)), made_errors(position, rotation))
+    assert unsure["low"] < 0 < unsure["high"]
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "rival", "expected"),
+    [(0.5, 1.0, 0.1, "named"), (0.5, 1.0, 0.198, "class"), (-0.2, 0.5, 0.1, "indicated"), (-1.0, -0.1, 0.1, "none")],
+)
+def test_words_follow_the_proof(low, high, rival, expected):
+    step = Step("tag_frame", {"tag_frame": 0.2, "plate_pose": rival}, None, np.zeros(0), 1.0)
+    step.proof = {"low": low, "high": high}
+    assert word(step) == expected
