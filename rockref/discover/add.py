@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.diagnose import Family, afresh, baseline_model, mean_loss
+from rockref.discover.diagnose import baseline_model
 from rockref.discover.errors import FIT_STRETCH, STRETCHES, Errors, errors_of, holdout_errors, spread_of
+from rockref.discover.families import Family, afresh, mean_loss
 from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of
 from rockref.discover.fitting import started_family, usable
 from rockref.discover.information import covariance, information

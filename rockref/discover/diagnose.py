@@ -12,9 +12,22 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover import verdict as rules
-from rockref.discover.candidates import SHAPES, kinds, value_of
-from rockref.discover.evidence import HeldOut, clipped_gain, held_out, rms_deg_s
-from rockref.discover.fit import Fit, Point
+from rockref.discover.candidates import kinds
+from rockref.discover.evidence import HeldOut, held_out, rms_deg_s
+from rockref.discover.families import (
+    Family,
+    afresh,
+    amplitudes,
+    gain_between,
+    gain_over,
+    mean_loss,
+    refit,
+    room,
+    same_windows,
+    size_of,
+    structured,
+)
+from rockref.discover.far import from_far
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
 from rockref.discover.on_this_data import seen_by
@@ -28,8 +41,8 @@ from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 REFITTED, ITERATIONS = 6, 3
 #: Further iterations of the family that is gone on with, and whose sizes are read.
 POLISH = 4
-#: Iterations of both stages of a fit from the nominal parameters.
-FRESH = (8, 6)
+#: Share of structured windows above which a family is too far off for small steps: candidates begin at a size.
+FAR = 0.5
 #: The plain baseline is built on unless a suspect of the presearch, on windows of its own, fits better by this factor
 #: of mean loss (decided).
 NO_WORSE = 1.1
@@ -78,70 +91,10 @@ class Diagnosis:
         }
 
 
-@dataclass
-class Family:
-    """A fitted model family: which effects, the fit and where it stands."""
-
-    effects: tuple[str, ...]
-    fit: Fit
-    point: Point
-
-
 def baseline_model(experiment: Experiment, model: Model | None = None) -> Model:
     """The model that the experimenter starts from, with the block of the experiment."""
     base = model or (Model.table_3_1() if experiment.baseline == "eight_points" else Model.four_points())
     return base.replace(mass=experiment.mass, width=experiment.width, depth=experiment.width, height=experiment.height)
-
-
-def refit(family: Family, iterations: int, seed: int) -> Family:
-    """Go on from where a family stands; the baseline and every candidate get the same iterations."""
-    rng = np.random.default_rng(seed)
-    return Family(family.effects, family.fit, family.fit.run(family.point, iterations, rng))
-
-
-def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
-    """Value, 90 % interval and unit of each parameter of the family's effects."""
-    fit, point = family.fit, family.point
-    H, _, _ = fit.normal_equations(point)
-    covariance = np.linalg.inv(H + np.diag(1 / fit.prior**2))
-    found = {}
-    for i, p in enumerate(fit.parameters):
-        if "." not in p.name:
-            continue
-        half = 1.645 * rules.INTERVAL * float(np.sqrt(max(covariance[i, i], 0.0)))
-        half = float(np.hypot(half, rules.SYSTEMATIC * point.z[i]))
-        ends = sorted((value_of(p, point.z[i] - half), value_of(p, point.z[i] + half)))
-        found[p.name] = {
-            "value": value_of(p, point.z[i]), "low": ends[0], "high": ends[1], "unit": p.unit,
-            "in_typical_sizes": float(point.z[i]),
-        }  # fmt: skip
-    return found | vibration_amplitude(found)
-
-
-def vibration_amplitude(found: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    """The amplitude of a base vibration, from the cosine and sine parts of the runs: their mean, and their spread."""
-    parts = [[row["value"] for name, row in found.items() if f".{part}[" in name] for part in ("cosine", "sine")]
-    if not parts[0]:
-        return {}
-    sizes = np.hypot(*np.array(parts))
-    value, half = (
-        float(sizes.mean()),
-        float(1.645 * sizes.std() / np.sqrt(len(sizes)) + rules.SYSTEMATIC * sizes.mean()),
-    )
-    return {"base_vibration.amplitude": {"value": value, "low": value - half, "high": value + half, "unit": "m/s2"}}
-
-
-def size_of(family: Family, effect: str | None = None) -> float:
-    """Largest switch of an effect (by default the last one) in typical sizes; what only shapes it does not count."""
-    effect = effect or family.effects[-1]
-    z = [
-        abs(zi)
-        for p, zi in zip(family.fit.parameters, family.point.z, strict=True)
-        if p.name.startswith(effect + ".")
-        and tuple(p.name.split(".")) not in SHAPES
-        and p.name not in ("base_vibration.frequency", "base_vibration.direction")
-    ]
-    return float(max(z, default=0.0))
 
 
 def diagnose(
@@ -193,7 +146,7 @@ def diagnose(
         winner = look.order[0]
         if not rules.is_detected(look.gains[winner.effects[-1]], size_of(winner), second=bool(start.effects)):
             break
-        wider = duel(setup, look, say)
+        wider = duel(setup, look, say) if structured(look.kept) <= FAR else winner
         if room(wider) > rules.SECOND_ROOM / 2:
             wider = refit(wider, POLISH, seed)
         say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
@@ -209,24 +162,6 @@ def diagnose(
         null = start = refit(null, 2 * POLISH, seed)
     held = load_experiment(path, uses=(FIT, HOLDOUT))
     return conclude(setup, held, null, start, looks, seen, begun)
-
-
-def structured(family: Family, run: int | None = None) -> float:
-    """Share of the windows (of one run, if given) that the family leaves structured."""
-    series = family.fit.series
-    mine = slice(None) if run is None else series.run_of == run
-    return float(np.mean((2 * family.point.loss / series.count > 1.5)[mine]))
-
-
-def room(family: Family) -> float:
-    """What any further effect could gain: the loss above noise, each window's clipped as in a gain."""
-    count = family.fit.series.count
-    return clipped_gain(family.point.loss, rules.NOISE * count / 2, count)
-
-
-def mean_loss(family: Family) -> float:
-    """Mean over the windows of the loss; 1 is noise."""
-    return float(np.mean(2 * family.point.loss / family.fit.series.count))
 
 
 @dataclass
@@ -245,6 +180,10 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
     candidates = kinds(experiment.baseline, (*start.effects, *had, "base_vibration", "gyro_saturation"))
     trials = screen(start.fit, start.point, candidates, setup, start.effects)
     kept = refit(start, ITERATIONS, seed + 1)
+    if structured(kept) > FAR:
+        found = from_far(setup, trials, kept, say)
+        gains = {f.effects[-1]: gain_between(kept, f) for f in found}
+        return Look(kept, sorted(found, key=lambda f: -gains[f.effects[-1]]), gains, trials)
     worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
     refitted = [refit(Family(t.effects, t.fit, t.point), ITERATIONS, seed + 1) for t in worth]
     gains = {f.effects[-1]: gain_over(kept, f) for f in refitted}
@@ -267,34 +206,6 @@ def duel(setup: Setup, look: Look, say) -> Family:
         say(f"  duel: {family.effects[-1]} {look.gains[family.effects[-1]]:.0f}")
     look.order = sorted(fitted, key=lambda f: -look.gains[f.effects[-1]])
     return look.order[0]
-
-
-def afresh(setup: Setup, family: Family) -> Family:
-    """A family fitted from the nominal parameters and the sizes of its effects.
-
-    What it started from was bent to make up for the effect, and holds it back.
-    """
-    z = np.array([zi if "." in p.name else 0.0 for p, zi in zip(family.fit.parameters, family.point.z, strict=True)])
-    return Family(family.effects, *baseline(setup, family.effects, z, iterations=FRESH))
-
-
-def gain_between(kept: Family, other: Family) -> float:
-    """The gain, also where a sensor effect has moved the cuts of the windows."""
-    if same_windows(kept, other):
-        return gain_over(kept, other)
-    return 0.5 * other.fit.series.count.sum() * mean_loss(kept) - other.point.objective
-
-
-def same_windows(one: Family, other: Family) -> bool:
-    """Whether two families were compared on the same windows (a sensor effect moves the cuts)."""
-    a, b = one.fit.series, other.fit.series
-    return len(a.start) == len(b.start) and bool(np.all(a.start == b.start) and np.all(a.stop == b.stop))
-
-
-def gain_over(kept: Family, other: Family) -> float:
-    """What a family gains over another one on the same windows, priors included."""
-    gain = clipped_gain(kept.point.loss, other.point.loss, kept.fit.series.count)
-    return gain - (other.point.penalty - kept.point.penalty)
 
 
 def conclude(

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.diagnose import Family, baseline_model, mean_loss
+from rockref.discover.diagnose import baseline_model
 from rockref.discover.errors import FIT_STRETCH, Errors, errors_of
+from rockref.discover.families import Family, mean_loss
 from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of, start_from
 from rockref.discover.gates import Gate, gates, other_start
 from rockref.discover.information import covariance, information
