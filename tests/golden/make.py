@@ -30,8 +30,15 @@ def table_3_1() -> list[str]:
         return sorted(name for name in new.keys() | old.keys() if new.get(name) != old.get(name))
 
 
-def main(parts: tuple[str, ...] = ("small", "runs", "fingerprints", "table_3_1")) -> int:
+#: What can be made by itself.
+PARTS = ("small", "runs", "fingerprints", "table_3_1")
+
+
+def main(parts: tuple[str, ...] = PARTS) -> int:
     """Make, compare, say."""
+    if unknown := [p for p in parts if p not in PARTS]:
+        print(f"{unknown[0]} is none of {', '.join(PARTS)}", file=sys.stderr)
+        return 2
     bits = np.finfo(np.longdouble).nmant + 1
     if bits < 64:
         print(f"longdouble has {bits} bits here: expected values of runs cannot be made on this machine")
@@ -45,4 +52,4 @@ def main(parts: tuple[str, ...] = ("small", "runs", "fingerprints", "table_3_1")
 
 
 if __name__ == "__main__":
-    raise SystemExit(main(tuple(sys.argv[1:]) or ("small", "runs", "fingerprints", "table_3_1")))
+    raise SystemExit(main(tuple(sys.argv[1:]) or PARTS))

@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
 from rockref.model import contact
+from tests.strategies import between
 
 K_N, C_N, K_T, C_T = 6e7, 2e4, 5e7, 1.8e4
 
@@ -44,24 +45,24 @@ class ContactPoint(RuleBasedStateMachine):
 
     # --- what may happen to a point
 
-    @rule(depth=st.floats(0, 2e-5), speed=st.floats(-0.05, 0.3))
+    @rule(depth=between(0, 2e-5), speed=between(-0.05, 0.3))
     def press(self, depth, speed):
         self.xi = depth
         self.evaluate(np.zeros(2), speed)
 
-    @rule(gap=st.floats(1e-9, 1e-3), speed=st.floats(-0.3, 0.3))
+    @rule(gap=between(1e-9, 1e-3), speed=between(-0.3, 0.3))
     def lift(self, gap, speed):
         self.xi = -gap
         self.evaluate(np.zeros(2), speed)
 
-    @rule(angle=st.floats(-3.2, 3.2), distance=st.floats(0, 2e-6), speed=st.floats(0, 1e-3))
+    @rule(angle=between(-3.2, 3.2), distance=between(0, 2e-6), speed=between(0, 1e-3))
     def creep(self, angle, distance, speed):
         """A little: mostly it sticks."""
         way = np.array([np.cos(angle), np.sin(angle)])
         self.u = self.u + distance * way
         self.evaluate(speed * way, 0.0)
 
-    @rule(angle=st.floats(-3.2, 3.2), distance=st.floats(1e-5, 1e-3), speed=st.floats(0, 0.5))
+    @rule(angle=between(-3.2, 3.2), distance=between(1e-5, 1e-3), speed=between(0, 0.5))
     def shove(self, angle, distance, speed):
         """A lot: where it is pressed on it slides."""
         way = np.array([np.cos(angle), np.sin(angle)])
