@@ -17,9 +17,10 @@ def demo(
     data: Annotated[Path | None, typer.Option("--data", help="Folder of the shipped experiments.")] = None,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself, minutes) or numba (compiled).")] = "auto",
 ) -> None:
-    """Simulate the block of Table 3.1, compare it with two shipped experiments, and write one page about it.
+    """Simulate the block of Table 3.1, compare it with two shipped experiments, find what one of them lacks.
 
-    Takes about a minute, the first time with compiling the engine. Prints the lines that matter and where the page is.
+    Writes one page about it, prints the lines that matter and where the page is. Takes two to three minutes, the first
+    time with compiling the engine.
 
     \b
     Example:

@@ -193,7 +193,9 @@ def with_one_more(setup: Setup, before: Family, effect: str, seed: int) -> Famil
     effects = (*before.effects, effect)
     plain = replace(setup, base=before.fit.base)
     if effect in FROM_THE_START:
-        family = started_family(setup, effects, iterations=START)
+        # The release, where nothing is restarted, tells where a sensor or a shaking base begins.
+        bare = replace(setup, base=setup.base.replace(effects=()))
+        family = started_family(setup, effects, release_fit(bare, effects, iterations=12)[1].z, iterations=START)
         fit, point = family.fit, family.point
     else:
         trial = screen(before.fit, before.point, (catalogue.find(effect),), plain, before.effects)[0]

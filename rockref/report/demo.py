@@ -1,7 +1,7 @@
-"""The demonstration: the block rocks, measured runs beside it, and where the model fails; chapter by chapter.
+"""The demonstration: the block rocks, measured runs beside it, where the model fails and why; chapter by chapter.
 
-A chapter takes the story told so far and adds to it: lines for the terminal, sections for the page. More chapters (the
-diagnosis of one experiment, the effect added, the error before and after) go to the end of :data:`CHAPTERS`.
+A chapter takes the story told so far and adds to it: lines for the terminal, sections for the page. The last one tells
+what one experiment lacks: diagnosed, the effect added, the error before and after.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from rockref.api import Model, simulate
 from rockref.discover.compare import Comparison, baseline_model, compare
 from rockref.discover.finding import Finding
 from rockref.discover.sentences import findings
+from rockref.discover.story import run_story
 from rockref.discover.stretches import AXES
 from rockref.measure import envelope_shape, envelopes, load_experiment, main_impacts
 from rockref.measure.activity import leakage, onset
@@ -31,6 +32,7 @@ from rockref.report.curves import curves
 from rockref.report.drawing import Line, Panel
 from rockref.report.figures import write_figures
 from rockref.report.page import Page
+from rockref.report.story_page import add_story
 
 # decided: one whose gyroscope shows the difference before the first impact, one whose energy shows it.
 EXPERIMENTS = ("mystery-04", "mystery-05")
@@ -134,8 +136,15 @@ def telling(experiment: Experiment, found: tuple[Finding, ...]) -> list[str]:
     return [f"{experiment.name}: {text}" for text in (by_kind["leaves_band"], *chosen)]
 
 
+def the_missing_effect(story: Story) -> None:
+    """Chapter 3: one of the experiments diagnosed, what is missing added, and the error before and after."""
+    journey = run_story(story.folder / EXPERIMENTS[0], story.report, engine=story.engine)
+    story.lines += journey.lines
+    add_story(story.page, journey, room=ROOM)
+
+
 #: What the demonstration tells, in order.
-CHAPTERS: tuple[Callable[[Story], None], ...] = (the_model, the_runs)
+CHAPTERS: tuple[Callable[[Story], None], ...] = (the_model, the_runs, the_missing_effect)
 
 
 def find_experiments(given: Path | None) -> Path:
@@ -162,7 +171,10 @@ def find_experiments(given: Path | None) -> Path:
 
 def tell(folder: Path, out: Path, engine: str = "auto", report: Callable[[str], None] = lambda text: None) -> Story:
     """Tell the story: compute every chapter, write page and figures into `out`. Raises InputError, NumericalError."""
-    page = Page("rockref: the demonstration", "The block rocks, measured runs beside it, and where the model fails.")
+    page = Page(
+        "rockref: the demonstration",
+        "The block rocks, measured runs beside it, where the model fails, and what it lacks.",
+    )
     story = Story(folder, out, engine, page, report)
     summary = page.add_section("In short")
     for chapter in CHAPTERS:

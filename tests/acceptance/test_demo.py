@@ -23,13 +23,15 @@ def demo(tmp_path_factory):
     return out, done.stdout
 
 
-def test_ten_lines_and_the_place_of_the_page(demo):
+def test_the_lines_that_matter_and_the_place_of_the_page(demo):
     out, printed = demo
     lines = [line for line in printed.splitlines() if line.startswith("- ")]
-    assert len(lines) == 10
+    assert len(lines) == 16
     assert "main impacts at 0.5104" in lines[0]
     for name in EXPERIMENTS:
         assert any(line.startswith(f"- {name}: The model leaves the band") for line in lines)
+    assert "gyro_misalignment is missing" in printed
+    assert "error on the held-out runs falls from" in lines[-1]
     assert f"The page: {out / 'index.html'}" in printed
 
 
