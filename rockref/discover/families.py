@@ -101,7 +101,8 @@ def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
         if "." not in p.name:
             continue
         half = 1.645 * rules.INTERVAL * float(np.sqrt(max(covariance[i, i], 0.0)))
-        half = float(np.hypot(half, rules.SYSTEMATIC * point.z[i]))
+        part = 1 / p.spread if p.log else point.z[i]
+        half = float(np.hypot(half, rules.SYSTEMATIC * part))
         ends = sorted((value_of(p, point.z[i] - half), value_of(p, point.z[i] + half)))
         found[p.name] = {
             "value": value_of(p, point.z[i]), "low": ends[0], "high": ends[1], "unit": p.unit,
