@@ -61,10 +61,20 @@ def lowest(x: np.ndarray, Lambda: np.ndarray, P: np.ndarray) -> np.ndarray:
 
 
 def flight_frames(poses: Poses, P: np.ndarray, clearance: float) -> np.ndarray:
-    """How many frames pass before a body point P (n, 3) comes closer than `clearance` [m] to z = 0, (B,)."""
-    near = lowest(poses.x, poses.Lambda, P) < clearance
-    first = np.where(near.any(axis=1), near.argmax(axis=1), poses.frames)
-    return np.clip(first, LEAST, np.minimum(MOST, poses.frames))
+    """How many frames pass before a body point P (n, 3) comes closer than `clearance` [m] to z = 0, (B,).
+
+    A contact may begin and end between two frames: a flight also ends with the frame from which a point, as fast as it
+    came, would be closer in the next one.
+    """
+    low = lowest(poses.x, poses.Lambda, P)
+    near = first_true(low < clearance, poses.frames)
+    due = first_true(2 * low[:, 1:] - low[:, :-1] < clearance, poses.frames) + 2
+    return np.clip(np.minimum(near, due), LEAST, np.minimum(MOST, poses.frames))
+
+
+def first_true(found: np.ndarray, otherwise: np.ndarray) -> np.ndarray:
+    """Number of the first true column of every row (B, F), or `otherwise` (B,)."""
+    return np.where(found.any(axis=1), found.argmax(axis=1), otherwise)
 
 
 @dataclass(frozen=True)

@@ -67,6 +67,8 @@ def measured_table(found: dict[str, Any]) -> Table:
             rows.append((f"{words}: {key} of the corner", f"{v['value']:.3f} ± {v['se']:.2g}", "1"))
         e = part["energy_change"]
         rows.append((f"{words}: impacts that gain kinetic energy", f"{e['gains']} of {e['tosses']}", ""))
+    for key, v in found.get("sliding", {}).get("values", {}).items():
+        rows.append((f"friction of a face that slides flat, {key}", f"{v['value']:.3f} ± {v['se']:.2g}", "1"))
     return Table("Without a contact model", ("what", "value", "unit"), tuple(rows), "First impacts on one corner.")
 
 

@@ -12,7 +12,7 @@ from rockref.discover.tosses.body import frames_of, nominal_model, throw_frame
 from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.predict import CLEARANCE, predict
 from rockref.discover.tosses.stretches import by_stretch, stretch_of
-from rockref.measure import toss_balance
+from rockref.measure import toss_balance, toss_sliding
 from rockref.measure.experiment import USES
 from rockref.measure.flight import Poses, flight_frames, side_by_side
 from rockref.measure.tosses import Toss, Tosses
@@ -112,7 +112,7 @@ def nominal_corners(model: Model) -> np.ndarray:
 
 
 def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str, Any]:
-    """Flight arcs; impulses and energies at the first impact, with the stated and with the measured centre of mass."""
+    """Flight arcs, flat sliding; first impacts with the stated and with the measured centre of mass."""
     poses = side_by_side(chosen, tosses.rate)
     frames = frames_of(plain_law(model), throw_frame(poses))
     x, Lambda = frames.to_body(poses.x, poses.Lambda)
@@ -122,6 +122,7 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
     found: dict[str, Any] = {"flight_arcs": arcs.to_dict()}
     if not arcs.values:
         return found
+    found["sliding"] = toss_sliding.sliding_friction(own, P, -arcs.values["g_z"][0]).to_dict()
     centre = np.array([arcs.values[f"centre_{a}"][0] for a in "xyz"])
     g = np.array([arcs.values[f"g_{a}"][0] for a in "xyz"])
     mass = float(model.mass)
@@ -138,6 +139,7 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
             "impulse_balance": balance.to_dict(),
             "inertia_kg_m2": {a: balance.values[f"inertia_{a}"][0] * mass for a in ("xx", "yy", "zz")},
             "corner": toss_balance.corner_ratios(k).to_dict(),
+            "shape": toss_balance.corner_shape(k, toss_sliding.rest_height(own, P)).to_dict(),
             "energy_change": {
                 "median": float(np.median(change)), "largest": float(np.max(change)), "gains": int((change > 0).sum()),
                 "tosses": len(change),

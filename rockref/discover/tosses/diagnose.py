@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -13,30 +13,31 @@ from rockref.api import Model
 from rockref.discover.tosses.body import nominal_model
 from rockref.discover.tosses.compare import measured
 from rockref.discover.tosses.errors import Errors, errors
-from rockref.discover.tosses.fit import HORIZONS, TossFit, cut, drawn_starts
-from rockref.discover.tosses.parameters import CANDIDATES, apply, effect_parameters
+from rockref.discover.tosses.first_guess import first_guesses, guessed
+from rockref.discover.tosses.fit import HORIZONS, TossFit, cut, drawn_starts, picked
+from rockref.discover.tosses.parameters import CANDIDATES, apply
 from rockref.discover.tosses.predict import STEPS_A_FRAME, predict, simulated
 from rockref.discover.verdict import RIVAL
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT
 from rockref.measure.flight import Poses, displaced, side_by_side
 from rockref.measure.tosses import Tosses
-from rockref.model.errors import InputError, RockrefError
+from rockref.model.errors import InputError
 
 #: At most so many effects are added one after the other.
-DEEPEST = 6
+DEEPEST = 8
 #: Share of the objective that an effect must gain on the fit tosses; decided: what ten numbers gain on 200 tosses by
 #: luck is a hundredth, and what is smaller matters to nobody's simulation.
 LEAST_GAIN = 0.015
-#: Candidates that are refitted after the screen, on the first two impacts only; iterations of such a refit, of the
-#: winner over all frames, and of the baseline.
-REFITTED, REFIT_ITERATIONS, ITERATIONS, FIRST_ITERATIONS = 4, 3, 5, 8
-#: The horizon on which candidates compete: there an effect shows before bounces have multiplied it.
-SHORT = HORIZONS[0]
+#: Candidates that are refitted after the screen; iterations of such a refit, of the winner, and of the first and the
+#: last rung. An iteration ends a fit that gains no more.
+REFITTED, REFIT_ITERATIONS, ITERATIONS, FIRST_ITERATIONS = 3, 4, 8, 16
+#: Frames over which candidates compete: all that moves, since friction shows in the slide that ends a toss.
+LONG = HORIZONS[-1]
+#: Candidates compete on every so many tosses.
+SKIPPED = 2
 #: How many of the small ones are fitted together at the end, and how the rung begins.
 TOGETHER, SMALL = 8, "small ones together: "
-#: Fractions of the Gauss-Newton step at which a candidate is tried in the screen.
-TRIED = (1.0, 0.5, 0.2)
 #: Resamples of the paired bootstrap, and the share of its interval.
 RESAMPLES, INTERVAL = 2000, 0.90
 #: Least tosses on either side for a verdict (decided: below it the bootstrap of a mean with heavy tails means little).
@@ -153,11 +154,13 @@ def diagnose(
             )  # fmt: skip
     base = model or nominal_model(tosses)
     poses = side_by_side(tosses.used(FIT), tosses.rate)
+    found = measured(tosses.used(FIT), tosses, base)
+    guesses = first_guesses(found, base)
     fit = TossFit(base, (), poses, tosses.width, log=say)
     z, objective = fit.run(np.zeros(len(fit.parameters)), FIRST_ITERATIONS)
     steps = [Step("", {}, fit, z, objective)]
     while len(steps) <= deepest:
-        step = look_further(steps[-1], say)
+        step = look_further(steps[-1], guesses, say)
         if step is None:
             break
         steps.append(step)
@@ -166,29 +169,42 @@ def diagnose(
         steps.append(small_ones(steps[-1], say))
     held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
     say("the held-out tosses")
-    return conclude(tosses, base, steps, poses, held, begun)
+    return conclude(tosses, base, steps, poses, held, found, begun)
 
 
-def look_further(last: Step, say: Callable[[str], None]) -> Step | None:
+def look_further(last: Step, guesses: dict[str, float], say: Callable[[str], None]) -> Step | None:
     """The next rung, or None where no candidate gains enough on the fit tosses."""
     promised = screen(last)
     order = sorted(promised, key=lambda id: promised[id][0])
-    say("  screen: " + ", ".join(f"{id} {promised[id][0]:.3f}" for id in order[:4]))
+    say("  screen: " + ", ".join(f"{id} {promised[id][0]:.3f}" for id in order[:6]))
     if not order:
         return None
-    weight = last.fit.frame_weights(last.z, cut(last.fit.poses, SHORT))
-    _, plain = last.fit.run(last.z, REFIT_ITERATIONS, (SHORT,), weight)
+    poses = some(last.fit.poses)
+    weight = last.fit.frame_weights(last.z, cut(poses, LONG))
+    _, plain = replace(last.fit, poses=poses).run(last.z, REFIT_ITERATIONS, (LONG,), weight)
     found = {}
-    for id in order[:REFITTED]:
-        fit = TossFit(last.fit.base, (*last.fit.effects, id), last.fit.poses, last.fit.width, log=say)
-        found[id] = fit, *fit.run(promised[id][1], REFIT_ITERATIONS, (SHORT,), weight)
-    gains = {id: 1 - f[2] / plain for id, f in found.items()}
+    for id in dict.fromkeys((*order[:REFITTED], *(id for id in order if told(id, guesses)))):
+        fit = TossFit(last.fit.base, (*last.fit.effects, id), poses, last.fit.width, log=say)
+        begins = (promised[id][1], guessed(promised[id][1], fit.parameters, id, guesses))
+        ends = [fit.run(z, REFIT_ITERATIONS, (LONG,), weight) for z in begins if z is not None]
+        found[id] = min(ends, key=lambda end: end[1])
+    gains = {id: 1 - f[1] / plain for id, f in found.items()}
     best = max(gains, key=lambda id: gains[id])
     if gains[best] < LEAST_GAIN:
         say(f"  {best} gains {gains[best]:.1%}: not enough")
         return None
-    fit, z, _ = found[best]
-    return Step(best, gains, fit, *fit.run(z, ITERATIONS))
+    fit = TossFit(last.fit.base, (*last.fit.effects, best), last.fit.poses, last.fit.width, log=say)
+    return Step(best, gains, fit, *fit.run(found[best][0], ITERATIONS, (LONG,)))
+
+
+def told(id: str, guesses: dict[str, float]) -> bool:
+    """Whether something was measured of an effect without a contact model."""
+    return any(name.startswith(id + ".") for name in guesses)
+
+
+def some(poses: Poses) -> Poses:
+    """The tosses on which candidates compete."""
+    return picked(poses, np.arange(0, len(poses.x), SKIPPED))
 
 
 def small_ones(last: Step, say: Callable[[str], None]) -> Step:
@@ -197,43 +213,28 @@ def small_ones(last: Step, say: Callable[[str], None]) -> Step:
     order = sorted(promised, key=lambda id: promised[id][0])[:TOGETHER]
     fit = TossFit(last.fit.base, (*last.fit.effects, *order), last.fit.poses, last.fit.width, log=say)
     z = np.concatenate([last.z, *[promised[id][1][len(last.z) :] / len(order) for id in order]])
-    return Step(SMALL + ", ".join(order), {}, fit, *fit.run(z, ITERATIONS))
+    return Step(SMALL + ", ".join(order), {}, fit, *fit.run(z, FIRST_ITERATIONS, (LONG,)))
 
 
 def screen(last: Step) -> dict[str, tuple[float, np.ndarray]]:
-    """Every candidate on top of a step: the best objective along its Gauss-Newton step, and where that is."""
+    """Every candidate on top of a step: the best objective that one descent of all numbers reaches, and where."""
     fit, z = last.fit, last.z
-    poses = cut(fit.poses, SHORT)
+    poses = cut(some(fit.poses), LONG)
     weight = fit.frame_weights(z, poses)
-    r = fit.residual(z, poses)
+    known = fit.slopes(z, poses, weight)
     found = {}
     for id in CANDIDATES:
         if id in fit.effects:
             continue
-        wider = TossFit(fit.base, (*fit.effects, id), fit.poses, fit.width)
-        new = len(effect_parameters(id))
-        wide = np.concatenate([z, np.zeros(new)])
-        own = TossFit(fit.base, (id,), fit.poses, fit.width)
-        own.base, own.parameters = fit.model(z), effect_parameters(id)
-        own.prior = np.array([p.prior for p in own.parameters])
-        # The effect's own numbers alone: what the law's could do besides, the refit finds.
-        H, g = own.normal_equations(np.zeros(new), r, poses, weight)
-        step = -np.linalg.solve(H + 1e-2 * np.diag(np.diag(H)), g)
-        best: tuple[float, np.ndarray] = (np.inf, wide)
-        for fraction in TRIED:
-            trial = wide.copy()
-            trial[-new:] = np.clip(fraction * step, -2, 2)
-            try:
-                now = wider.objective(trial, wider.residual(trial, poses), weight)
-            except RockrefError:
-                continue
-            if now < best[0]:
-                best = now, trial
-        found[id] = best
-    return found
+        wider = TossFit(fit.base, (*fit.effects, id), poses, fit.width)
+        wide = np.concatenate([z, np.zeros(len(wider.parameters) - len(z))])
+        found[id] = wider.descend(wide, poses, weight, wider.slopes(wide, poses, weight, known))
+    return {id: (now, wide) for id, (wide, now) in found.items()}
 
 
-def conclude(tosses: Tosses, base: Model, steps: list[Step], poses: Poses, held: Poses, begun: float) -> TossDiagnosis:
+def conclude(
+    tosses: Tosses, base: Model, steps: list[Step], poses: Poses, held: Poses, found: dict[str, Any], begun: float
+) -> TossDiagnosis:
     """The held-out tosses, rung by rung, and the verdict."""
     nominal = {start: errors(predict(base, held, start), held, tosses.width) for start in ("flight", "raw")}
     for i, step in enumerate(steps):
@@ -247,7 +248,6 @@ def conclude(tosses: Tosses, base: Model, steps: list[Step], poses: Poses, held:
     proven = tuple(s.effect for s in steps[1:] if s.verdict in ("named", "class"))
     verdict, sentence = words(steps, proven)
     last = steps[-1]
-    found = measured(tosses.used(FIT), tosses, base)
     return TossDiagnosis(
         tosses, verdict, proven, sentence, steps, nominal, floor_of(last, held, tosses.width), found,
         agreement(last, found, base), [step_small(last, held, tosses.width)], time.perf_counter() - begun,

@@ -9,10 +9,10 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.fit import Parameter
+from rockref.discover.tosses import descent
 from rockref.discover.tosses.parameters import apply, parameters
 from rockref.discover.tosses.predict import Prediction, predict
 from rockref.measure.flight import Poses
-from rockref.model.errors import RockrefError
 from rockref.model.rotation import logarithm
 
 #: Steps a frame while fitting; the gate `step_small` tests what comes out.
@@ -27,17 +27,9 @@ CEILING = 60.0
 #: Systematic part of the uncertainty of a start: 0.1 mm, 1 mrad, 4 mm/s, 0.03 rad/s. Decided from the rest poses of
 #: the public tosses, which scatter by 1.4 mrad about any fixed frame, over a flight of 0.1 s.
 SYSTEMATIC = np.array([1e-4] * 3 + [1e-3] * 3 + [4e-3] * 3 + [3e-2] * 3)
-#: Blur by the start, in percent and degrees, at which a frame counts half.
-BLUR = 4.0
-#: Sensitivity to a parameter's spread, in percent and degrees, at which a frame counts half in a Gauss-Newton step: a
-#: corner that comes first or second makes derivatives that hold for nothing.
-STEEP = 15.0
-#: Damping of the Gauss-Newton step: where it begins, by how much it falls and rises, how often it may rise.
-DAMPING, EASIER, HARDER, TRIES = 1e-2, 4.0, 5.0, 7
-#: Gain of an iteration below which a stage ends, in the units of the error.
-ENOUGH = 2e-3
-#: Finite difference in spreads.
-DIFFERENCE = 0.03
+#: Blur by the start, in percent and degrees, from which on a frame's error counts by the blur's inverse; decided: about
+#: what is left after the first impact.
+BLUR = 1.0
 
 
 def cut(poses: Poses, frames: int) -> Poses:
@@ -95,30 +87,21 @@ class TossFit:
         self, z: np.ndarray, poses: Poses, iterations: int, weight: np.ndarray | None
     ) -> tuple[np.ndarray, float]:
         weight = self.frame_weights(z, poses) if weight is None else weight
-        r = self.residual(z, poses)
-        now = self.objective(z, r, weight)
-        damping = DAMPING
+        z = np.clip(z, *descent.limits(self.parameters))
+        now = self.objective(z, self.residual(z, poses), weight)
         for _ in range(iterations):
-            H, g = self.normal_equations(z, r, poses, weight)
-            for _ in range(TRIES):
-                step = -np.linalg.solve(H + damping * np.diag(np.diag(H)), g)
-                trial = np.clip(z + np.clip(step, -1.0, 1.0), -2 * self.prior, 2 * self.prior)
-                try:
-                    r_trial = self.residual(trial, poses)
-                except RockrefError:
-                    damping *= HARDER
-                    continue
-                then = self.objective(trial, r_trial, weight)
-                if then < now:
-                    break
-                damping = damping * HARDER + 1e-3
-            else:
-                break
-            gain, z, r, now = now - then, trial, r_trial, then
-            damping = max(damping / EASIER, 1e-4)
-            if gain < ENOUGH:
+            z, then = self.descend(z, poses, weight, self.slopes(z, poses, weight))
+            gain, now = now - then, then
+            if gain < descent.ENOUGH * now:
                 break
         return z, now
+
+    def descend(
+        self, z: np.ndarray, poses: Poses, weight: np.ndarray, slopes: descent.Slopes
+    ) -> tuple[np.ndarray, float]:
+        """One step: the best of those that the slopes offer, and its objective."""
+        value = descent.guarded(lambda trial: self.objective(trial, self.residual(trial, poses), weight))
+        return descent.best_way(slopes, z, value, value(z), *descent.limits(self.parameters))
 
     def objective(self, z: np.ndarray, r: np.ndarray, weight: np.ndarray) -> float:
         """What is minimised; the prior counts as one toss's frame of noise would."""
@@ -130,31 +113,29 @@ class TossFit:
         """The prior's part."""
         return float(np.sum((z / self.prior) ** 2)) / (2 * tosses)
 
-    def jacobian(self, z: np.ndarray, r: np.ndarray, poses: Poses) -> np.ndarray:
-        """(B, F, 6, G) by differences, toward the inside where a parameter is at its limit."""
-        columns = []
-        for i in range(len(z)):
-            moved = z.copy()
-            moved[i] += DIFFERENCE
-            columns.append((self.residual(moved, poses) - r) / DIFFERENCE)
-        return np.stack(columns, axis=-1)
+    def slopes(
+        self, z: np.ndarray, poses: Poses, weight: np.ndarray, known: descent.Slopes | None = None
+    ) -> descent.Slopes:
+        """Derivatives at z; position and turn of a frame count by the inverse of their size.
 
-    def normal_equations(self, z, r, poses, weight) -> tuple[np.ndarray, np.ndarray]:
-        """Of the reweighted squares: each frame's position and turn by the inverse of its size."""
-        J = self.jacobian(z, r, poses)
+        known : slopes of the first parameters at the same model, which are not asked for again.
+        """
+        r = self.residual(z, poses)
+        first = 0 if known is None else known.J.shape[-1]
+        high = descent.limits(self.parameters)[1]
+        J = descent.derivatives(lambda moved: self.residual(moved, poses), z, r, high, first)
         size = np.sqrt(_sizes(r) ** 2 + FLOOR**2)
-        steep = np.sqrt(np.sum(J**2, axis=(2, 3)) / J.shape[-1])
-        by = weight[..., None] / size * np.exp(-size / CEILING) / (1 + (steep[..., None] / STEEP) ** 2) / len(r)
-        by = np.repeat(by, 3, axis=2)
-        flat, w = J.reshape(-1, len(z)), by.ravel()
-        prior = np.diag(1 / self.prior**2) / len(r)
-        return flat.T @ (flat * w[:, None]) + prior, flat.T @ (w * r.ravel()) + prior @ z
+        by = weight[..., None] / size * np.exp(-size / CEILING)
+        seen = weight > 0
+        new = J[seen].reshape(-1, 2, 3, J.shape[-1])
+        all_of_them = new if known is None else np.concatenate([known.J, new], axis=-1)
+        return descent.Slopes(r[seen].reshape(-1, 2, 3), all_of_them, by[seen], self.prior, len(r))
 
     def frame_weights(self, z: np.ndarray, poses: Poses) -> np.ndarray:
         """(B, F) weights that sum to one a toss if nothing is blurred: less where the start's uncertainty decides."""
         blur = start_blur(self.model(z), poses, self.width, self.start)
         even = poses.measured / poses.frames[:, None]
-        return even / (1 + (blur / BLUR) ** 2)
+        return even / np.sqrt(1 + (blur / BLUR) ** 2)
 
 
 def residual(found: Prediction, poses: Poses, width: float) -> np.ndarray:

@@ -34,13 +34,14 @@ CANDIDATES: dict[str, dict[str, float]] = {
     "viscous_friction": {"c": 0.1},
     "spin_friction": {"radius": 2e-3},
     "rolling_resistance": {"lever": 4e-4},
-    "quadratic_drag": {"c": 0.01},
+    "quadratic_drag": {"c_v": 0.01},
 }
-#: Shapes that are kept: depth and load of an impact of these tosses, and their sliding speed (decided).
+#: Shapes that are kept: depth and load of an impact of these tosses, and the speed over which the friction of a face
+#: that slides flat is seen to change (decided).
 KEPT = {
     "hertzian_contact": {"reference": 3e-3},
     "load_dependent_friction": {"reference": 20.0},
-    "stribeck_friction": {"velocity": 0.3},
+    "stribeck_friction": {"velocity": 0.2},
     "adhesion": {"range": 1e-3},
 }
 #: Prior standard deviation in spreads.

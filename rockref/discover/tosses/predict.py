@@ -43,15 +43,19 @@ def gravity_of(model: Model, g: float) -> np.ndarray:
 
 def starts_of(model: Model, poses: Poses, frames: Frames, kind: str = "flight") -> Starts:
     """The states of the centre of mass at the first frame, plate axes: from the flight, or the raw first frame."""
-    block, points = in_the_step(model).body()
+    block, _ = in_the_step(model).body()
     x, Lambda = frames.to_body(poses.x[:, : MOST + 1], poses.Lambda[:, : MOST + 1])
     own = poses._replace(x=x, Lambda=Lambda, t=poses.t[: MOST + 1], frames=np.minimum(poses.frames, MOST + 1))
     if kind == "raw":
         W = poses.W @ frames.turn
         v = (frames.board_to_plate[:, 0] @ poses.v[..., None])[..., 0]
         return raw_starts(own, v + (Lambda[:, 0] @ np.cross(W, frames.centre)[..., None])[..., 0], W)
-    used = flight_frames(own, np.asarray(points.P), CLEARANCE)
-    return ballistic_starts(own, used, gravity_of(model, float(block.g)), np.asarray(block.inertia))
+    return ballistic_starts(own, flying(model, poses), gravity_of(model, float(block.g)), np.asarray(block.inertia))
+
+
+def flying(model: Model, poses: Poses) -> np.ndarray:
+    """How many frames every toss flies, by the corners of the plain body: effects must not choose what is read."""
+    return flight_frames(poses, np.asarray(model.replace(effects=()).body()[1].P), CLEARANCE)
 
 
 def predict(

@@ -69,3 +69,13 @@ def test_the_raw_start_is_the_first_frame():
     poses, x0, v0 = flight((3.0, -2.0, 4.0), np.eye(3))
     s = raw_starts(poses, poses.v, poses.W)
     assert np.array_equal(s.x[0], x0) and np.array_equal(s.v[0], v0)
+
+
+def test_a_contact_between_two_frames_ends_the_flight():
+    # 10 mm a frame down, a contact after frame 4, up again: no frame is below 9 mm.
+    z = 1e-3 * np.array([50.0, 40, 30, 20, 10, 9, 12, 14])
+    x = np.zeros((1, 8, 3))
+    x[0, :, 2] = z
+    still = np.broadcast_to(np.eye(3), (1, 8, 3, 3))
+    poses = Poses(np.arange(8) / 148, x, still, np.array([8]), np.zeros((1, 3)), np.zeros((1, 3)))
+    assert flight_frames(poses, np.zeros((1, 3)), 2e-3)[0] == 5

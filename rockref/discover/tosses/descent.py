@@ -1,0 +1,117 @@
+"""Downhill in an objective with many small valleys: at every step several ways down are tried, and the best is gone.
+
+The error of a toss is smooth until a small change makes another corner strike first; from there on its derivatives tell
+nothing. So a Gauss-Newton step is made several times, with more and with less trust in frames whose derivatives are
+large, each with several dampings. A trial costs one simulation of all tosses, the derivatives one for each parameter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.discover.fit import Parameter
+from rockref.model.errors import RockrefError
+
+#: Sensitivities to the parameters' spreads, in percent and degrees, at which a frame counts half in a step (the last
+#: one trusts all frames), and dampings of the step; decided by trial on the public fit tosses: each of them wins.
+STEEP = (3.0, 15.0, 1e9)
+DAMPING = (1e-4, 1e-2, 1.0)
+#: Longest step in a parameter's spread, and by how much a step that helped is made longer while it helps.
+LONGEST, STRETCH = 1.5, 1.7
+#: Finite difference in spreads; decided: ten times the kinks that a contact's first step makes.
+DIFFERENCE = 0.05
+#: Share of the objective that an iteration must gain for another one.
+ENOUGH = 1e-3
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """What a step is made of: residuals (N, 2, 3) of frames, derivatives (N, 2, 3, G), weight (N, 2) and size (N, 2) of
+    position and turn; prior (G,) standard deviations and how many tosses share them."""
+
+    r: np.ndarray
+    J: np.ndarray
+    weight: np.ndarray
+    prior: np.ndarray
+    tosses: int
+
+    def normal_equations(self, z: np.ndarray, steep: float) -> tuple[np.ndarray, np.ndarray]:
+        """Matrix and gradient of the reweighted squares, frames steeper than `steep` counting less."""
+        G = self.J.shape[-1]
+        size = np.sqrt(np.sum(self.J**2, axis=(1, 2, 3)) / G)
+        by = self.weight / (1 + (size[:, None] / steep) ** 2) / self.tosses
+        w = np.repeat(by, 3, axis=1).ravel()
+        flat = self.J.reshape(-1, G)
+        prior = 1 / self.prior**2 / self.tosses
+        return flat.T @ (flat * w[:, None]) + np.diag(prior), flat.T @ (w * self.r.ravel()) + prior * z
+
+
+def limits(parameters: Sequence[Parameter]) -> tuple[np.ndarray, np.ndarray]:
+    """Lowest and highest z of each parameter: twice its prior, and what its quantity can be."""
+    far = np.array([2 * p.prior for p in parameters])
+    low, high = -far.copy(), far.copy()
+    for i, p in enumerate(parameters):
+        if not p.log:
+            low[i] = max(low[i], (p.low - p.centre) / p.spread)
+            high[i] = min(high[i], (p.high - p.centre) / p.spread)
+    return low, high
+
+
+def derivatives(
+    residual: Callable[[np.ndarray], np.ndarray], z: np.ndarray, r: np.ndarray, high: np.ndarray, known: int = 0
+) -> np.ndarray:
+    """(..., G - known) by differences, toward the inside at a limit; the first `known` ones are skipped."""
+    columns = []
+    for i in range(known, len(z)):
+        moved = z.copy()
+        d = DIFFERENCE if z[i] + DIFFERENCE <= high[i] else -DIFFERENCE
+        moved[i] += d
+        columns.append((residual(moved) - r) / d)
+    return np.stack(columns, axis=-1)
+
+
+def step_of(H: np.ndarray, g: np.ndarray, damping: float, z: np.ndarray, low: np.ndarray, high: np.ndarray):
+    """A damped step (G,) that leaves a parameter at its limit alone if it would go beyond."""
+    free = ~(((z <= low) & (g > 0)) | ((z >= high) & (g < 0)))
+    step = np.zeros(len(z))
+    if free.any():
+        A = (H + damping * np.diag(np.diag(H)))[np.ix_(free, free)]
+        step[free] = -np.linalg.solve(A, g[free])
+    longest = float(np.max(np.abs(step)))
+    return step * min(1.0, LONGEST / longest) if longest > 0 else step
+
+
+def best_way(
+    slopes: Slopes, z: np.ndarray, value: Callable[[np.ndarray], float], now: float, low: np.ndarray, high: np.ndarray
+) -> tuple[np.ndarray, float]:
+    """The best of all tried steps from z, made longer while that helps; z itself where none helps."""
+    best, least = z, now
+    for steep in STEEP:
+        H, g = slopes.normal_equations(z, steep)
+        for damping in DAMPING:
+            trial = np.clip(z + step_of(H, g, damping, z, low, high), low, high)
+            then = value(trial)
+            if then < least:
+                best, least = trial, then
+    while least < now:
+        trial = np.clip(z + STRETCH * (best - z), low, high)
+        then = value(trial)
+        if then >= least:
+            break
+        best, least = trial, then
+    return best, least
+
+
+def guarded(value: Callable[[np.ndarray], float]) -> Callable[[np.ndarray], float]:
+    """`value`, infinite where the model cannot be simulated."""
+
+    def safe(z: np.ndarray) -> float:
+        try:
+            return value(z)
+        except RockrefError:
+            return np.inf
+
+    return safe
