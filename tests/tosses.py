@@ -25,7 +25,10 @@ def made(model: Model, count: int, frames: int = 100, seed: int = 0, noise: floa
     rng = np.random.default_rng(seed)
     x = np.column_stack([rng.uniform(0.1, 0.3, count), rng.uniform(-0.1, 0.1, count), rng.uniform(0.13, 0.16, count)])
     v = np.column_stack([rng.uniform(-1.2, -0.8, count), np.zeros(count), rng.uniform(-0.3, 0.3, count)])
-    Lambda, W = exponential(rng.normal(size=(count, 3))), rng.normal(size=(count, 3)) * 3
+    turn = rng.normal(size=(count, 3))
+    # No turn beyond 3 rad: the exponential takes none above pi.
+    turn *= np.minimum(1.0, 3 / np.linalg.norm(turn, axis=1))[:, None]
+    Lambda, W = exponential(turn), rng.normal(size=(count, 3)) * 3
     nothing = np.zeros(count)
     starts = Starts(x, v, Lambda, W, np.zeros((count, 12, 12)), np.ones(count, int), nothing, nothing)
     poses = Poses(

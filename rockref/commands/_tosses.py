@@ -1,4 +1,4 @@
-"""What `compare` and `diagnose` do with a folder of tosses."""
+"""What `compare`, `diagnose`, `fit` and `add` do with a folder of tosses."""
 
 import json
 from collections.abc import Sequence
@@ -68,5 +68,60 @@ def diagnose_tosses(
         typer.echo(text)
         return
     print_toss_diagnosis(console(), record)
+    for p in written:
+        typer.echo(f"wrote {p}")
+
+
+def fit_to_tosses(
+    path: Path, output: Path, effects: Sequence[str], model: str | None, verbose: bool, as_json: bool
+) -> None:
+    """Fit the law and effects to the fit tosses, print the numbers, write the model; exit code 1 if a gate fails."""
+    from rockref.commands._models import named_model
+    from rockref.commands._stages import console, stages
+    from rockref.discover.tosses.fitting import fit_tosses
+    from rockref.measure.tosses import load_tosses
+    from rockref.report.toss_text import print_toss_fit
+
+    tosses = load_tosses(path)
+    given = named_model(model) if model is not None else None
+    with stages(f"fitting {path}", every_line=verbose) as say:
+        found = fit_tosses(tosses, tuple(effects), given, progress=say)
+    found.model.save(output)
+    if as_json:
+        typer.echo(json.dumps(found.to_dict() | {"written": [str(output)]}, indent=1))
+    else:
+        print_toss_fit(console(), found.to_dict())
+        typer.echo(f"wrote {output}")
+    if not found.passed:
+        raise typer.Exit(1)
+
+
+def add_to_model_of_tosses(
+    effect: str, path: Path, model: str | None, output: Path, report: Path | None, verbose: bool, as_json: bool
+) -> None:
+    """Fit an effect into a model of tosses, print the errors before and after, write the model."""
+    from rockref.commands._models import named_model
+    from rockref.commands._stages import console, stages
+    from rockref.discover.tosses.fitting import add_to_tosses
+    from rockref.measure.tosses import load_tosses
+    from rockref.report.toss_text import print_toss_addition
+
+    tosses = load_tosses(path)
+    given = named_model(model) if model is not None else None
+    with stages(f"adding {effect}", every_line=verbose) as say:
+        found = add_to_tosses(effect, tosses, given, progress=say)
+    found.after.model.save(output)
+    record, written = found.to_dict(), [output]
+    if report is not None:
+        from rockref.discover.tosses.compare import compare
+        from rockref.report.output import made_folder
+        from rockref.report.toss_page import write_toss_comparison
+
+        models, names = [found.before.model, found.after.model], [f"without {effect}", f"with {effect}"]
+        written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(report)))
+    if as_json:
+        typer.echo(json.dumps(record | {"written": [str(p) for p in written]}, indent=1))
+        return
+    print_toss_addition(console(), record)
     for p in written:
         typer.echo(f"wrote {p}")

@@ -38,7 +38,15 @@ def add(
       rockref add rolling_resistance data/experiments/mystery-05 -o with_rolling.toml
       rockref add gyro_scale data/experiments/mystery-10 --model with_cable.toml -o with_both.toml --report report
       rockref compare data/experiments/mystery-05 --model table_3_1 --model with_rolling.toml
+
+    An effect is added to a model of tosses too, with --model, -o, -v and --json; the page is that of `rockref compare`.
     """
+    from rockref.measure.tosses import is_toss_folder
+
+    if is_toss_folder(experiment):
+        from rockref.commands._tosses import add_to_model_of_tosses
+
+        return add_to_model_of_tosses(effect, experiment, model, output, report, verbose, as_json)
     from rockref.commands._models import named_model
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition

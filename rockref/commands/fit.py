@@ -36,7 +36,15 @@ def fit(
       rockref fit data/experiments/mystery-08 -o model.toml
       rockref fit data/experiments/mystery-01 --effect quadratic_drag -o with_drag.toml
       rockref fit data/experiments/mystery-08 --json > fit.json
+
+    A folder of tosses is fitted too, with --effect, --model, -o, -v and --json; see `rockref compare`.
     """
+    from rockref.measure.tosses import is_toss_folder
+
+    if is_toss_folder(experiment):
+        from rockref.commands._tosses import fit_to_tosses
+
+        return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
     from rockref.commands._models import named_model
     from rockref.commands._stages import stages
     from rockref.discover.fitting import fit_experiment

@@ -165,7 +165,7 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
 
     Raises InputError: those of the reader (see :func:`read_table`), of the keys (:func:`read_fields`), of the time
     column (:func:`regular_samples`), of the signal (:func:`check_release_run`), and E-FOLDER, E-RUN-TWICE, E-PATH,
-    E-NO-FIT, E-TURNED, E-TILT, E-NAME.
+    E-NO-FIT, E-TURNED, E-TILT, E-NAME, E-KIND.
     """
     wrong = sorted(set(uses) - set(USES))
     if wrong:
@@ -175,6 +175,9 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
         cure = "Name a folder that holds experiment.toml and the tables of the runs."
         raise InputError("E-FOLDER", shown(str(folder), 200), "is not a folder", cure)
     source = folder / "experiment.toml"
+    if not source.is_file() and any(folder.glob("tosses.csv*")):
+        cure = "Use it with compare, diagnose, fit, add or reproduce cube."
+        raise InputError("E-KIND", shown(str(folder), 200), "holds tosses; this is not for tosses", cure)
     document, sha256 = read_toml(source)
     experiment = replace(_head(document, folder, str(source)), toml_sha256=sha256)
     runs = _listed_runs(document["run"], experiment, str(source))

@@ -139,7 +139,44 @@ def print_toss_diagnosis(console: Console, record: dict[str, Any]) -> None:
     console.print(f"{record['verdict']}: {record['sentence']}", style="bold", markup=False, highlight=False)
     print_table(console, staircase_table(record))
     print_table(console, agreement_table(record))
+    print_gates(console, record)
+    console.print(f"  {record['seconds']:.0f} s", highlight=False)
+
+
+def parameters_table(record: dict[str, Any]) -> Table:
+    """The numbers of a fit."""
+    rows = tuple((k, f"{v['value']:.5g}", v["unit"]) for k, v in record["parameters"].items())
+    return Table("Fitted", ("parameter", "value", "unit"), rows, "Fitted together to the tosses marked fit.")
+
+
+def print_gates(console: Console, record: dict[str, Any]) -> None:
+    """Print what the gates say."""
     for gate in record["gates"]:
         state = "passed" if gate["passed"] else "NOT PASSED"
         console.print(f"  gate {gate['name']}: {state} ({gate['value']:g}, limit {gate['limit']:g})", highlight=False)
-    console.print(f"  {record['seconds']:.0f} s", highlight=False)
+
+
+def print_toss_fit(console: Console, record: dict[str, Any]) -> None:
+    """Print a fit."""
+    print_table(console, parameters_table(record))
+    rows = tuple((e["use"], e["start"], str(e["tosses"]), *error_cells(e)) for e in record["errors"])
+    print_table(console, Table("Errors", ("use", *HEAD[1:]), rows, "Held-out tosses were not looked at."))
+    print_gates(console, record)
+
+
+def print_toss_addition(console: Console, record: dict[str, Any]) -> None:
+    """Print the errors without and with an effect."""
+    print_table(console, parameters_table(record))
+    rows = tuple(
+        (f"{e['use']}, {name}", e["start"], str(e[name]["tosses"]), *error_cells(e[name]))
+        for e in record["errors"]
+        for name in ("before", "after")
+    )
+    print_table(console, Table(f"Without and with {record['effect']}", HEAD, rows, ""))
+    fall = record["holdout_falls_by"]
+    if fall:
+        console.print(
+            f"On held-out tosses position [%] plus rotation [deg] falls by {fall['mean']:.2f} "
+            f"({fall['low']:.2f} to {fall['high']:.2f}, {fall['interval']:.0%}).", highlight=False,
+        )  # fmt: skip
+    print_gates(console, record)

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from rockref.discover.tosses.diagnose import Step, paired, word
+from rockref.discover.tosses.diagnose import Step, word
 from rockref.discover.tosses.errors import Errors
+from rockref.discover.tosses.gates import paired
 from rockref.discover.tosses.parameters import CANDIDATES, apply, effect_parameters, law_parameters
 from rockref.effects import catalogue
 from tests.tosses import stated

@@ -1,0 +1,61 @@
+"""What a fitted model of tosses must show: the fall of the error, the floor of the starts, the gate of the step."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover.tosses.errors import Errors, errors
+from rockref.discover.tosses.fit import drawn_starts
+from rockref.discover.tosses.predict import STEPS_A_FRAME, predict, simulated
+from rockref.measure.flight import Poses, displaced
+
+#: Resamples of the paired bootstrap, and the share of its interval.
+RESAMPLES, INTERVAL = 2000, 0.90
+
+
+def total(e: Errors) -> float:
+    """Position [%] plus rotation [deg], mean over the tosses."""
+    return float(np.mean(100 * e.position + e.rotation))
+
+
+def paired(before: Errors, after: Errors) -> dict[str, Any]:
+    """By how much the error falls on the same tosses: position [%] plus rotation [deg], with its bootstrap interval."""
+    fall = (100 * before.position + before.rotation) - (100 * after.position + after.rotation)
+    rng = np.random.default_rng(11)
+    means = fall[rng.integers(len(fall), size=(RESAMPLES, len(fall)))].mean(axis=1)
+    low, high = np.quantile(means, ((1 - INTERVAL) / 2, (1 + INTERVAL) / 2))
+    return {
+        "mean": round(float(fall.mean()), 3), "low": round(float(low), 3), "high": round(float(high), 3),
+        "better_percent": round(100 * float(np.mean(fall > 0)), 1), "interval": INTERVAL,
+    }  # fmt: skip
+
+
+def floor_of(model: Model, poses: Poses, width: float, draws: int = 4) -> dict[str, float]:
+    """The error that a true model would have: predictions from drawn starts against that from the start itself."""
+    first = predict(model, poses)
+    as_measured = poses._replace(x=first.x, Lambda=np.nan_to_num(first.Lambda))
+    rng = np.random.default_rng(5)
+    found = []
+    for _ in range(draws):
+        x, Lambda = simulated(model, displaced(first.starts, drawn_starts(first, rng)), poses, STEPS_A_FRAME, "auto")
+        x, Lambda = first.frames.to_tracked(x, Lambda)
+        found.append(errors(type(first)(x, Lambda, first.starts, first.frames), as_measured, width))
+    return {
+        "position_percent": round(100 * float(np.mean([e.position for e in found])), 2),
+        "rotation_deg": round(float(np.mean([e.rotation for e in found])), 2),
+        "position_percent_median": round(100 * float(np.median([e.position for e in found])), 2),
+        "rotation_deg_median": round(float(np.median([e.rotation for e in found])), 2),
+    }
+
+
+def step_small(model: Model, poses: Poses, width: float) -> dict[str, Any]:
+    """The gate: whether twice as many steps change the held-out errors."""
+    usual = errors(predict(model, poses), poses, width)
+    fine = errors(predict(model, poses, steps=2 * STEPS_A_FRAME), poses, width)
+    # Decided: below one, percent and degrees together, the start's uncertainty is all that an error tells.
+    change = abs(total(fine) - total(usual)) / max(total(usual), 1.0)
+    # Limit, decided: a fiftieth of the error is below every bootstrap interval of the staircase.
+    return {"name": "step_small", "passed": bool(change < 0.02), "value": round(float(change), 5), "limit": 0.02}
