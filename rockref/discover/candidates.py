@@ -23,8 +23,13 @@ SHAPES = {
     ("compliant_support", "mass"): 0.7,
     ("compliant_support", "ratio"): 0.7,
 }
-#: Parameters that are kept at their typical value, since no record can tell them from another one.
-FIXED = {("load_dependent_friction", "reference"), ("cable_restraint", "height"), ("base_vibration", "phase")}
+#: Parameters that are kept at what they are by default, since no record of a release can tell them from another one.
+FIXED = {
+    ("load_dependent_friction", "reference"),
+    ("cable_restraint", "height"),
+    ("base_vibration", "phase"),
+    ("quadratic_drag", "c_v"),
+}
 #: Positive factors: found on a logarithmic scale about the value at which they are absent. effect -> spread.
 FACTORS = {
     "uneven_foot_stiffness": 0.4,

@@ -31,7 +31,7 @@ def table_3_1() -> list[str]:
 
 
 #: What can be made by itself.
-PARTS = ("small", "runs", "fingerprints", "table_3_1")
+PARTS = ("small", "effects", "runs", "fingerprints", "table_3_1")
 
 
 def main(parts: tuple[str, ...] = PARTS) -> int:

@@ -91,7 +91,7 @@ def digests() -> dict[str, str]:
     return {p.relative_to(FOLDER).as_posix(): sha256(p.read_bytes()) for p in FOLDER.rglob("*") if p.is_file()}
 
 
-def make(parts: tuple[str, ...] = ("small", "runs", "fingerprints")) -> list[str]:
+def make(parts: tuple[str, ...] = ("small", "effects", "runs", "fingerprints")) -> list[str]:
     """Make the vectors anew; returns the names of the files that differ from what was there."""
     before = digests()
     if "small" in parts:
@@ -102,6 +102,7 @@ def make(parts: tuple[str, ...] = ("small", "runs", "fingerprints")) -> list[str
             say(f"{layer}: {len(document['vectors'])} vectors; not admitted: {len(refused)}")
             for line in refused:
                 say(f"  {line}")
+    if "effects" in parts:
         put("LE.json", cases_effects.document(say))
     runs, windows = trajectories.names()
     if "runs" in parts:

@@ -15,7 +15,7 @@ from rockref.discover.blind.world import World
 
 def quadratic_drag(world: World, rng, size, other, given):
     """Air drag, as of a sail."""
-    c = pick(given, "c", about(rng, 4.0 * size))
+    c = pick(given, "c", about(rng, 0.4 * size))
     world["drag"], world["drag_form"] = c, other
     return said({"c": c}, "each pair of faces for itself" if other else CATALOGUE)
 

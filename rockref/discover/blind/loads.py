@@ -41,19 +41,18 @@ def load_on_body(t, x, v, R, w, mass, g, anchor, start, F, M):
     top = g[TOP]
     if start:
         anchor[0], anchor[1] = x[0] + R[0, 2] * top, x[1] + R[1, 2] * top
-    if g[DRAG] > 0.0:
+    if g[DRAG] > 0.0 and g[DRAG_FORM] == 0.0:
+        turning = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+        for k in range(3):
+            M[k] -= g[DRAG] * turning * w[k]
+    elif g[DRAG] > 0.0:  # another flow: force and moment of the faces, each pair for itself, the broad side a bit more
         middle, reach = 0.5 * (g[TOP] + g[BOTTOM]), 0.5 * (g[TOP] - g[BOTTOM])
         for k in range(5):
             z = middle + reach * NODES[k]
             vx = v[0] + (w[1] * R[2, 2] - w[2] * R[1, 2]) * z
             vy = v[1] + (w[2] * R[0, 2] - w[0] * R[2, 2]) * z
-            vz = v[2] + (w[0] * R[1, 2] - w[1] * R[0, 2]) * z
-            c = 0.5 * WEIGHTS[k] * g[DRAG]
-            if g[DRAG_FORM] == 0.0:
-                speed = math.sqrt(vx * vx + vy * vy + vz * vz)
-                push(z, R, -c * speed * vx, -c * speed * vy, -c * speed * vz, F, M)
-            else:  # another flow: each pair of faces for itself, and the broad side a little more
-                push(z, R, -c * abs(vx) * vx, -1.15 * c * abs(vy) * vy, 0.0, F, M)
+            c = 0.5 * WEIGHTS[k] * g[DRAG] / (2.0 * reach**3)  # about the base it comes to the same moment
+            push(z, R, -c * abs(vx) * vx, -1.15 * c * abs(vy) * vy, 0.0, F, M)
     if g[CABLE_K] > 0.0 or g[CABLE_C] > 0.0:
         ox, oy = x[0] + R[0, 2] * top - anchor[0], x[1] + R[1, 2] * top - anchor[1]
         vx = v[0] + (w[1] * R[2, 2] - w[2] * R[1, 2]) * top

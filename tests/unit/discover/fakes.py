@@ -38,7 +38,7 @@ def diagnosis(verdict: str = "named", made=None) -> Diagnosis:
             {"effect": "rolling_resistance", "gain": 90.1, "z": 13.42, "weight": 0.07},
         ],
         amplitudes={
-            "quadratic_drag.c": {"value": 0.41, "low": 0.38, "high": 0.44, "unit": "N s2/m2", "in_typical_sizes": 1.0}
+            "quadratic_drag.c": {"value": 0.41, "low": 0.38, "high": 0.44, "unit": "N m s2", "in_typical_sizes": 1.0}
         }
         if found
         else {},
@@ -69,7 +69,7 @@ def estimates() -> list[Estimate]:
     """Three numbers: a shared one, one of the effect, one of a run."""
     return [
         Estimate("K_N", 5.9e7, 5.5e7, 6.3e7, "N/m", 0.3, False, None),
-        Estimate("quadratic_drag.c", 0.41, 0.38, 0.44, "N s2/m2", 0.34, True, None),
+        Estimate("quadratic_drag.c", 0.41, 0.38, 0.44, "N m s2", 0.34, True, None),
         Estimate("tilt_offset[0]", 1e-4, 0.5e-4, 1.5e-4, "rad", 0.1, False, 0),
     ]
 

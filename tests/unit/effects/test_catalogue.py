@@ -56,7 +56,8 @@ def test_every_effect_says_what_a_reader_needs(kind):
     assert kind.confounder in EFFECTS and kind.confounder != kind.id
     for quantity in kind.quantities.values():
         assert quantity.unit in {
-            "1", "m", "N", "N/m", "N s/m", "N s2/m2", "s", "s/m", "m/s", "m/s2", "kg", "Hz", "rad", "rad/s", "rad/s2",
+            "1", "m", "N", "N/m", "N s/m", "N s2/m2", "N m s2", "s", "s/m", "m/s", "m/s2", "kg", "Hz", "rad", "rad/s",
+            "rad/s2",
         }  # fmt: skip
         assert quantity.meaning and quantity.sign in ("+", "any")
         assert quantity.least <= quantity.low < quantity.high <= quantity.most
@@ -100,8 +101,8 @@ def test_parse_reads_words():
         ("wind", "E-EFFECT", "rockref effects"),
         ("gyro_scale:X=1", "E-KEY", "Did you mean 'x'"),
         ("gyro_scale:factor=1", "E-KEY", "It has x, y, z"),
-        ("quadratic_drag:c=-1", "E-RANGE", "of at least 0 N s2/m2; plausible is 0.02 to 10 N s2/m2"),
-        ("quadratic_drag:c=nan", "E-TYPE", "in N s2/m2"),
+        ("quadratic_drag:c=-1", "E-RANGE", "of at least 0 N m s2; plausible is 0.002 to 5 N m s2"),
+        ("quadratic_drag:c=nan", "E-TYPE", "in N m s2"),
         ("quadratic_drag:c=inf", "E-RANGE", "plausible"),
         ("adhesion:force=1,range=0", "E-RANGE", "above 0"),
         ("quadratic_drag:c=much", "E-TYPE", "'much' is no number"),
@@ -160,7 +161,7 @@ def test_model_file_keeps_every_effect(tmp_path):
 def test_numpy_numbers_are_numbers():
     effect = EFFECTS["quadratic_drag"](np.float64(0.3))
     effect.check("here")
-    assert catalogue.to_table([effect]) == {"quadratic_drag": {"c": 0.3}}
+    assert catalogue.to_table([effect]) == {"quadratic_drag": {"c": 0.3, "c_v": 0.0}}
 
 
 def test_limits_in_words():

@@ -37,7 +37,7 @@ def test_falling_block_reaches_terminal_velocity():
     """v = v_t tanh(g t/v_t), v_t = sqrt(m g/c)."""
     c, mass = 60.0, 1.0
     terminal = math.sqrt(mass * 9.81 / c)
-    problem = flying(QuadraticDrag(c), mass=mass, h=1e-4)
+    problem = flying(QuadraticDrag(c_v=c), mass=mass, h=1e-4)
     speeds = [-s.v[2] for s in walk(problem, 1500)]
     for i in (200, 600, 1500):
         # Second order in the step: (g h/v_t)^2 = 6e-6.
@@ -45,13 +45,26 @@ def test_falling_block_reaches_terminal_velocity():
     assert speeds[1500] > 0.99 * terminal
 
 
+def test_drag_slows_a_spinning_body():
+    """J omega' = -c omega^2: omega = omega_0/(1 + c omega_0 t/J), about a principal axis."""
+    c, spin = 0.4, 3.0
+    J = 2.0
+    problem = flying(QuadraticDrag(c), J=(1.0, 1.0, J), W=(0, 0, spin), h=1e-4)
+    rates = [s.W[2] for s in walk(problem, 1000)]
+    for i in (100, 1000):
+        # Second order in the step: (c omega_0 h/J)^2.
+        order = (c * spin * 1e-4 / J) ** 2
+        assert rates[i] == pytest.approx(spin / (1 + c * spin * i * 1e-4 / J), rel=max(order, 1e-9))
+
+
 def test_drag_on_a_block_that_turns_about_its_base():
-    """The integral of c/h (w z)^2 z over the height is c w^2 h^3/4; sixteen slices miss it by 1/(2*16^2)."""
-    w, c = 0.7, 0.4
-    problem = flying(QuadraticDrag(c), W=(w, 0, 0), v=(0, -w * 0.5, 0))
-    force, moment = load_on(QuadraticDrag(c), problem)
+    """Force and moment come to one moment about the base, of c + c_v (height/2)^3."""
+    w, c, c_v = 0.7, 0.4, 0.3
+    drag = QuadraticDrag(c, c_v)
+    problem = flying(drag, W=(w, 0, 0), v=(0, -w * 0.5, 0))
+    force, moment = load_on(drag, problem)
     about_base = moment[0] + (0.5 * -force[1])
-    assert about_base == pytest.approx(-c * w**2 / 4 * (1 - 1 / (2 * 16**2)), rel=1e-12)
+    assert about_base == pytest.approx(-(c + c_v * 0.5**3) * w**2, rel=1e-12)
 
 
 def test_cable_swings_a_free_body():
