@@ -158,14 +158,13 @@ def diagnose(
     fit = TossFit(base, (), poses, tosses.width, log=say)
     z, objective = fit.run(np.zeros(len(fit.parameters)), FIRST_ITERATIONS)
     steps = [Step("", {}, fit, z, objective)]
-    while len(steps) <= deepest:
+    while len(steps) <= deepest and not at_the_floor(steps[-1], say):
         step = look_further(steps[-1], guesses, say)
         if step is None:
+            steps += small_ones(steps[-1], say)
             break
         steps.append(step)
         say(f"{step.effect}: {steps[-2].objective:.3f} -> {step.objective:.3f}")
-    if len(steps) <= deepest:
-        steps.append(small_ones(steps[-1], say))
     held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
     say("the held-out tosses")
     return conclude(tosses, base, steps, poses, held, found, begun)
@@ -206,13 +205,25 @@ def some(poses: Poses) -> Poses:
     return picked(poses, np.arange(0, len(poses.x), SKIPPED))
 
 
-def small_ones(last: Step, say: Callable[[str], None]) -> Step:
-    """The last rung: the candidates that are each too small to be named, fitted together."""
+def at_the_floor(last: Step, say: Callable[[str], None]) -> bool:
+    """Whether the fit tosses are predicted as well as their uncertain starts allow: nothing is left to learn."""
+    floor = floor_of(last.model, last.fit.poses, last.fit.width)
+    left = total(errors(predict(last.model, last.fit.poses), last.fit.poses, last.fit.width))
+    low = floor["position_percent"] + floor["rotation_deg"]
+    if left < low:
+        say(f"  error {left:.2f} is below the floor of the starts, {low:.2f}")
+    return left < low
+
+
+def small_ones(last: Step, say: Callable[[str], None]) -> list[Step]:
+    """The last rung: the candidates that are each too small to be named, fitted together; none where there are none."""
     promised = screen(last)
+    if not promised:
+        return []
     order = sorted(promised, key=lambda id: promised[id][0])[:TOGETHER]
     fit = TossFit(last.fit.base, (*last.fit.effects, *order), last.fit.poses, last.fit.width, log=say)
     z = np.concatenate([last.z, *[promised[id][1][len(last.z) :] / len(order) for id in order]])
-    return Step(SMALL + ", ".join(order), {}, fit, *fit.run(z, FIRST_ITERATIONS, (LONG,)))
+    return [Step(SMALL + ", ".join(order), {}, fit, *fit.run(z, FIRST_ITERATIONS, (LONG,)))]
 
 
 def screen(last: Step) -> dict[str, tuple[float, np.ndarray]]:
