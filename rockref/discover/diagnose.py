@@ -32,7 +32,7 @@ from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_
 from rockref.discover.information import information
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.presearch import STRONG, suspects
-from rockref.discover.search import Setup, Trial, baseline, screen
+from rockref.discover.search import Setup, baseline, screen
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
@@ -143,10 +143,12 @@ def diagnose(
         looks.append(look)
         if not look.order:
             break
-        winner = look.order[0]
-        if not rules.is_detected(look.gains[winner.effects[-1]], size_of(winner), second=bool(start.effects)):
+        second = bool(start.effects)
+        if not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
             break
-        wider = duel(setup, look, say) if structured(look.kept) <= FAR else winner
+        wider = duel(setup, look, say) if structured(look.kept) <= FAR else look.order[0]
+        if not rules.is_detected(look.gains[wider.effects[-1]], size_of(wider), second):
+            break
         if room(wider) > rules.SECOND_ROOM / 2:
             wider = refit(wider, POLISH, seed)
         say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
@@ -166,12 +168,11 @@ def diagnose(
 
 @dataclass
 class Look:
-    """Candidates on top of a family: the family refitted, the candidates by gain, their gains, all that were tried."""
+    """Candidates on top of a family: the family refitted, the candidates by gain, their gains."""
 
     kept: Family
     order: list[Family]
     gains: dict[str, float]
-    trials: list[Trial]
 
 
 def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int, say) -> Look:
@@ -183,7 +184,7 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
     if structured(kept) > FAR:
         found = from_far(setup, trials, kept, say)
         gains = {f.effects[-1]: gain_between(kept, f) for f in found}
-        return Look(kept, sorted(found, key=lambda f: -gains[f.effects[-1]]), gains, trials)
+        return Look(kept, sorted(found, key=lambda f: -gains[f.effects[-1]]), gains)
     worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
     refitted = [refit(Family(t.effects, t.fit, t.point), ITERATIONS, seed + 1) for t in worth]
     gains = {f.effects[-1]: gain_over(kept, f) for f in refitted}
@@ -191,7 +192,7 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
     for f in order:
         id = f.effects[-1]
         say(f"  {id}: gain {gains[id]:.0f}, size {size_of(f):.2f}")
-    return Look(kept, order, gains, trials)
+    return Look(kept, order, gains)
 
 
 def duel(setup: Setup, look: Look, say) -> Family:
@@ -218,7 +219,7 @@ def conclude(
         if final is null or not final.effects
         else held_out(setup, final.fit, final.point, experiment, final.effects)
     )
-    looks = looks or [Look(final, [], {}, [])]
+    looks = looks or [Look(final, [], {})]
     unfruitful = len(looks) > 1 and looks[-1].kept.effects != () and final.effects == looks[-1].kept.effects
     look = looks[-2] if unfruitful else looks[-1]
     facts = rules.Facts(

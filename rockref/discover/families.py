@@ -14,7 +14,7 @@ from rockref.discover.fit import Fit, Point
 from rockref.discover.search import Setup, baseline
 
 #: Iterations of both stages of a fit from the nominal parameters.
-FRESH = (8, 6)
+FRESH = (6, 5)
 
 
 @dataclass

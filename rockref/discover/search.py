@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.approach import approached, placed
 from rockref.discover.candidates import parameters_of
 from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters, roll_parameters
 from rockref.discover.windows import STATES, Cut, Series, gyro_of, sensor_of, series
@@ -74,7 +75,7 @@ def stage(setup: Setup, effects: tuple[str, ...], z: np.ndarray, lengths: tuple[
     """Fit the baseline with effects on windows of these lengths, from z on: (Fit, Point)."""
     start = Fit(release_windows(setup), setup.base, setup.parameters(effects))
     fit = setup.fit(windows(setup, lengths, start.models(z)[0][0]), effects)
-    point = fit.point(z, np.zeros((fit.series.B, STATES)))[0]
+    point = approached(fit, z) if lengths == SHORT else placed(fit, z)
     name = " + ".join(effects) or "baseline"
     setup.log(f"{name}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s, {point.objective:.0f}")
     return fit, fit.run(point, iterations, np.random.default_rng(setup.seed))

@@ -1,51 +1,40 @@
 """Where candidates begin when the baseline is far from the runs."""
 
-from types import SimpleNamespace
-
 import numpy as np
-import pytest
 
-from rockref.discover.candidates import parameters_of
-from rockref.discover.far import BEGUN_AT, RINGING, sizes
-from rockref.effects import catalogue
-
-N = 4
-
-
-def trial(id: str, step=None):
-    """A trial of an effect on top of N parameters, whose first step along the effect was `step` (None: none)."""
-    parameters = parameters_of(catalogue.find(id), 1)
-    z = np.zeros(N) if step is None else np.concatenate([np.zeros(N), step])
-    return SimpleNamespace(
-        effects=(id,), fit=SimpleNamespace(parameters=(None,) * N + parameters), point=SimpleNamespace(z=z)
-    )
+from rockref import Model
+from rockref.discover.families import Family
+from rockref.discover.far import first_looks, nominal
+from rockref.discover.search import SHORT, Setup, Trial, windows
+from rockref.effects.catalogue import parse
+from tests.unit.discover.synthetic import experiment
 
 
-def test_one_sided_effect_begins_on_its_side():
-    (z,) = sizes(trial("spin_friction", [-0.3]), N)
-    assert z == pytest.approx([BEGUN_AT])
+def far_from(effect: str):
+    """Setup and plain family at Table 3.1 of runs that another effect has bent."""
+    truth = Model.table_3_1().replace(effects=(parse(effect),))
+    e = experiment(truth, [{}, {"turned": True}], duration=1.2, noisy=True)
+    setup = Setup(e, e.runs, Model.table_3_1(), end=1.2, workers=1)
+    fit = setup.fit(windows(setup, SHORT))
+    return setup, Family((), fit, fit.begin())
 
 
-def test_two_sided_effect_begins_along_its_step():
-    (z,) = sizes(trial("mass_eccentricity", [0.1, -0.4, 0.0]), N)
-    np.testing.assert_allclose(z, np.array([0.25, -1.0, 0.0]) * BEGUN_AT)
+def test_first_look_ranks_a_turning_foot_first():
+    setup, kept = far_from("spin_friction:radius=0.004")
+    ids = ("clock_error", "adhesion", "spin_friction", "lingering_wire_pull")
+    trials = [Trial((id,), 0.0, 0.0, kept.fit, kept.point) for id in ids]
+    found = first_looks(setup, trials, kept)
+    assert [f.effects for f in found] == [(id,) for id in ids]
+    best = min(found, key=lambda f: f.point.objective)
+    assert best.effects == ("spin_friction",)
+    assert best.point.objective < kept.point.objective
 
 
-def test_effect_without_a_step_begins_at_a_size():
-    (z,) = sizes(trial("quadratic_drag"), N)
-    assert z == pytest.approx([BEGUN_AT])
-
-
-def test_shapes_begin_at_their_typical_value():
-    (z,) = sizes(trial("stribeck_friction", [0.2, 0.9]), N)
-    assert z == pytest.approx([BEGUN_AT, 0.0])
-
-
-def test_plate_begins_at_several_frequencies():
-    kind = catalogue.find("compliant_support")
-    begun = sizes(trial("compliant_support", [0.1, 0.0, 0.0]), N)
-    assert [z[0] for z in begun] == list(RINGING) and all(np.all(z[1:] == 0) for z in begun)
-    typical = kind.quantities["frequency"].typical
-    # 40 to 120 Hz, each within the half of the next one's.
-    found = [typical / np.sqrt(z[0]) for z in begun]
-    assert max(found) == pytest.approx(120) and min(found) == pytest.approx(40)
+def test_nominal_keeps_the_effects_alone():
+    setup, kept = far_from("spin_friction:radius=0.004")
+    trial = Trial(("mass_eccentricity",), 0.0, 0.0, kept.fit, kept.point)
+    (family,) = first_looks(setup, [trial], kept)
+    family.point.z[:] = 0.5
+    z = nominal(family)
+    effects = np.array(["." in p.name for p in family.fit.parameters])
+    assert np.all(z[effects] == 0.5) and np.all(z[~effects] == 0)
