@@ -42,7 +42,7 @@ def main() -> None:
     given = parser.parse_args()
     found = {"machine": machine(), **numpy_alone(), **numpy_in_batch(), **peers(given.peers)}
     if has_numba():
-        found |= {**first_call(), **compiled(), **cores(), **growth()}
+        found |= {**first_call(), **compiled(), **cores(), **growth(), **effects()}
     else:
         say("numba is not installed (pip install 'rockref[fast]'): the compiled engine is left out")
     if not given.dry:
@@ -155,6 +155,16 @@ def growth() -> dict:
         "seconds_by_duration": durations, "seconds_by_points": points,
         "seconds_a_step_by_batch_numba": batches, "seconds_a_step_by_batch_numpy": by_law,
     }  # fmt: skip
+
+
+def effects() -> dict:
+    """What each effect costs, in parts of the law."""
+    from effects import costs
+
+    rows = costs()
+    most = max(rows, key=lambda row: row["release"]["ratio"])
+    say(f"the dearest effect, {most['effect']}: {most['release']['ratio']:.2f} times the law")
+    return {"effects": rows}
 
 
 def with_points(n: int, duration: float = 0.3) -> Problem:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import effects
+
 from rockref.model.storage import write_bytes, write_text
 
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
@@ -70,6 +72,8 @@ def table(found: dict) -> str:
                 )
             ),
         ]
+    if "effects" in found:
+        lines += ["", *effects.table(found["effects"])]
     return "\n".join(lines)
 
 

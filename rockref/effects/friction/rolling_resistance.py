@@ -41,21 +41,21 @@ class RollingResistance(Effect):
     lever: float = 0.0
 
     def start(self, problem):
-        return {"roll": np.zeros(problem.points.K_N.shape + (2,), problem.points.K_N.dtype)}
+        return {"held": np.zeros(problem.points.K_N.shape + (2,), problem.points.K_N.dtype)}
 
     def body_wrench(self, problem, c, x, Lambda, v, W, m):
         if self.is_absent():
             return None
         points, size = problem.points, self.lever * ARM
         K, C = (points.K_N * size)[..., None], (points.C_N * size)[..., None]
-        rate = apply(Lambda, W)[..., None, :2]
-        roll = m["roll"] + c.turn[..., None, :2]
-        trial = -K * roll - C * rate
+        damped = C * apply(Lambda, W)[..., None, :2]
+        held = m["held"] - K * c.turn[..., None, :2]  # the moment of the spring
+        trial = held - damped
         length, limit = norm(trial), self.lever * c.F_N
         returned = length > limit
         M = np.where(returned, limit / np.where(returned, length, 1), 1)[..., None] * trial
-        roll = np.where(returned[..., None], -(M + C * rate) / K, roll)
-        m["roll"] = np.where(c.touching[..., None], roll, 0)
+        held = np.where(returned[..., None], M + damped, held)
+        m["held"] = np.where(c.touching[..., None], held, 0)
         moment = np.zeros_like(W)
         moment[..., :2] = assembly.sum_over_points(np.where(c.touching[..., None], M, 0))
         return np.zeros_like(W), moment

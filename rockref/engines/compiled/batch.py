@@ -14,8 +14,6 @@ import numpy as np
 
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import kernel, pack, slots
-from rockref.engines.compiled.jit import entered
-from rockref.engines.compiled.sources import FINGERPRINT
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
 from rockref.model.simulate import output_steps
@@ -95,17 +93,16 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
     B, n = batch.P.shape[:2]
     R = batch.wanted.shape[1]
     states = np.empty((B, R, col.STATE)) if out is None else out
-    states.fill(np.nan)
     kept = B if full else 1
-    forces, memories = np.full((kept, R, n, 3), np.nan), np.full((kept, R, n, col.MEMORY), np.nan)
-    loop = _loop_with_effects if batch.effects.any() else _loop_law
-    own_forces, memory = batch.forces, batch.memory
+    forces, memories = np.empty((kept, R, n, 3)), np.empty((kept, R, n, col.MEMORY))
+    loop = kernel.loop_for(batch.effects)
+    written = np.zeros(B, np.int64)
     centres = pack.centres(batch.P, batch.props)
 
     def piece(bounds) -> None:
         loop(
-            *bounds, batch.body, centres, batch.props, memory, own_forces, batch.effects, batch.state, batch.h,
-            batch.wanted, full, states, forces, memories,
+            *bounds, batch.body, centres, batch.props, batch.memory, batch.forces, batch.effects, batch.state, batch.h,
+            batch.wanted, full, states, forces, memories, written,
         )  # fmt: skip
 
     workers = workers or os.cpu_count() or 1
@@ -117,13 +114,21 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
     else:
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(piece, pieces))
+    for b in np.flatnonzero(written < R):  # lost
+        states[b, written[b] :] = np.nan
+        if full:
+            forces[b, written[b] :] = memories[b, written[b] :] = np.nan
     return (states, forces, memories) if full else states
 
 
 def checked(batch: Batch) -> Batch:
-    """The batch with contiguous float64 arrays of its own where the run writes; raises InputError (E-SHAPE)."""
+    """The batch as the compiled loop takes it; raises InputError (E-SHAPE).
+
+    What the run writes becomes an array of its own. The others stay as they are where they are contiguous float64, and
+    writeable: for those that are not, numba would compile everything once more.
+    """
     B, n = np.shape(batch.P)[:2]
-    wanted = np.ascontiguousarray(np.broadcast_to(np.asarray(batch.wanted, np.int64), (B, np.shape(batch.wanted)[-1])))
+    wanted = np.array(np.broadcast_to(batch.wanted, (B, np.shape(batch.wanted)[-1])), np.int64, order="C")
     shapes = {
         "body": (B, col.BODY), "P": (B, n, 3), "props": (B, n, col.PROPS), "memory": (B, n, col.MEMORY),
         "effects": (B, slots.SLOTS), "state": (B, col.STATE), "forces": (B, n, 3),
@@ -133,30 +138,5 @@ def checked(batch: Batch) -> Batch:
         if np.shape(given[key]) != shape:
             raise InputError("E-SHAPE", f"batch.{key}", f"has shape {np.shape(given[key])}", f"Give {shape}.")
     written = {k: np.array(given[k], np.float64, order="C") for k in ("memory", "forces")}
-    read = {k: np.ascontiguousarray(given[k], np.float64) for k in shapes if k not in written}
+    read = {k: np.require(given[k], np.float64, ["C", "W"]) for k in shapes if k not in written}
     return replace(batch, wanted=wanted, h=float(batch.h), **written, **read)
-
-
-def _make_loop(with_effects: bool, source: int):
-    @entered
-    def loop(
-        first, last, body, centres, props, memory, own_forces, effects, state, h, wanted, full, states, forces, memories
-    ):
-        _ = source
-        for b in range(first, last):
-            k = b if full else 0
-            if with_effects:
-                kernel.with_effects(
-                    body[b], centres[b], props[b], memory[b], own_forces[b], effects[b], state[b], h, wanted[b], full,
-                    states[b], forces[k], memories[k],
-                )  # fmt: skip
-            else:
-                kernel.law(
-                    body[b], centres[b], props[b], memory[b], own_forces[b], effects[b], state[b], h, wanted[b], full,
-                    states[b], forces[k], memories[k],
-                )  # fmt: skip
-
-    return loop
-
-
-_loop_law, _loop_with_effects = _make_loop(False, FINGERPRINT), _make_loop(True, FINGERPRINT)

@@ -11,8 +11,7 @@ X, V, L, W_, A_, T_, GIVEN, TIME, ORIGIN, COUNT, Q, Q_RATE = 0, 3, 6, 15, 18, 21
 #: Columns of `props` per point: stiffness, damping, friction, foot radius, foot (1 to 4, for effects by foot; else 0).
 PROPS = 8
 K_N, K_T, C_N, C_T, MU_0, MU, RADIUS, FOOT = 0, 1, 2, 3, 4, 5, 6, 7
-#: Columns of `memory` per point: anchor s (2), anchored, sliding, largest penetration, yaw, roll (2); then what the
-#: contact leaves for the effects of the same evaluation: penetration, lever arm (3), sliding velocity (2).
-MEMORY = 14
+#: Columns of `memory` per point: anchor s (2), anchored, sliding; of effects: largest penetration, yaw, moment that is
+#: held against rolling (2).
+MEMORY = 8
 S_X, S_Y, ANCHORED, SLIDING, XI_LARGEST, YAW, ROLL_X, ROLL_Y = 0, 1, 2, 3, 4, 5, 6, 7
-XI, R_X, R_Y, R_Z, V_X, V_Y = 8, 9, 10, 11, 12, 13

@@ -12,6 +12,8 @@ from rockref.engines.compiled.jit import inlined
 SMALL = 2.2250738585072014e-308 / 2.220446049250313e-16
 #: Least normal force in parts of the reference (as in `rockref.effects.friction.load_dependent_friction`).
 FLOOR = 1e-3
+#: Less than one by more than the roundings of a threshold, some 1e-15 (decided).
+SURELY = 1 - 1e-12
 
 
 @inlined
@@ -27,31 +29,33 @@ def length(x, y):
 
 
 @inlined
-def altered(force, xi, xi_rate, props, i, e, memory):
+def altered(on, e, force, xi, xi_rate, props, i, memory):
     """Spring and damper with the effects on the normal force, in the order of the step."""
     K, C = props[i, col.K_N], props[i, col.C_N]
-    if e[slots.HERTZ] != 0.0:
+    if on.hertz:
         reference = e[slots.HERTZ + 2]
-        force = force + K * (reference * (xi / reference) ** e[slots.HERTZ + 1] - xi)
-    if e[slots.HYSTERESIS] != 0.0:
+        depth, exponent = xi / reference, e[slots.HERTZ + 1]
+        power = depth * math.sqrt(depth) if exponent == 1.5 else depth**exponent
+        force = force + K * (reference * power - xi)
+    if on.hysteresis:
         kappa = e[slots.HYSTERESIS + 1]
         memory[i, col.XI_LARGEST] = max(memory[i, col.XI_LARGEST], xi)
         damper = C * xi_rate
         dent = kappa / (1 + kappa) * memory[i, col.XI_LARGEST]
         force = max(min(force - damper, K * (1 + kappa) * (xi - dent)), 0.0) + damper
-    if e[slots.HUNT] != 0.0:
+    if on.hunt:
         force = force + e[slots.HUNT + 1] * K * xi * xi_rate
     return force
 
 
 @inlined
-def altered_friction(mu_0, mu, v_x, v_y, F_N, e):
+def altered_friction(on, e, mu_0, mu, v_x, v_y, F_N):
     """Both friction coefficients with the effects on them, in the order of the step."""
-    if e[slots.STRIBECK] != 0.0:
+    if on.stribeck:
         relative = math.sqrt(v_x * v_x + v_y * v_y) / e[slots.STRIBECK + 2]
         factor = 1 + (e[slots.STRIBECK + 1] - 1) * math.exp(-(relative * relative))
         mu_0, mu = mu_0 * factor, mu * factor
-    if e[slots.LOAD] != 0.0:
+    if on.load:
         reference = e[slots.LOAD + 2]
         factor = (max(F_N, FLOOR * reference) / reference) ** (-e[slots.LOAD + 1])
         mu_0, mu = mu_0 * factor, mu * factor
@@ -59,8 +63,26 @@ def altered_friction(mu_0, mu, v_x, v_y, F_N, e):
 
 
 @inlined
-def friction(ux, uy, vx, vy, F_N, mu_0, mu, props, memory, i, turn0, turn1):
-    """Rules T1 to T6: the friction force; moves the anchor and notes whether the point slides."""
+def surely_held(on, e, mu, F_N):
+    """A friction force [N] below which a point sticks whatever its altered coefficient is, and with `mu` itself too.
+
+    exp and power cost more than all the rest of a point, and most points are far from sliding. The factor of Stribeck
+    is at least the smaller of 1 and its ratio; that of the load, whose exponent is between -1 and 1, at least
+    the smaller of 1 and reference / F_N, or F_N / reference.
+    """
+    held = SURELY * mu * F_N
+    if on.stribeck:
+        held = held * min(e[slots.STRIBECK + 1], 1.0)
+    if on.load:
+        reference = e[slots.LOAD + 2]
+        relative = F_N / reference if e[slots.LOAD + 1] < 0.0 else reference / F_N
+        held = held * min(relative, 1.0)
+    return held
+
+
+@inlined
+def trial(ux, uy, vx, vy, props, memory, i, turn0, turn1):
+    """Rules T1 and T5: anchor (2), trial force (2) and its size."""
     K, C = props[i, col.K_T], props[i, col.C_T]
     sx, sy = ux, uy  # T5
     if memory[i, col.ANCHORED] != 0.0:
@@ -69,12 +91,18 @@ def friction(ux, uy, vx, vy, F_N, mu_0, mu, props, memory, i, turn0, turn1):
         if radius != 0.0:
             sx, sy = sx + radius * turn1, sy - radius * turn0
     tx, ty = K * (sx - ux) - C * vx, K * (sy - uy) - C * vy  # T1
-    size = length(tx, ty)
+    return sx, sy, tx, ty, length(tx, ty)
+
+
+@inlined
+def returned(ux, uy, vx, vy, sx, sy, tx, ty, size, F_N, mu_0, mu, props, memory, i):
+    """Rules T2 to T4 and T6: the friction force; moves the anchor and notes whether the point slides."""
     limit = (mu if memory[i, col.SLIDING] != 0.0 else mu_0) * F_N  # T6
     memory[i, col.ANCHORED] = 1.0
     if size <= limit:  # T2
         memory[i, col.S_X], memory[i, col.S_Y], memory[i, col.SLIDING] = sx, sy, 0.0
         return tx, ty
+    K, C = props[i, col.K_T], props[i, col.C_T]
     scale = mu * F_N / size
     fx, fy = scale * tx, scale * ty  # T3
     memory[i, col.S_X], memory[i, col.S_Y] = ux + (fx + C * vx) / K, uy + (fy + C * vy) / K  # T4

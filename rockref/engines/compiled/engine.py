@@ -42,17 +42,17 @@ def _one(problem: Problem, keep_going: bool) -> Response:
     wanted = output_steps(problem)
     n, rows = problem.points.n, len(wanted)
     problem = pack.with_memory(problem)
-    effects = pack.effects_row(problem)
+    effects, props = pack.effects_row(problem), pack.props_rows(problem)
     states, forces = np.empty((rows, col.STATE)), np.empty((rows, n, 3))
-    memories = np.empty((rows, n, col.MEMORY))
-    first = np.zeros((n, 3)) if problem.start.F is None else problem.start.F.copy()
-    run = kernel.with_effects if effects.any() else kernel.law
-    props = pack.props_rows(problem)
-    memory, centres = pack.memory_rows(problem.start), pack.centres(problem.points.P, props)
-    written = run(
-        pack.body_row(problem), centres, props, memory, first, effects, pack.state_row(problem),
-        float(problem.step), wanted, True, states, forces, memories,
+    memories, done = np.empty((rows, n, col.MEMORY)), np.zeros(1, np.int64)
+    read = (
+        pack.body_row(problem), pack.centres(problem.points.P, props), props, pack.memory_rows(problem.start),
+        np.zeros((n, 3)) if problem.start.F is None else problem.start.F.copy(), effects, pack.state_row(problem),
     )  # fmt: skip
+    batch_of_one = [a[None] for a in read]
+    written_to = (states[None], forces[None], memories[None], done)
+    kernel.loop_for(effects)(0, 1, *batch_of_one, float(problem.step), wanted[None], True, *written_to)
+    written = int(done[0])
     if not np.isfinite(states[written - 1, :18]).all() and not keep_going:
         good = problem.start
         if written > 1:

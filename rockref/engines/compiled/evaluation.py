@@ -1,62 +1,77 @@
-"""One force evaluation, compiled: rules K1 to A3 for all points, with or without effects."""
+"""One force evaluation, compiled: rules K1 to A3 for all points, with the groups of effects that a variant has."""
 
 from __future__ import annotations
 
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
-from rockref.engines.compiled.contact import altered, altered_friction, friction
+from rockref.engines.compiled.contact import altered, altered_friction, returned, surely_held, trial
 from rockref.engines.compiled.jit import inlined
-from rockref.engines.compiled.loads import add_loads
+from rockref.engines.compiled.loads import add_loads, resistance
+from rockref.engines.compiled.points import pulled, pushed, roll_moment, spin_moment
 
 
-def _make_evaluation(with_effects: bool):
+def make_evaluation(groups: int):
+    """The evaluation with these groups of effects; what belongs to the others is not compiled."""
+    contact, forces_too, moments_too = groups & slots.CONTACT, groups & slots.FORCES, groups & slots.MOMENTS
+    loads, plate = groups & slots.LOADS, groups & slots.PLATE
+
     @inlined
     def evaluate(
-        body, centres, props, memory, forces, e, t, q, q_rate,
-        x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn0, turn1, turn2,
+        body, centres, props, memory, forces, e, on, timed, q, q_rate,
+        x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn,
     ):  # fmt: skip
-        """Acceleration (3) and body moment (3) at one pose; forces and memories of the points are written.
+        """Acceleration (3), body moment (3) and the weight on the plate at one pose; forces and memories are written.
 
         Points above the plate are passed over: their forces are zero, and adding zero changes no bit.
         """
+        turn0, turn1, turn2 = turn
         ox = L0 * W0 + L1 * W1 + L2 * W2
         oy = L3 * W0 + L4 * W1 + L5 * W2
         oz = L6 * W0 + L7 * W1 + L8 * W2
         Fx = Fy = Fz = Mx = My = Mz = 0.0
+        if loads:
+            resisting = resistance(on, e, v0, v1, v2, ox, oy, oz)
+        if forces_too:
+            pull, viscous, slope = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0)
+        if moments_too:
+            spin = roll_x = roll_y = 0.0
         for i in range(centres.shape[0]):
             Px, Py, Pz = centres[i, 0], centres[i, 1], centres[i, 2]
             rz = (L6 * Px + L7 * Py + L8 * Pz) - props[i, col.RADIUS]
             height = x2 + rz
-            if with_effects:
+            if plate:
                 height = height - q
             if height > 0.0:  # not touching; lost numbers count as touching, so that they show
                 if memory[i, col.ANCHORED] != 0.0:
                     memory[i, col.ANCHORED] = memory[i, col.SLIDING] = 0.0  # T5
                     forces[i, 0] = forces[i, 1] = forces[i, 2] = 0.0  # N2
-                if with_effects:
-                    memory[i, col.XI_LARGEST] = 0.0
-                    if e[slots.ADHESION] == 0.0:
-                        continue
-                    memory[i, col.XI], memory[i, col.R_Z] = -height, rz
-                    memory[i, col.R_X], memory[i, col.R_Y] = L0 * Px + L1 * Py + L2 * Pz, L3 * Px + L4 * Py + L5 * Pz
+                    if contact:
+                        memory[i, col.XI_LARGEST] = 0.0
+                    if moments_too:
+                        memory[i, col.YAW] = memory[i, col.ROLL_X] = memory[i, col.ROLL_Y] = 0.0
+                if forces_too:
+                    if on.adhesion and height < e[slots.ADHESION + 2]:
+                        rx, ry = L0 * Px + L1 * Py + L2 * Pz, L3 * Px + L4 * Py + L5 * Pz
+                        pull = pulled(pull, e, height, rx, ry)
                 continue
             rx = L0 * Px + L1 * Py + L2 * Pz
             ry = L3 * Px + L4 * Py + L5 * Pz
             vx = v0 + (oy * rz - oz * ry)  # K1
             vy = v1 + (oz * rx - ox * rz)
             vz = v2 + (ox * ry - oy * rx)
-            mu_0, mu = props[i, col.MU_0], props[i, col.MU]
-            if with_effects:
+            if plate:
                 vz = vz - q_rate
+            mu_0, mu = props[i, col.MU_0], props[i, col.MU]
             fz = props[i, col.K_N] * -height + props[i, col.C_N] * -vz  # (3.5a)
-            if with_effects:
-                fz = altered(fz, -height, -vz, props, i, e, memory)
+            if contact:
+                fz = altered(on, e, fz, -height, -vz, props, i, memory)
             fz = 0.0 if fz <= 0.0 else fz  # N1
-            if with_effects:
-                mu_0, mu = altered_friction(mu_0, mu, vx, vy, fz, e)
-                memory[i, col.XI], memory[i, col.R_X], memory[i, col.R_Y], memory[i, col.R_Z] = -height, rx, ry, rz
-                memory[i, col.V_X], memory[i, col.V_Y] = vx, vy
-            fx, fy = friction(x0 + rx, x1 + ry, vx, vy, fz, mu_0, mu, props, memory, i, turn0, turn1)
+            ux, uy = x0 + rx, x1 + ry
+            sx, sy, tx, ty, size = trial(ux, uy, vx, vy, props, memory, i, turn0, turn1)
+            if contact:
+                if not size <= surely_held(on, e, mu, fz):
+                    mu_0, mu = altered_friction(on, e, mu_0, mu, vx, vy, fz)
+            fx, fy = returned(ux, uy, vx, vy, sx, sy, tx, ty, size, fz, mu_0, mu, props, memory, i)
             forces[i, 0], forces[i, 1], forces[i, 2] = fx, fy, fz
             Fx += fx
             Fy += fy
@@ -64,21 +79,55 @@ def _make_evaluation(with_effects: bool):
             Mx += ry * fz - rz * fy  # A2
             My += rz * fx - rx * fz
             Mz += rx * fy - ry * fx
-        mass = body[col.MASS]
-        Fz -= mass * body[col.GRAVITY]  # A1
-        if with_effects:
-            if e[slots.ON_BODY] != 0.0:
-                Fx, Fy, Fz, Mx, My, Mz = add_loads(
-                    (Fx, Fy, Fz, Mx, My, Mz), e, mass, body[col.GRAVITY], props, memory, forces,
-                    x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz, turn0, turn1, turn2, t,
-                )  # fmt: skip
+            if forces_too:
+                if on.adhesion:
+                    pull = pulled(pull, e, height, rx, ry)
+                if on.viscous:
+                    c = -e[slots.VISCOUS + 1]
+                    viscous = pushed(viscous, c * vx, c * vy, rx, ry, rz)
+                if on.normals:
+                    at = slots.NORMALS + 2 * int(props[i, col.FOOT])
+                    slope = pushed(slope, fz * e[at - 1], fz * e[at], rx, ry, rz)
+            if moments_too:
+                if on.spin:
+                    spin += spin_moment(e, props, memory, i, fz, oz, turn2)
+                if on.rolling:
+                    mx, my = roll_moment(e, props, memory, i, fz, ox, oy, turn0, turn1)
+                    roll_x += mx
+                    roll_y += my
+        mass, g, carried = body[col.MASS], body[col.GRAVITY], Fz
+        Fz -= mass * g  # A1
+        if forces_too:
+            if on.adhesion:
+                carried += pull[0]
+                Fz += pull[0]
+                Mx += pull[1]
+                My += pull[2]
+            if on.viscous:
+                Fx += viscous[0]
+                Fy += viscous[1]
+                Mx += viscous[2]
+                My += viscous[3]
+                Mz += viscous[4]
+            if on.normals:
+                Fx += slope[0]
+                Fy += slope[1]
+                Mx += slope[2]
+                My += slope[3]
+                Mz += slope[4]
+        if moments_too:
+            if on.spin:
+                Mz += spin
+            if on.rolling:
+                Mx += roll_x
+                My += roll_y
+        if loads:
+            Fx, Fy, Fz, Mx, My, Mz = add_loads(
+                on, e, (Fx, Fy, Fz, Mx, My, Mz), timed, resisting, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz
+            )
         Tx = L0 * Mx + L3 * My + L6 * Mz  # A3
         Ty = L1 * Mx + L4 * My + L7 * Mz
         Tz = L2 * Mx + L5 * My + L8 * Mz
-        return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz
+        return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz, carried
 
     return evaluate
-
-
-evaluate_law = _make_evaluation(False)
-evaluate_with_effects = _make_evaluation(True)

@@ -7,6 +7,7 @@ allocated inside, so arrays need no reference counts (`_nrt`): counting them in 
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import FunctionType
 from typing import Any
 
 import numba
@@ -19,15 +20,19 @@ inlined = numba.njit(inline="always", error_model="numpy")
 called = numba.njit(**_options)
 
 
-def entered(function: Callable) -> Any:
+def entered(function: Callable, **variant: Any) -> Any:
     """Compile a function that Python calls: without its lock, and kept on disk.
 
-    It must hold the fingerprint of the sources in a closure and no other compiled function, or the file on disk is
-    never found again. The numbers in its closure become part of its name, and so of the file's: two variants of one
-    text would share an index on disk, and two processes that compile at the same time would each give the other one's
-    code its own variant's name (seen: the law ran in place of the effects, without a word).
+    `variant` holds the compiled functions that this variant of the text calls, by the names by which it calls them.
+    They may not stand in its closure: numba would make them part of the key of the file on disk, with a name that is
+    another in every process, and the file would never be found again.
+
+    The closure must hold the fingerprint of the sources and the number of the variant. They become part of the
+    function's name, and so of the file's: two variants of one text would share an index on disk, and two processes
+    that compile at the same time would each give the other one's code its own variant's name (seen: the law ran in
+    place of the effects, without a word).
     """
+    text: Any = FunctionType(function.__code__, {**function.__globals__, **variant}, closure=function.__closure__)
     held = [cell.cell_contents for cell in function.__closure__ or ()]
-    variant = "_".join(str(int(value)) for value in held if isinstance(value, int))
-    function.__qualname__ = f"{function.__qualname__}_{variant}"
-    return numba.njit(nogil=True, cache=True, **_options)(function)
+    text.__qualname__ = "_".join([function.__qualname__, *(str(value) for value in held)])
+    return numba.njit(nogil=True, cache=True, **_options)(text)

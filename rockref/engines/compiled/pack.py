@@ -63,7 +63,7 @@ def memory_rows(state: State) -> np.ndarray:
 
 
 #: Names in an effect's memory and the columns of the compiled point memory in which they stand.
-POINT_MEMORY: dict[str, int | slice] = {"xi_largest": 4, "yaw": 5, "roll": slice(6, 8)}
+POINT_MEMORY: dict[str, int | slice] = {"xi_largest": 4, "yaw": 5, "held": slice(6, 8)}
 
 
 def state_row(problem: Problem) -> np.ndarray:
@@ -107,7 +107,6 @@ def effects_row(problem: Problem) -> np.ndarray:
             FILL[effect.id](row, effect, problem)
     if not in_order(active):
         raise InputError("E-TWIN", "effects", "are given twice, or not in the order of the step", NUMPY)
-    row[slots.ON_BODY] = any(effect.id in ON_BODY for effect in active)
     return row
 
 
@@ -174,17 +173,13 @@ FILL = {
     "uneven_contact_normals": _normals,
     "spin_friction": lambda r, e, p: _put(r, slots.SPIN, e.radius),
     "rolling_resistance": lambda r, e, p: _put(r, slots.ROLLING, e.lever),
-    "quadratic_drag": lambda r, e, p: _put(r, slots.DRAG, e.c, _height(p)),
+    "quadratic_drag": lambda r, e, p: _put(r, slots.DRAG, e.c, e.c_v),
     "cable_restraint": _cable,
     "lingering_wire_pull": lambda r, e, p: _put(r, slots.WIRE, e.force, e.tau, _height(p)),
     "base_vibration": _vibration,
     "plate_tilt": lambda r, e, p: _put(r, slots.TILT, e.x, e.y),
     "compliant_support": _support,
 }
-ON_BODY = frozenset(slots.IN_THE_STEP) - {
-    "hertzian_contact", "hysteretic_contact", "hunt_crossley_contact", "stribeck_friction", "load_dependent_friction",
-    "compliant_support",
-}  # fmt: skip
 
 
 def final_state(problem: Problem, row: np.ndarray, memory: np.ndarray, forces: np.ndarray) -> State:

@@ -1,9 +1,11 @@
-"""Where each effect's numbers stand in the flat array that the compiled step reads.
+"""Where each effect's numbers stand in the flat array that the compiled step reads, and which effects share a variant.
 
 One row of `SLOTS` floats per run; zero means that the effect is not there (each block begins with its switch).
 """
 
 from __future__ import annotations
+
+from collections import namedtuple
 
 _next = 0
 
@@ -19,20 +21,39 @@ HYSTERESIS = _block(2)  # on, kappa
 HUNT = _block(2)  # on, a
 STRIBECK = _block(3)  # on, ratio, velocity
 LOAD = _block(3)  # on, exponent, reference
-#: Whether any of the following, which add forces and moments to the body, is on.
-ON_BODY = _block(1)
 ADHESION = _block(3)  # on, force, range
 VISCOUS = _block(2)  # on, c
 NORMALS = _block(9)  # on, x1, y1 .. x4, y4
 SPIN = _block(2)  # on, radius
 ROLLING = _block(2)  # on, lever
-DRAG = _block(3)  # on, c, half the height
+DRAG = _block(3)  # on, c of the moment, c_v of the force
 CABLE = _block(6)  # on, k, c, height of attachment, its place at the start (x, y)
 WIRE = _block(4)  # on, force, tau, height of attachment
 VIBRATION = _block(6)  # on, amplitude, angular frequency, phase, sine and cosine of the direction
 TILT = _block(3)  # on, x, y
 SUPPORT = _block(4)  # on, mass, stiffness, damping
 SLOTS = _next
+
+#: Which effects are on, read once per run.
+Switches = namedtuple(
+    "Switches",
+    "hertz hysteresis hunt stribeck load adhesion viscous normals spin rolling drag cable wire vibration tilt support",
+)
+
+#: The groups of effects that a variant of the compiled step has or has not, with the slots of their numbers.
+CONTACT, FORCES, MOMENTS, LOADS, PLATE = 1, 2, 4, 8, 16
+GROUPS = {
+    CONTACT: slice(HERTZ, ADHESION),
+    FORCES: slice(ADHESION, SPIN),
+    MOMENTS: slice(SPIN, DRAG),
+    LOADS: slice(DRAG, SUPPORT),
+    PLATE: slice(SUPPORT, SLOTS),
+}
+ALL = sum(GROUPS)
+#: The variants: the law, each group, and everything for runs with effects of several groups. Decided: effects that
+#: write the same things share a group, because a branch that is not taken costs little and a sum that is not needed
+#: much; each further variant would be some ten seconds of compiling on the first call, and there are ten pairs.
+VARIANTS = (0, *GROUPS, ALL)
 
 #: The effects that act in the step, in the order in which they do (that of `rockref.effects.catalogue`).
 IN_THE_STEP = tuple(

@@ -73,13 +73,14 @@ def test_resistance_never_drives(effect):
     rng = np.random.default_rng(7)
     h = 1e-4
     rates = np.cumsum(rng.normal(size=(1500, 3)), axis=0) * 0.02
-    name = "yaw" if isinstance(effect, SpinFriction) else "roll"
+    # The spring of the one is known by its angle, that of the other by its moment.
+    name, twice_energy = ("yaw", K * LEVER**2) if isinstance(effect, SpinFriction) else ("held", 1 / (K * LEVER * ARM))
     stiffness = K * LEVER**2 if name == "yaw" else K * LEVER * ARM
     problem = body(points_at([(0, 0, 0)], K_N=K, K_T=K, C_N=C, C_T=C, mu=MU), [effect])
     m, taken, stored_before = effect.start(problem), [], 0.0
     for W in rates:
         _, moment = effect.body_wrench(problem, still_contact(W * h), np.zeros(3), np.eye(3), np.zeros(3), W, m)
-        stored = stiffness * np.sum(m[name] ** 2) / 2
+        stored = twice_energy * np.sum(m[name] ** 2) / 2
         taken.append(-np.dot(moment, W) * h - (stored - stored_before))
         stored_before = stored
     # One step's force acts over the whole step: the error is stiffness (W h)^2/2 a step.

@@ -12,7 +12,7 @@ pytest.importorskip("numba")
 import rockref
 from rockref import engines
 from rockref.effects.catalogue import EFFECTS
-from rockref.engines.compiled import batch, engine, kernel, sources
+from rockref.engines.compiled import engine, kernel, slots, sources
 from rockref.model.errors import InputError, NumericalError
 from rockref.model.problem import stack
 from rockref.model.simulate import simulate as law
@@ -156,7 +156,7 @@ def test_compiled_code_is_found_again_by_the_next_process():
     code = (
         "import rockref; from rockref.engines.compiled import engine, kernel;"
         "engine.simulate(rockref.Model.table_3_1().problem(1e-3));"
-        "print(sum(kernel.law.stats.cache_hits.values()), sum(kernel.law.stats.cache_misses.values()))"
+        "print(sum(kernel.LOOPS[0].stats.cache_hits.values()), sum(kernel.LOOPS[0].stats.cache_misses.values()))"
     )
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert out == ["1", "0"]
@@ -173,8 +173,8 @@ def test_the_fingerprint_follows_the_text(tmp_path, monkeypatch):
     assert sources.fingerprint() != before
 
 
-@pytest.mark.parametrize("function", [kernel.law, kernel.with_effects, kernel.begin_law, batch._loop_law])
-def test_stored_code_holds_the_fingerprint_and_no_compiled_function(function):
-    held = [cell.cell_contents for cell in function.py_func.__closure__]
-    assert sources.FINGERPRINT in held
-    assert all(type(value) in (int, bool) for value in held)
+@pytest.mark.parametrize("groups", slots.VARIANTS)
+def test_stored_code_holds_the_fingerprint_and_no_compiled_function(groups):
+    held = [cell.cell_contents for cell in kernel.LOOPS[groups].py_func.__closure__]
+    assert {sources.FINGERPRINT, groups} <= set(held)
+    assert all(type(value) is int for value in held)

@@ -4,16 +4,17 @@ import pytest
 
 pytest.importorskip("numba")
 
+from rockref.engines.compiled import kernel, slots
 
-def test_law_and_effects_do_not_share_a_file():
-    from rockref.engines.compiled import batch, kernel
 
-    pairs = [
-        (batch._loop_law, batch._loop_with_effects),
-        (kernel.law, kernel.with_effects),
-        (kernel.begin_law, kernel.begin_with_effects),
-    ]
-    for law, other in pairs:
-        # numba names the files after the qualified name and the line; the line is the same for both.
-        assert law.py_func.__code__.co_firstlineno == other.py_func.__code__.co_firstlineno
-        assert law.py_func.__qualname__ != other.py_func.__qualname__
+def test_variants_do_not_share_a_file():
+    """numba names the files after the qualified name and the line; the line is the same for all."""
+    texts = [loop.py_func for loop in kernel.LOOPS.values()]
+    assert len({text.__code__.co_firstlineno for text in texts}) == 1
+    assert len({text.__qualname__ for text in texts}) == len(texts) == len(slots.VARIANTS)
+
+
+def test_each_variant_calls_functions_of_its_own():
+    called = [loop.py_func.__globals__["evaluate"] for loop in kernel.LOOPS.values()]
+    assert len(set(map(id, called))) == len(called)
+    assert kernel.evaluate is None, "the text of the loop itself belongs to no variant"
