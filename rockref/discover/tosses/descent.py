@@ -18,11 +18,13 @@ from rockref.model.errors import RockrefError
 #: Sensitivities to the parameters' spreads, in percent and degrees, at which a frame counts half in a step (the last
 #: one trusts all frames), and dampings of the step; decided by trial on the public fit tosses: each of them wins.
 STEEP = (3.0, 15.0, 1e9)
-DAMPING = (1e-4, 1e-2, 1.0)
+DAMPING = (1e-4, 1e-2, 1.0, 30.0)
 #: Longest step in a parameter's spread, and by how much a step that helped is made longer while it helps.
 LONGEST, STRETCH = 1.5, 1.7
 #: Finite difference in spreads; decided: ten times the kinks that a contact's first step makes.
 DIFFERENCE = 0.05
+#: Change of one parameter that is tried where no step of all of them helps, in spreads; decided: some differences.
+PROBE = 0.15
 #: Share of the objective that an iteration must gain for another one.
 ENOUGH = 1e-3
 
@@ -96,12 +98,29 @@ def best_way(
             then = value(trial)
             if then < least:
                 best, least = trial, then
+    if least >= now:
+        best, least = along_one(z, value, now, low, high)
     while least < now:
         trial = np.clip(z + STRETCH * (best - z), low, high)
         then = value(trial)
         if then >= least:
             break
         best, least = trial, then
+    return best, least
+
+
+def along_one(
+    z: np.ndarray, value: Callable[[np.ndarray], float], now: float, low: np.ndarray, high: np.ndarray
+) -> tuple[np.ndarray, float]:
+    """The best change of one parameter alone: the way out of a kink, where slopes of all together mislead."""
+    best, least = z, now
+    for i in range(len(z)):
+        for d in (-PROBE, PROBE):
+            trial = z.copy()
+            trial[i] = np.clip(z[i] + d, low[i], high[i])
+            then = value(trial) if trial[i] != z[i] else np.inf
+            if then < least:
+                best, least = trial, then
     return best, least
 
 

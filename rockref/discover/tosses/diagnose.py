@@ -183,8 +183,10 @@ def look_further(last: Step, guesses: dict[str, float], say: Callable[[str], Non
     found = {}
     for id in dict.fromkeys((*order[:REFITTED], *(id for id in order if told(id, guesses)))):
         fit = TossFit(last.fit.base, (*last.fit.effects, id), poses, last.fit.width, log=say)
-        begins = (promised[id][1], guessed(promised[id][1], fit.parameters, id, guesses))
-        ends = [fit.run(z, REFIT_ITERATIONS, (LONG,), weight) for z in begins if z is not None]
+        measured_start = guessed(promised[id][1], fit.parameters, id, guesses)
+        begins = [promised[id][1]] if id in order[:REFITTED] else []
+        begins += [measured_start] if measured_start is not None else []
+        ends = [fit.run(z, REFIT_ITERATIONS, (LONG,), weight) for z in begins]
         found[id] = min(ends, key=lambda end: end[1])
     gains = {id: 1 - f[1] / plain for id, f in found.items()}
     best = max(gains, key=lambda id: gains[id])
