@@ -23,6 +23,8 @@ WARPS = np.arange(-50e-6, 51e-6, 2.5e-6)
 FINER = np.arange(-3e-6, 3.1e-6, 1e-6)
 #: Prior deviations by which the other parameters are moved.
 SHARES = (-1.8, -1.0, -0.5, 0.5, 1.0, 1.8)
+#: The same for what can only grow, in typical sizes (compliance of a plate: one that rings at 120 to 33 Hz).
+UPWARDS = (0.25, 0.5, 1.0, 1.8, 3.2)
 #: Parameters of the law that move every impact, in the order in which they are looked at.
 LINES = ("tilt_offset", "mu_ext", "K_N", "K_T", "beta_ext", "tilt_offset")
 #: Seconds at the end of the first windows that are not release (they end 45 ms after the impact, or a little later).
@@ -108,8 +110,7 @@ def same_release(fit: Fit, i: int, z: np.ndarray) -> np.ndarray:
 
 def shares_of(p: Parameter) -> np.ndarray:
     """Prior deviations by which a parameter is moved: upwards only, where its absence is the least value it takes."""
-    shares = np.array(SHARES)
-    return shares[shares > 0] if not p.log and p.value(0.0) <= p.low else shares
+    return np.array(UPWARDS if not p.log and p.value(0.0) <= p.low else SHARES)
 
 
 def heights_of(names: list[str]) -> list[int]:

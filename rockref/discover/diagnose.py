@@ -32,7 +32,7 @@ from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_
 from rockref.discover.information import information
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.presearch import STRONG, suspects
-from rockref.discover.search import Setup, baseline, screen
+from rockref.discover.search import FRESH, Setup, baseline, screen
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
@@ -48,6 +48,10 @@ FAR = 0.5
 NO_WORSE = 1.1
 #: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
 WORTH_A_REFIT = 120.0
+#: Share of the leader's gain below which a candidate is left where it is (decided: refits have doubled a gain).
+BEHIND = 0.4
+#: Share of structured windows below which the only candidate near the front is polished, not fitted afresh.
+ARRIVED = 0.03
 
 
 @dataclass
@@ -128,7 +132,7 @@ def diagnose(
         z = np.zeros(len(setup.parameters(effects)))
         known = np.clip(seen.get("starts", {}).get(effects, seen["z"]), -3, 3)
         z[: len(known)] = 0 if hopeless else known
-        fit, point = baseline(setup, effects, z, iterations=(2, 1) if hopeless else (6, 5))
+        fit, point = baseline(setup, effects, z, iterations=(2, 1) if hopeless else FRESH)
         families.append(Family(effects, fit, point))
     null = families[0]
     start = min(families, key=mean_loss)
@@ -149,14 +153,16 @@ def diagnose(
         wider = duel(setup, look, say) if structured(look.kept) <= FAR else look.order[0]
         if not rules.is_detected(look.gains[wider.effects[-1]], size_of(wider), second):
             break
-        if room(wider) > rules.SECOND_ROOM / 2:
-            wider = refit(wider, POLISH, seed)
+        wider = refit(wider, POLISH, seed)
         say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
         if start.effects and not rules.settles(structured(start), structured(wider)):
             break
         start = wider
         if structured(start) > rules.HOPELESS:
             break
+    if len(start.effects) == 2 and (needless := [e for e in start.effects if size_of(start, e) < rules.LEAST_SIZE]):
+        start = without(setup, start, needless[0])
+        say(f"  without {needless[0]}: structured {structured(start):.3f}, room {room(start):.0f}")
     if looks and not looks[0].kept.effects:
         null = looks[0].kept
     if not start.effects:
@@ -186,7 +192,7 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
         gains = {f.effects[-1]: gain_between(kept, f) for f in found}
         return Look(kept, sorted(found, key=lambda f: -gains[f.effects[-1]]), gains)
     worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
-    refitted = [refit(Family(t.effects, t.fit, t.point), ITERATIONS, seed + 1) for t in worth]
+    refitted = race([Family(t.effects, t.fit, t.point) for t in worth], start, seed)
     gains = {f.effects[-1]: gain_over(kept, f) for f in refitted}
     order = sorted(refitted, key=lambda f: -gains[f.effects[-1]])
     for f in order:
@@ -195,9 +201,35 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
     return Look(kept, order, gains)
 
 
+def race(families: list[Family], start: Family, seed: int) -> list[Family]:
+    """Refit families an iteration at a time; one that has fallen far behind the leader stays where it is."""
+    alive = set(range(len(families)))
+    for i in range(ITERATIONS):
+        for k in alive:
+            families[k] = refit(families[k], 1, seed + 1 + i)
+        gains = {k: gain_over(start, families[k]) for k in alive}
+        leader = max(gains.values(), default=0.0)
+        if leader < WORTH_A_REFIT / 2 and i:
+            break
+        alive = {k for k in alive if gains[k] > min(BEHIND * leader, leader - WORTH_A_REFIT)}
+    return families
+
+
+def without(setup: Setup, family: Family, effect: str) -> Family:
+    """A pair less the effect that came to nothing, fitted afresh; the pair itself, where that is much worse."""
+    left = tuple(e for e in family.effects if e != effect)
+    own = [
+        zi for p, zi in zip(family.fit.parameters, family.point.z, strict=True) if not p.name.startswith(effect + ".")
+    ]
+    single = Family(left, *baseline(setup, left, np.array(own)))
+    return single if mean_loss(single) < rules.NO_LOSS * mean_loss(family) else family
+
+
 def duel(setup: Setup, look: Look, say) -> Family:
     """The winner of a look and its near rivals, each fitted once more from the nominal parameters; gains are mended."""
     near = rules.RIVAL_BEFORE_DUEL * look.gains[look.order[0].effects[-1]]
+    if structured(look.order[0]) < ARRIVED and all(look.gains[f.effects[-1]] < near for f in look.order[1:]):
+        return look.order[0]
     fitted = []
     for family in look.order[:3]:
         if look.gains[family.effects[-1]] < near:

@@ -13,9 +13,6 @@ from rockref.discover.evidence import clipped_gain
 from rockref.discover.fit import Fit, Point
 from rockref.discover.search import Setup, baseline
 
-#: Iterations of both stages of a fit from the nominal parameters.
-FRESH = (6, 5)
-
 
 @dataclass
 class Family:
@@ -38,7 +35,7 @@ def afresh(setup: Setup, family: Family) -> Family:
     What it started from was bent to make up for the effect, and holds it back.
     """
     z = np.array([zi if "." in p.name else 0.0 for p, zi in zip(family.fit.parameters, family.point.z, strict=True)])
-    return Family(family.effects, *baseline(setup, family.effects, z, iterations=FRESH))
+    return Family(family.effects, *baseline(setup, family.effects, z))
 
 
 def structured(family: Family, run: int | None = None) -> float:

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.discover.approach import approached_beside
-from rockref.discover.families import FRESH, Family, mean_loss
+from rockref.discover.families import Family, mean_loss
 from rockref.discover.fit import Fit
-from rockref.discover.search import FIRST_STAGE, SHORT, Setup, Trial, baseline, early, windows
+from rockref.discover.search import FIRST_STAGE, FRESH, SHORT, Setup, Trial, baseline, early, windows
 
 #: Candidates of the screen, and of the first looks, that are fitted to the short windows, with so many iterations; and
 #: how many are then fitted in full.

@@ -305,9 +305,16 @@ class Fit:
         return point, lam
 
     def run(
-        self, point: Point, iterations: int, rng: np.random.Generator, lam: float = 1e-2, tolerance: float = 2.0
+        self,
+        point: Point,
+        iterations: int,
+        rng: np.random.Generator,
+        lam: float = 1e-2,
+        tolerance: float = 2.0,
+        relative: float = 0.0,
     ) -> Point:
-        """Iterate: corrections of rough windows, joint step; until the objective falls by less than `tolerance`."""
+        """Iterate until the objective falls by less than `tolerance`, or twice by less than the share `relative`."""
+        little = 0
         for i in range(iterations):
             point = self.carried(point)
             before = point.objective
@@ -323,7 +330,8 @@ class Fit:
                 f"  {i}: objective {point.objective:.0f} median {np.median(mean):.3f} bad {np.mean(mean > 1.5):.3f} "
                 f"lam {lam:.1e}"
             )
-            if before - point.objective < tolerance or lam > 1e4:
+            little = little + 1 if before - point.objective < relative * before else 0
+            if before - point.objective < tolerance or lam > 1e4 or little == 2:
                 break
         return point
 

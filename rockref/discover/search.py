@@ -21,6 +21,11 @@ from rockref.measure.impacts import main_impacts
 SHORT, MIDDLE = (0.025, 0.05), (0.05, 0.09)
 #: Where an experiment states none [rad]; decided: 1 mm of wire (the source's "±0.08°").
 TILT_UNCERTAINTY = 1.4e-3
+#: Most iterations of both stages.
+FRESH = (12, 6)
+#: Iterations after which the better of two starts is kept, and the share of the objective that an iteration must gain
+#: for another one to follow (a fifth of it on the longer windows).
+TRIED, LITTLE = 3, 0.015
 #: Seconds of each run that the first stage looks at.
 FIRST_STAGE = 1.6
 
@@ -71,27 +76,39 @@ def moved(point: Point, fit: Fit) -> Point:
     return fit.point(z, np.zeros((fit.series.B, STATES)))[0]
 
 
-def stage(setup: Setup, effects: tuple[str, ...], z: np.ndarray, lengths: tuple[float, float], iterations: int):
-    """Fit the baseline with effects on windows of these lengths, from z on: (Fit, Point)."""
+def staged(setup: Setup, effects: tuple[str, ...], z: np.ndarray, lengths: tuple[float, float]) -> Fit:
+    """A fit of the baseline with effects on windows of these lengths, cut with the sensor of z undone."""
     start = Fit(release_windows(setup), setup.base, setup.parameters(effects))
     fit = setup.fit(windows(setup, lengths, start.models(z)[0][0]), effects)
-    point = approached(fit, z) if lengths == SHORT else placed(fit, z)
     name = " + ".join(effects) or "baseline"
-    setup.log(f"{name}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s, {point.objective:.0f}")
-    return fit, fit.run(point, iterations, np.random.default_rng(setup.seed))
+    setup.log(f"{name}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s")
+    return fit
 
 
 def early(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int):
-    """The first stage: short windows of the first seconds, where nearly every window finds its place."""
-    return stage(replace(setup, end=min(setup.end, FIRST_STAGE)), effects, z, SHORT, iterations)
+    """The first stage: short windows of the first seconds, where nearly every window finds its place.
+
+    Two fits begin, from z and from the nominal baseline; after a few iterations the better one goes on until it gains
+    little. Which of them finds the valley is luck, on controls too.
+    """
+    fit = staged(replace(setup, end=min(setup.end, FIRST_STAGE)), effects, z, SHORT)
+    nominal = np.array([zi if "." in p.name else 0.0 for p, zi in zip(fit.parameters, z, strict=True)])
+    begun = [approached(fit, z)]
+    if np.any(nominal != z):
+        begun.append(approached(fit, nominal))
+    rng, first = np.random.default_rng(setup.seed), min(TRIED, iterations)
+    tried = [fit.run(point, first, rng) for point in begun]
+    best = min(tried, key=lambda p: p.objective)
+    return fit, fit.run(best, iterations - first, rng, lam=1e-3, relative=LITTLE)
 
 
 def late(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int):
     """The second stage: longer windows over all that is used."""
-    return stage(setup, effects, z, MIDDLE, iterations)
+    fit = staged(setup, effects, z, MIDDLE)
+    return fit, fit.run(placed(fit, z), iterations, np.random.default_rng(setup.seed), relative=LITTLE / 5)
 
 
-def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None = None, iterations=(8, 6)):
+def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None = None, iterations=FRESH):
     """Fit the baseline with effects through both stages: (Fit, Point) on the windows of the last one."""
     z = np.zeros(len(setup.parameters(effects))) if z is None else z
     _, point = early(setup, effects, z, iterations[0])
@@ -100,6 +117,8 @@ def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None =
 
 #: Size, in typical sizes, at which a candidate's derivative is taken: large enough for laws that do not show at zero.
 PROBE = 0.2
+#: Gain that a candidate must promise by itself for its step to be tried (decided: a sixth of what is called an effect).
+PROMISING = 60.0
 
 
 @dataclass
@@ -113,11 +132,20 @@ class Trial:
     point: Point
 
 
+def promise(fit: Fit, point: Point, r, Js, Jg, w) -> float:
+    """What one Gauss-Newton step without any candidate promises to gain."""
+    H, g, _ = fit.reduced(r, Js, Jg, w, point.corrections, point.z)
+    H = H + np.diag(1 / fit.prior**2) + 1e-4 * np.diag(np.diag(H))
+    g = g + point.z / fit.prior**2
+    return float(g @ np.linalg.solve(H, g) / 2)
+
+
 def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...] = ()) -> list[Trial]:
     """Every candidate by one Gauss-Newton step of everything (nuisances, corrections, candidate) from a fit's point."""
     z, c = point.z, point.corrections
     r = fit.residual(z, c)
     Js, Jg, w = fit.state_jacobian(z, c, r), fit.parameter_jacobian(z, c, r), fit.weights(r)
+    promised = promise(fit, point, r, Js, Jg, w)
     trials = []
     for kind in kinds:
         if kind.id in effects:
@@ -134,8 +162,9 @@ def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...]
         H = H + np.diag(1 / wide.prior**2) + 1e-4 * np.diag(np.diag(H))
         g = g + z0 / wide.prior**2
         dz = np.clip(-np.linalg.solve(H, g), -3, 3)
-        best = Trial((*effects, kind.id), float(-(g @ dz) / 2), -np.inf, wide, point)
-        for share in (1.0, 0.4):
+        absent = Point(z0, c.copy(), point.loss.copy(), point.penalty)
+        best = Trial((*effects, kind.id), float(-(g @ dz) / 2), 0.0, wide, absent)
+        for share in (1.0, 0.4) if best.predicted > promised + PROMISING else ():
             dc = -np.linalg.solve(H_ss, (g_s + H_sg @ (share * dz))[..., None])[..., 0]
             dc = np.clip(dc, -4 * wide.state_prior, 4 * wide.state_prior)
             dc[fit.series.first] = 0
