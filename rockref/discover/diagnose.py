@@ -50,6 +50,8 @@ NO_WORSE = 1.1
 WORTH_A_REFIT = 120.0
 #: Share of the leader's gain below which a candidate is left where it is (decided: refits have doubled a gain).
 BEHIND = 0.4
+#: Gain above which an effect needs no challenge by the narrower family begun where it ended.
+PLAIN = 3000.0
 #: Share of structured windows below which the only candidate near the front is polished, not fitted afresh.
 ARRIVED = 0.03
 
@@ -151,6 +153,9 @@ def diagnose(
         if not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
             break
         wider = duel(setup, look, say) if structured(look.kept) <= FAR else look.order[0]
+        if look.gains[wider.effects[-1]] < PLAIN:
+            challenge(look, wider, seed)
+            say(f"  {wider.effects[-1]} against the family begun where it ended: {look.gains[wider.effects[-1]]:.0f}")
         if not rules.is_detected(look.gains[wider.effects[-1]], size_of(wider), second):
             break
         wider = refit(wider, POLISH, seed)
@@ -213,6 +218,21 @@ def race(families: list[Family], start: Family, seed: int) -> list[Family]:
             break
         alive = {k for k in alive if gains[k] > min(BEHIND * leader, leader - WORTH_A_REFIT)}
     return families
+
+
+def challenge(look: Look, wider: Family, seed: int) -> None:
+    """Begin the narrower family once more where the wider one ended, less the effect; if that is better, gains shrink.
+
+    A fit that was begun afresh may only have found a better valley, with the effect or without it.
+    """
+    if not same_windows(look.kept, wider):
+        return
+    point, _ = look.kept.fit.point(wider.point.z[: len(look.kept.point.z)], wider.point.corrections)
+    again = refit(Family(look.kept.effects, look.kept.fit, point), POLISH, seed)
+    if again.point.objective < look.kept.point.objective:
+        less = gain_over(look.kept, again)
+        look.kept = again
+        look.gains = {id: gain - less for id, gain in look.gains.items()}
 
 
 def without(setup: Setup, family: Family, effect: str) -> Family:

@@ -11,8 +11,9 @@ from rockref.effects import catalogue
 
 #: At most so many effects are looked for.
 MOST_EFFECTS = 2
-#: Gain (log-likelihood units, windows clipped) above which an effect is there; calibrated on controls.
-DETECTED = 350.0
+#: Gain (log-likelihood units, windows clipped) above which an effect is there; decided: against a baseline that was
+#: begun once more where the effect's fit ended, no candidate gained 30 on controls.
+DETECTED = 100.0
 #: The same for a second effect, and its least size: what the first fit left unfinished gains something for everyone.
 SECOND, SECOND_SIZE = 900.0, 0.25
 #: What must be left to gain for a second effect to be looked for at all.
