@@ -286,6 +286,8 @@ def conclude(
         by_run={r.id: structured(final, i) for i, r in enumerate(setup.runs)},
     )
     decision = rules.decide(facts)
+    # What was there from the start, by the look at the release, is ranked by what it gains over the plain baseline.
+    ranked = {e: gain_between(null, final) for e in final.effects if e not in look.gains} | look.gains
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
     card = signature(null.fit, null.point, final.fit, final.point)
     total = {id: max(g, 0.0) for id, g in look.gains.items()}
@@ -300,7 +302,7 @@ def conclude(
         experiment=experiment,
         verdict=decision.verdict,
         effects=decision.effects,
-        ranking=rules.ranking(look.gains, facts),
+        ranking=rules.ranking(ranked),
         amplitudes=amplitudes(final) if kept else {},
         error={
             "unit": "deg/s RMS",

@@ -133,11 +133,9 @@ def decide(facts: Facts) -> Decision:
     return Decision("named", (name,), f"{name} is missing: the error falls on fitted and held-out runs.")
 
 
-def ranking(gains: dict[str, float], facts: Facts) -> list[dict[str, Any]]:
+def ranking(gains: dict[str, float]) -> list[dict[str, Any]]:
     """Candidates by gain, with the gain as a number of standard deviations and a weight."""
-    all_gains = dict(gains)
-    for e in facts.effects:
-        all_gains.setdefault(e, max([*gains.values(), DETECTED]) * 1.5)
+    all_gains = {id: float(gain) for id, gain in gains.items()}
     order = sorted(all_gains, key=lambda id: -all_gains[id])
     top = all_gains[order[0]] if order else 0.0
     raw = {id: np.exp((all_gains[id] - top) / (0.1 * max(top, DETECTED))) for id in order}

@@ -60,7 +60,7 @@ def test_second_effect_must_settle_the_windows():
 
 
 def test_weights_add_up_and_follow_the_gains():
-    table = ranking({"adhesion": 10.0, "quadratic_drag": 900.0, "clock_error": 400.0}, facts())
+    table = ranking({"adhesion": 10.0, "quadratic_drag": 900.0, "clock_error": 400.0})
     assert [row["effect"] for row in table] == ["quadratic_drag", "clock_error", "adhesion"]
     # Weights are rounded to four digits.
     assert sum(row["weight"] for row in table) == pytest.approx(1, abs=2e-4)
