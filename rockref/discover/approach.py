@@ -18,7 +18,7 @@ from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.windows import STATES
 
 #: Changes of the warp that are looked at [m]; decided: three standard deviations of heights known to 15 %, in steps of
-#: the width of the valley (half its depth is lost 3 to 5 um off its bottom, on the practice experiments).
+#: less than the valley's width (half its depth is lost some 5 to 10 um off its bottom, on the practice experiments).
 WARPS = np.arange(-50e-6, 51e-6, 2.5e-6)
 FINER = np.arange(-3e-6, 3.1e-6, 1e-6)
 #: Prior deviations by which the other parameters are moved.

@@ -282,7 +282,6 @@ def conclude(
         median=float(np.median(2 * final.point.loss / final.fit.series.count)),
         held_gain=held_gains(plain, with_effect),
         held_floor=float(np.median(2 * plain.loss / plain.count)),
-        at_start=() if not looks or looks[0].kept.effects == () else looks[0].kept.effects,
         by_run={r.id: structured(final, i) for i, r in enumerate(setup.runs)},
     )
     decision = rules.decide(facts)

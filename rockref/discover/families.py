@@ -11,7 +11,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.candidates import SHAPES, value_of
 from rockref.discover.evidence import clipped_gain
 from rockref.discover.fit import Fit, Point
-from rockref.discover.search import Setup, baseline
+from rockref.discover.search import Setup, baseline, nominal
 
 
 @dataclass
@@ -34,7 +34,7 @@ def afresh(setup: Setup, family: Family) -> Family:
 
     What it started from was bent to make up for the effect, and holds it back.
     """
-    z = np.array([zi if "." in p.name else 0.0 for p, zi in zip(family.fit.parameters, family.point.z, strict=True)])
+    z = nominal(family.fit.parameters, family.point.z)
     return Family(family.effects, *baseline(setup, family.effects, z))
 
 

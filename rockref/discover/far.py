@@ -10,7 +10,7 @@ import numpy as np
 from rockref.discover.approach import approached_beside
 from rockref.discover.families import Family, mean_loss
 from rockref.discover.fit import Fit
-from rockref.discover.search import FIRST_STAGE, FRESH, SHORT, Setup, Trial, baseline, early, windows
+from rockref.discover.search import FIRST_STAGE, FRESH, SHORT, Setup, Trial, baseline, early, nominal, windows
 
 #: Candidates of the screen, and of the first looks, that are fitted to the short windows, with so many iterations; and
 #: how many are then fitted in full.
@@ -31,7 +31,7 @@ def from_far(setup: Setup, trials: list[Trial], kept: Family, say: Callable[[str
     chosen = dict.fromkeys([*(t.effects for t in trials[:LOOKED_AT]), *list(begun)[:LOOKED_AT]])
     looked = []
     for effects in chosen:
-        z = np.concatenate([nominal(kept), begun[effects].point.z[n:]])
+        z = np.concatenate([nominal(kept.fit.parameters, kept.point.z), begun[effects].point.z[n:]])
         looked.append(Family(effects, *early(setup, effects, z, LOOKS)))
         say(f"  from far: {effects[-1]} {mean_loss(looked[-1]):.2f}")
     looked.sort(key=mean_loss)
@@ -51,9 +51,3 @@ def first_looks(setup: Setup, trials: list[Trial], kept: Family) -> list[Family]
         z = np.concatenate([kept.point.z, np.zeros(len(fit.parameters) - n)])
         found.append(Family(trial.effects, fit, approached_beside(fit, z, n)))
     return found
-
-
-def nominal(family: Family) -> np.ndarray:
-    """The baseline's parameters at the centres of their priors, the family's effects as they are."""
-    pairs = zip(family.fit.parameters, family.point.z, strict=True)
-    return np.array([zi if "." in p.name else 0.0 for p, zi in pairs])

@@ -11,7 +11,7 @@ from rockref.api import Model
 from rockref.discover.approach import approached, placed
 from rockref.discover.candidates import parameters_of
 from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters, roll_parameters
-from rockref.discover.windows import STATES, Cut, Series, gyro_of, sensor_of, series
+from rockref.discover.windows import Cut, Series, gyro_of, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
 from rockref.measure.impacts import main_impacts
@@ -69,11 +69,9 @@ def windows(setup: Setup, lengths: tuple[float, float], model: Model | None = No
     return series(setup.experiment, setup.runs, *lengths, setup.end, sensor=sensor, workers=setup.workers)
 
 
-def moved(point: Point, fit: Fit) -> Point:
-    """The same parameters on other windows: corrections begin at zero."""
-    z = np.zeros(len(fit.parameters))
-    z[: len(point.z)] = point.z
-    return fit.point(z, np.zeros((fit.series.B, STATES)))[0]
+def nominal(parameters: tuple[Parameter, ...], z: np.ndarray) -> np.ndarray:
+    """The baseline's parameters at the centres of their priors, those of the effects as they are."""
+    return np.array([zi if "." in p.name else 0.0 for p, zi in zip(parameters, z, strict=True)])
 
 
 def staged(setup: Setup, effects: tuple[str, ...], z: np.ndarray, lengths: tuple[float, float]) -> Fit:
@@ -92,10 +90,9 @@ def early(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int
     little. Which of them finds the valley is luck, on controls too.
     """
     fit = staged(replace(setup, end=min(setup.end, FIRST_STAGE)), effects, z, SHORT)
-    nominal = np.array([zi if "." in p.name else 0.0 for p, zi in zip(fit.parameters, z, strict=True)])
     begun = [approached(fit, z)]
-    if np.any(nominal != z):
-        begun.append(approached(fit, nominal))
+    if np.any(nominal(fit.parameters, z) != z):
+        begun.append(approached(fit, nominal(fit.parameters, z)))
     rng, first = np.random.default_rng(setup.seed), min(TRIED, iterations)
     tried = [fit.run(point, first, rng) for point in begun]
     best = min(tried, key=lambda p: p.objective)

@@ -11,8 +11,8 @@ from rockref.effects import catalogue
 
 #: At most so many effects are looked for.
 MOST_EFFECTS = 2
-#: Gain (log-likelihood units, windows clipped) above which an effect is there; decided: against a baseline that was
-#: begun once more where the effect's fit ended, no candidate gained 30 on controls.
+#: Gain (log-likelihood units, windows clipped) above which an effect is there, if it has a size too; decided: on five
+#: controls the best candidate gained 2 to 103, at no more than a tenth of its typical size.
 DETECTED = 100.0
 #: The same for a second effect, and its least size: what the first fit left unfinished gains something for everyone.
 SECOND, SECOND_SIZE = 900.0, 0.25
@@ -63,7 +63,6 @@ class Facts:
     median: float
     held_gain: list[float]
     held_floor: float
-    at_start: tuple[str, ...] = ()
     by_run: dict[str, float] = field(default_factory=dict)
 
 

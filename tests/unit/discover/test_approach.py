@@ -47,7 +47,7 @@ def test_warp_of_the_feet_is_found():
     found = approached(fit, nominal.z)
     # Half of the windows' misfit is gone before anything is fitted.
     assert found.objective < 0.5 * nominal.objective
-    # The valley is 3 to 5 um wide, and it is looked at in steps of 1 um.
+    # Half the valley's depth is lost 5 um off its bottom, and it is looked at in steps of 1 um.
     assert WARP @ heights(fit, found.z) == pytest.approx(WARP @ true, abs=4e-6)
 
 

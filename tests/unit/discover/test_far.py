@@ -4,8 +4,8 @@ import numpy as np
 
 from rockref import Model
 from rockref.discover.families import Family
-from rockref.discover.far import first_looks, nominal
-from rockref.discover.search import SHORT, Setup, Trial, windows
+from rockref.discover.far import first_looks
+from rockref.discover.search import SHORT, Setup, Trial, nominal, windows
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 
@@ -35,6 +35,6 @@ def test_nominal_keeps_the_effects_alone():
     trial = Trial(("mass_eccentricity",), 0.0, 0.0, kept.fit, kept.point)
     (family,) = first_looks(setup, [trial], kept)
     family.point.z[:] = 0.5
-    z = nominal(family)
+    z = nominal(family.fit.parameters, family.point.z)
     effects = np.array(["." in p.name for p in family.fit.parameters])
     assert np.all(z[effects] == 0.5) and np.all(z[~effects] == 0)
