@@ -69,10 +69,20 @@ def gain_over(kept: Family, other: Family) -> float:
 
 
 def gain_between(kept: Family, other: Family) -> float:
-    """The gain, also where a sensor effect has moved the cuts of the windows."""
+    """The gain, also where a sensor effect has moved the cuts of the windows: sample by sample then.
+
+    Both kinds of gain are clipped alike, so that candidates with and without a sensor may be ranked by them.
+    """
     if same_windows(kept, other):
         return gain_over(kept, other)
-    return 0.5 * other.fit.series.count.sum() * mean_loss(kept) - other.point.objective
+    worse, better = by_sample(kept), by_sample(other)
+    return clipped_gain(worse, better, np.full(len(worse), 3.0)) - (other.point.penalty - kept.point.penalty)
+
+
+def by_sample(family: Family) -> np.ndarray:
+    """Loss of each sample of the runs, one after the other: that of its window, shared out evenly."""
+    series = family.fit.series
+    return np.repeat(3 * family.point.loss / series.count, series.length)
 
 
 def size_of(family: Family, effect: str | None = None) -> float:
