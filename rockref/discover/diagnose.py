@@ -31,10 +31,13 @@ from rockref.discover.far import from_far
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
 from rockref.discover.on_this_data import seen_by
+from rockref.discover.plan import switches_of
 from rockref.discover.presearch import STRONG, suspects
 from rockref.discover.search import FRESH, Setup, baseline, screen
+from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
+from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
@@ -289,7 +292,6 @@ def conclude(
     ranked = {e: gain_between(null, final) for e in final.effects if e not in look.gains} | look.gains
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
     card = signature(null.fit, null.point, final.fit, final.point)
-    total = {id: max(g, 0.0) for id, g in look.gains.items()}
     noise = float(np.degrees(gyro_of(setup.experiment).noise))
     shown = final if kept else null
     had = (*shown.effects, *(e.id for e in setup.base.active_effects()))
@@ -314,7 +316,7 @@ def conclude(
                 "holdout": with_effect.rms if kept else plain.rms,
             },
         },
-        separating_experiment=rules.separating(decision, total),
+        separating_experiment=to_be_sure(setup, null, final, decision),
         signature=card,
         gates=rules.gates(facts, decision) | {g.name: g.to_dict() for g in checks},
         detection_limits=limits,
@@ -323,6 +325,18 @@ def conclude(
         seconds=time.perf_counter() - begun,
         model=shown.fit.models(shown.point.z)[0][0],
     )
+
+
+def to_be_sure(setup: Setup, null: Family, final: Family, decision: rules.Decision) -> str:
+    """The experiment that would tell the members of a class apart, by simulation; else what the catalogue advises."""
+    if decision.verdict == "class":
+        own = {p.name: zi for p, zi in zip(final.fit.parameters, final.point.z, strict=True)}
+        switches = switches_of(catalogue.find(decision.effects[0]))
+        model = null.fit.models(null.point.z)[0][0]
+        size = np.array([own.get(p.name, 0.0) for p in switches])
+        if found := separating_run(setup, model, decision.effects, size):
+            return found
+    return rules.separating(decision)
 
 
 def held_gains(plain: HeldOut, other: HeldOut) -> list[float]:

@@ -150,8 +150,8 @@ def ranking(gains: dict[str, float]) -> list[dict[str, Any]]:
     ]
 
 
-def separating(decision: Decision, gains: dict[str, float]) -> str:
-    """The experiment that would tell the members of a class apart, or confirm the named effect."""
+def separating(decision: Decision) -> str:
+    """What the catalogue advises to confirm the first effect of a verdict."""
     if not decision.effects:
         return ""
     return catalogue.EFFECTS[decision.effects[0]].experiment
