@@ -20,6 +20,7 @@ from rockref.discover.families import (
     amplitudes,
     gain_between,
     gain_over,
+    loud,
     mean_loss,
     refit,
     room,
@@ -286,6 +287,7 @@ def conclude(
         held_gain=held_gains(plain, with_effect),
         held_floor=float(np.median(2 * plain.loss / plain.count)),
         by_run={r.id: structured(final, i) for i, r in enumerate(setup.runs)},
+        loud=(loud(final.point.loss, final.fit.series.count), loud(with_effect.loss, with_effect.count)),
     )
     decision = rules.decide(facts)
     # What was there from the start, by the look at the release, is ranked by what it gains over the plain baseline.

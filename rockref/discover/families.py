@@ -45,6 +45,11 @@ def structured(family: Family, run: int | None = None) -> float:
     return float(np.mean((2 * family.point.loss / series.count > 1.5)[mine]))
 
 
+def loud(loss: np.ndarray, count: np.ndarray) -> int:
+    """How many windows are far above the noise; loss, count: of each window."""
+    return int(np.sum(2 * loss / count > rules.LOUD))
+
+
 def room(family: Family) -> float:
     """What any further effect could gain: the loss above noise, each window's clipped as in a gain."""
     count = family.fit.series.count

@@ -1,5 +1,7 @@
 """The rules of the verdict, each at the fact that it speaks of."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -65,3 +67,14 @@ def test_weights_add_up_and_follow_the_gains():
     # Weights are rounded to four digits.
     assert sum(row["weight"] for row in table) == pytest.approx(1, abs=2e-4)
     assert np.all(np.diff([row["gain"] for row in table]) <= 0)
+
+
+@pytest.mark.parametrize(
+    "loud, word", [((0, 0), "none"), ((5, 0), "none"), ((1, 3), "none"), ((2, 2), "something_else")]
+)
+def test_windows_far_above_the_noise_in_fitted_and_held_out_runs_are_something_else(loud, word):
+    assert decide(replace(facts(effects=()), loud=loud)).verdict == word
+
+
+def test_a_few_loud_windows_do_not_unsay_an_effect():
+    assert decide(replace(facts(), loud=(3, 3))).verdict == "named"
