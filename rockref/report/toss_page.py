@@ -40,7 +40,11 @@ def write_toss_diagnosis(record: dict[str, Any], folder: Path) -> Path:
 
 def add_diagnosis(page: Page, record: dict[str, Any]) -> None:
     """The sections of a diagnosis."""
-    page.add_section("The staircase", "Each step adds the effect that explains most of the fit tosses.")
+    page.add_section(
+        "The staircase",
+        "All effects were fitted together, and what is not needed was taken away, the least needed first. Seen from "
+        "below each step adds one; the numbers of all the others were fitted anew with it.",
+    )
     page.add_figure(
         staircase_picture(record),
         "Held-out error after each added effect; the dashed line is the floor that the starts' uncertainty sets.",
@@ -69,29 +73,24 @@ def staircase_picture(record: dict[str, Any]) -> bytes:
     import matplotlib.pyplot as plt
 
     steps = record["staircase"]
-    names = ["stated\nvalues", "contact\nfitted"] + [
-        "+ " + s["added"].split(":")[0].replace("_", "\n") for s in steps[1:]
-    ]
-    figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
-    for k, (axis, key, unit) in enumerate(
-        zip(
-            axes,
-            ("position_percent", "rotation_deg"),
-            ("position error, % of width", "rotation error, deg"),
-            strict=True,
-        )
-    ):
+    names = ["stated values", "contact fitted"] + ["+ " + s["added"].replace("_", " ") for s in steps[1:]]
+    rows = range(len(names))
+    size = (10, 1.6 + 0.28 * len(names))
+    figure, axes = plt.subplots(1, 2, figsize=size, sharey=True, layout="constrained")
+    labels = ("position error, % of width", "rotation error, deg")
+    for k, (axis, key, unit) in enumerate(zip(axes, ("position_percent", "rotation_deg"), labels, strict=True)):
         for start, color, mark in (("raw", PALE, "s"), ("flight", INK, "o")):
-            y = [record["nominal_holdout"][start][key]["mean"]] + [s["holdout"][start][key]["mean"] for s in steps]
-            axis.plot(range(len(y)), y, mark + "-", color=color, label=f"start: {start}")
-        axis.axhline(record["floor"][key], color=INK, ls="--", lw=1, label="floor of the starts")
-        axis.axhline(min(v[2 * k] for v in PUBLISHED.values()), color=SECOND, lw=1, label="best published (raw)")
-        axis.set_xticks(range(len(names)), names, fontsize=7)
-        axis.set_ylabel(unit)
-        axis.set_ylim(bottom=0)
+            x = [record["nominal_holdout"][start][key]["mean"]] + [s["holdout"][start][key]["mean"] for s in steps]
+            axis.plot(x, rows, mark + "-", color=color, label=f"start: {start}")
+        axis.axvline(record["floor"][key], color=INK, ls="--", lw=1, label="floor of the starts")
+        axis.axvline(min(v[2 * k] for v in PUBLISHED.values()), color=SECOND, lw=1, label="best published (raw)")
+        axis.set_yticks(rows, names, fontsize=8)
+        axis.set_xlabel(unit)
+        axis.set_xlim(left=0)
         for side in ("top", "right"):
             axis.spines[side].set_visible(False)
-    axes[0].legend(frameon=False, fontsize=8)
+    axes[0].invert_yaxis()
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=4, frameon=False, fontsize=8)
     out = io.BytesIO()
     figure.savefig(out, format="png", dpi=110, metadata={"Software": None})
     plt.close(figure)

@@ -1,10 +1,10 @@
-"""What is missing in the model of tosses, several effects deep: learn on the fit tosses, prove on the held-out ones."""
+"""What is missing in the model of tosses, effect by effect: learned on the fit tosses, proven on the held-out ones."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,11 +13,13 @@ from rockref.api import Model
 from rockref.discover.tosses.body import nominal_model
 from rockref.discover.tosses.compare import measured
 from rockref.discover.tosses.errors import Errors, errors
-from rockref.discover.tosses.first_guess import first_guesses, guessed
-from rockref.discover.tosses.fit import HORIZONS, TossFit, cut, picked
+from rockref.discover.tosses.first_guess import first_guesses
+from rockref.discover.tosses.fit import HORIZONS, TossFit
+from rockref.discover.tosses.fitting import at_values, unfitted
 from rockref.discover.tosses.gates import floor_of, paired, step_small, total
 from rockref.discover.tosses.parameters import CANDIDATES, apply
 from rockref.discover.tosses.predict import predict
+from rockref.discover.tosses.together import STAGES, Stair, all_together, needed, way_down
 from rockref.discover.verdict import RIVAL
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT
@@ -25,33 +27,25 @@ from rockref.measure.flight import Poses, side_by_side
 from rockref.measure.tosses import Tosses
 from rockref.model.errors import InputError
 
-#: At most so many effects are added one after the other.
-DEEPEST = 8
-#: Share of the objective that an effect must gain on the fit tosses; decided: what ten numbers gain on 200 tosses by
-#: luck is a hundredth, and what is smaller matters to nobody's simulation.
-LEAST_GAIN = 0.01
-#: Candidates that are refitted after the screen; iterations of such a refit, of the winner, and of the first and the
-#: last rung. An iteration ends a fit that gains no more.
-REFITTED, REFIT_ITERATIONS, ITERATIONS, FIRST_ITERATIONS = 2, 5, 12, 16
-#: Frames over which candidates compete: all that moves, since friction shows in the slide that ends a toss.
-LONG = HORIZONS[-1]
-#: Candidates compete on every so many tosses.
-SKIPPED = 2
-#: How many of the small ones are fitted together at the end, and how the rung begins.
-TOGETHER, SMALL = 10, "small ones together: "
+#: Most iterations of the law's own fit and of the last polish; an iteration that gains no more ends a fit.
+FIRST_ITERATIONS, LAST_ITERATIONS = 16, 12
 #: Least tosses on either side for a verdict (decided: below it the bootstrap of a mean with heavy tails means little).
 LEAST_TOSSES = 8
 
 
 @dataclass
 class Step:
-    """One rung of the staircase: the effect that was added, its rivals on the fit tosses, and the fitted model."""
+    """One rung of the staircase: the effect that was added, what it gains on the fit tosses, and the fitted model.
+
+    gain : share of the objective by which the effect lowers it on its rung.
+    taken_over : share of this gain that stays without the effect if all other candidates are in the model.
+    """
 
     effect: str
-    gains: dict[str, float]
     fit: TossFit
     z: np.ndarray
-    objective: float
+    gain: float = 0.0
+    taken_over: float = 0.0
     verdict: str = ""
     holdout: dict[str, Errors] = field(default_factory=dict)
     fitted: Errors | None = None
@@ -116,8 +110,8 @@ def rung(s: Step) -> dict[str, Any]:
     return {
         "added": s.effect or "the law, its contact fitted",
         "verdict": s.verdict,
-        "gains_percent": {k: round(100 * g, 2) for k, g in s.gains.items()},
-        "objective": round(s.objective, 4),
+        "gain_percent": round(100 * s.gain, 2),
+        "taken_over_by_others_percent": round(100 * s.taken_over, 1),
         "fit": s.fitted.summary() if s.fitted else {},
         "holdout": {k: e.summary() for k, e in s.holdout.items()},
         "proof": s.proof,
@@ -128,15 +122,17 @@ def rung(s: Step) -> dict[str, Any]:
 def diagnose(
     tosses: Tosses,
     model: Model | None = None,
-    deepest: int = DEEPEST,
+    candidates: Sequence[str] | None = None,
+    stages: Sequence[tuple[int, int]] = STAGES,
     progress: Callable[[str], None] | None = None,
 ) -> TossDiagnosis:
-    """Add the effect that explains most, again and again, until none explains enough; then look at the held-out tosses.
+    """Fit all candidates together, take away what is not needed, and show the held-out tosses what each one does.
 
     Parameters
     ----------
     tosses : with their marks.  model : what to start from; by default the plain law with stated values.
-    deepest : most effects.  progress : called with a line at every stage.
+    candidates : effects that may be missing; by default all that tosses are asked about.
+    stages : frames and most iterations of the joint fit.  progress : called with a line at every stage.
 
     Raises
     ------
@@ -151,97 +147,53 @@ def diagnose(
                 "E-SIZE", str(tosses.path), f"has {len(tosses.used(use))} tosses of use {use}",
                 f"A verdict needs {LEAST_TOSSES} of each.",
             )  # fmt: skip
-    base = model or nominal_model(tosses)
+    given = model or nominal_model(tosses)
+    base, own = unfitted(given)
     poses = side_by_side(tosses.used(FIT), tosses.rate)
     found = measured(tosses.used(FIT), tosses, base)
-    guesses = first_guesses(found, base)
-    fit = TossFit(base, (), poses, tosses.width, log=say)
-    z, objective = fit.run(np.zeros(len(fit.parameters)), FIRST_ITERATIONS)
-    steps = [Step("", {}, fit, z, objective)]
-    while len(steps) <= deepest and not at_the_floor(steps[-1], say):
-        step = look_further(steps[-1], guesses, say)
-        if step is None:
-            steps += small_ones(steps[-1], say)
-            break
-        steps.append(step)
-        say(f"{step.effect}: {steps[-2].objective:.3f} -> {step.objective:.3f}")
+    fit = TossFit(base, tuple(own), poses, tosses.width, log=say)
+    law = Stair(fit, *fit.run(at_values(fit.parameters, own), FIRST_ITERATIONS))
+    steps = [Step("", law.fit, law.z)]
+    if not at_the_floor(steps[0], say):
+        others = [id for id in (candidates or tuple(CANDIDATES)) if id not in own]
+        say("all candidates together")
+        full = all_together(law, others, first_guesses(found, base), stages)
+        say("the way down")
+        steps = rungs(way_down(full, tuple(own), say), law, say)
     held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
     say("the held-out tosses")
-    return conclude(tosses, base, steps, poses, held, found, begun)
+    return conclude(tosses, given, steps, poses, held, found, begun)
 
 
-def look_further(last: Step, guesses: dict[str, float], say: Callable[[str], None]) -> Step | None:
-    """The next rung, or None where no candidate gains enough on the fit tosses."""
-    promised = screen(last)
-    order = sorted(promised, key=lambda id: promised[id][0])
-    say("  screen: " + ", ".join(f"{id} {promised[id][0]:.3f}" for id in order[:6]))
-    if not order:
-        return None
-    poses = some(last.fit.poses)
-    weight = last.fit.frame_weights(last.z, cut(poses, LONG))
-    _, plain = replace(last.fit, poses=poses).run(last.z, REFIT_ITERATIONS, (LONG,), weight)
-    found = {}
-    for id in dict.fromkeys((*order[:REFITTED], *(id for id in order if told(id, guesses)))):
-        fit = TossFit(last.fit.base, (*last.fit.effects, id), poses, last.fit.width, log=say)
-        measured_start = guessed(promised[id][1], fit.parameters, id, guesses)
-        begins = [promised[id][1]] if id in order[:REFITTED] else []
-        begins += [measured_start] if measured_start is not None else []
-        ends = [fit.run(z, REFIT_ITERATIONS, (LONG,), weight) for z in begins]
-        found[id] = min(ends, key=lambda end: end[1])
-    gains = {id: 1 - f[1] / plain for id, f in found.items()}
-    best = max(gains, key=lambda id: gains[id])
-    if gains[best] < LEAST_GAIN:
-        say(f"  {best} gains {gains[best]:.1%}: not enough")
-        return None
-    fit = TossFit(last.fit.base, (*last.fit.effects, best), last.fit.poses, last.fit.width, log=say)
-    return Step(best, gains, fit, *fit.run(found[best][0], ITERATIONS, (LONG,)))
+def rungs(stairs: list[Stair], law: Stair, say: Callable[[str], None]) -> list[Step]:
+    """The way down, seen from below: from the law to the model of which every effect is needed."""
+    costs = stairs[0].costs
+    stairs = stairs[needed(stairs) :]
+    low = min((stairs[-1], law), key=lambda s: left_over(s.fit, s.z))
+    steps = [Step("", low.fit, low.z)]
+    for below, stair in zip(stairs[:0:-1], stairs[-2::-1], strict=True):
+        (effect,) = set(stair.fit.effects) - set(below.fit.effects)
+        gain = below.objective - stair.objective
+        over = 1 - costs[effect] / gain if gain > 0 else 1.0
+        steps.append(Step(effect, stair.fit, stair.z, gain / below.objective, float(np.clip(over, 0, 1))))
+    say("the last polish")
+    steps[-1].z, _ = steps[-1].fit.run(steps[-1].z, LAST_ITERATIONS, (HORIZONS[-1],))
+    return steps
 
 
-def told(id: str, guesses: dict[str, float]) -> bool:
-    """Whether something was measured of an effect without a contact model."""
-    return any(name.startswith(id + ".") for name in guesses)
-
-
-def some(poses: Poses) -> Poses:
-    """The tosses on which candidates compete."""
-    return picked(poses, np.arange(0, len(poses.x), SKIPPED))
+def left_over(fit: TossFit, z: np.ndarray) -> float:
+    """The error of a fit's own tosses, position [%] plus rotation [deg]."""
+    return total(errors(predict(fit.model(z), fit.poses), fit.poses, fit.width))
 
 
 def at_the_floor(last: Step, say: Callable[[str], None]) -> bool:
     """Whether the fit tosses are predicted as well as their uncertain starts allow: nothing is left to learn."""
     floor = floor_of(last.model, last.fit.poses, last.fit.width)
-    left = total(errors(predict(last.model, last.fit.poses), last.fit.poses, last.fit.width))
+    left = left_over(last.fit, last.z)
     low = floor["position_percent"] + floor["rotation_deg"]
     if left < low:
         say(f"  error {left:.2f} is below the floor of the starts, {low:.2f}")
     return left < low
-
-
-def small_ones(last: Step, say: Callable[[str], None]) -> list[Step]:
-    """The last rung: the candidates that are each too small to be named, fitted together; none where there are none."""
-    promised = screen(last)
-    if not promised:
-        return []
-    order = sorted(promised, key=lambda id: promised[id][0])[:TOGETHER]
-    fit = TossFit(last.fit.base, (*last.fit.effects, *order), last.fit.poses, last.fit.width, log=say)
-    z = np.concatenate([last.z, *[promised[id][1][len(last.z) :] / len(order) for id in order]])
-    return [Step(SMALL + ", ".join(order), {}, fit, *fit.run(z, FIRST_ITERATIONS, (LONG,)))]
-
-
-def screen(last: Step) -> dict[str, tuple[float, np.ndarray]]:
-    """Every candidate on top of a step: the best objective that one descent of all numbers reaches, and where."""
-    fit, z = last.fit, last.z
-    poses = cut(some(fit.poses), LONG)
-    weight = fit.frame_weights(z, poses)
-    known = fit.slopes(z, poses, weight)
-    found = {}
-    for id in CANDIDATES:
-        if id in fit.effects:
-            continue
-        wider = TossFit(fit.base, (*fit.effects, id), poses, fit.width)
-        wide = np.concatenate([z, np.zeros(len(wider.parameters) - len(z))])
-        found[id] = wider.descend(wide, poses, weight, wider.slopes(wide, poses, weight, known))
-    return {id: (now, wide) for id, (wide, now) in found.items()}
 
 
 def conclude(
@@ -262,21 +214,21 @@ def conclude(
     last = steps[-1]
     return TossDiagnosis(
         tosses, verdict, proven, sentence, steps, nominal, floor_of(last.model, held, tosses.width), found,
-        agreement(last, found, base), [step_small(last.model, held, tosses.width)], time.perf_counter() - begun,
+        agreement(last, found, last.fit.base), [step_small(last.model, held, tosses.width)],
+        time.perf_counter() - begun,
     )  # fmt: skip
 
 
 def word(step: Step) -> str:
-    """The verdict of one rung: named, class (a rival gains as much), indicated (held-out tosses do not tell), none."""
+    """The verdict of one rung: named, class (the others could stand for it), indicated (held-out tosses do not tell),
+    none."""
     if not step.effect:
         return ""
     if step.proof["high"] < 0:
         return "none"
-    if step.proof["low"] <= 0 or step.effect.startswith(SMALL):
+    if step.proof["low"] <= 0:
         return "indicated"
-    best = step.gains[step.effect]
-    near = [id for id, g in step.gains.items() if id != step.effect and g > RIVAL * best]
-    return "class" if near else "named"
+    return "class" if step.taken_over > RIVAL else "named"
 
 
 def words(steps: list[Step], proven: tuple[str, ...]) -> tuple[str, str]:

@@ -80,7 +80,8 @@ class TossFit:
         objective = np.inf
         for frames in horizons:
             z, objective = self._stage(z, cut(self.poses, frames), iterations, weight)
-            self.log(f"  {'+'.join(self.effects) or 'the law'}, {frames} frames: {objective:.3f}")
+            many = f"{len(self.effects)} effects" if len(self.effects) > 3 else "+".join(self.effects)
+            self.log(f"  {many or 'the law'}, {frames} frames: {objective:.3f}")
         return z, objective
 
     def _stage(

@@ -42,10 +42,10 @@ def test_the_paired_interval_sees_what_is_common_to_all_tosses():
 
 
 @pytest.mark.parametrize(
-    ("low", "high", "rival", "expected"),
-    [(0.5, 1.0, 0.1, "named"), (0.5, 1.0, 0.198, "class"), (-0.2, 0.5, 0.1, "indicated"), (-1.0, -0.1, 0.1, "none")],
+    ("low", "high", "taken_over", "expected"),
+    [(0.5, 1.0, 0.5, "named"), (0.5, 1.0, 0.99, "class"), (-0.2, 0.5, 0.5, "indicated"), (-1.0, -0.1, 0.5, "none")],
 )
-def test_words_follow_the_proof(low, high, rival, expected):
-    step = Step("tag_frame", {"tag_frame": 0.2, "plate_pose": rival}, None, np.zeros(0), 1.0)
+def test_words_follow_the_proof(low, high, taken_over, expected):
+    step = Step("tag_frame", None, np.zeros(0), 0.2, taken_over)
     step.proof = {"low": low, "high": high}
     assert word(step) == expected
