@@ -95,20 +95,16 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
     """The errors of one model."""
     found = predict(model, poses, start)
     e = errors(found, poses, width)
-    x, Lambda = found.frames.to_body(poses.x, poses.Lambda)
-    P = np.asarray(nominal_corners(model))
-    return Row(name, use, start, e, by_stretch(stretch_of(poses._replace(x=x, Lambda=Lambda), P), e))
+    # Where a toss is in its course is said of the measurement, by the same drawn corners for every model.
+    x, Lambda = frames_of(plain_law(model), throw_frame(poses)).to_body(poses.x, poses.Lambda)
+    return Row(
+        name, use, start, e, by_stretch(stretch_of(poses._replace(x=x, Lambda=Lambda), nominal_corners(model)), e)
+    )
 
 
 def nominal_corners(model: Model) -> np.ndarray:
-    """The model's contact points from its centre of mass, (n, 3) [m]."""
-    from rockref.discover.tosses.body import in_the_step
-
-    points = in_the_step(model).body()[1]
-    P = np.array(points.P)
-    if points.radius is not None:
-        P[:, 2] += np.asarray(points.radius)
-    return P
+    """The contact points of the model without its effects, (n, 3) from the middle [m]."""
+    return np.array(plain_law(model).body()[1].P)
 
 
 def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str, Any]:
@@ -117,7 +113,7 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
     frames = frames_of(plain_law(model), throw_frame(poses))
     x, Lambda = frames.to_body(poses.x, poses.Lambda)
     own = poses._replace(x=x, Lambda=Lambda)
-    P = nominal_corners(plain_law(model))
+    P = nominal_corners(model)
     arcs = toss_balance.flight_arcs(own, flight_frames(own, P, CLEARANCE))
     found: dict[str, Any] = {"flight_arcs": arcs.to_dict()}
     if not arcs.values:

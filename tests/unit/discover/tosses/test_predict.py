@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rockref.discover.tosses.body import frames_of, throw_frame
-from rockref.discover.tosses.compare import compare
+from rockref.discover.tosses.compare import compare, row_of
 from rockref.discover.tosses.errors import angle, errors
 from rockref.discover.tosses.predict import predict
 from rockref.discover.tosses.stretches import STRETCHES, stretch_of
@@ -105,3 +105,12 @@ def test_compare_says_both_starts_and_both_uses(tmp_path):
     for row in record["rows"]:
         if row["start"] == "flight":
             assert row["position_percent"]["median"] < 0.2
+
+
+def test_where_a_toss_is_does_not_depend_on_the_model(tmp_path):
+    x, Lambda, _ = made(stated(), 8, frames=60, seed=3)
+    poses = side_by_side(load_tosses(write_tosses(tmp_path / "t", x, Lambda)).tosses, 148.0)
+    other = stated().replace(effects=(RoundedCorners(radius=5e-3), MassEccentricity(0, 0, 5e-3)))
+    rows = [row_of("m", model, poses, 0.1048, "fit", "flight").stretches for model in (stated(), other)]
+    where = [[(s["stretch"], s["tosses"], s["frames_percent"]) for s in row] for row in rows]
+    assert where[0] == where[1] and len(where[0]) > 3
