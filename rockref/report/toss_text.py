@@ -108,6 +108,8 @@ def staircase_table(record: dict[str, Any]) -> Table:
         f"Held-out tosses. A true model would have {f['position_percent']:.1f} % and {f['rotation_deg']:.1f} deg "
         f"(medians {f['position_percent_median']:.1f}, {f['rotation_deg_median']:.1f}): the uncertainty of the starts."
     )
+    if record["not_needed"]:
+        note += f" Tried with all the others, and not needed: {', '.join(record['not_needed'])}."
     return Table("The staircase", head, tuple(rows), note)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from rockref.discover.tosses.fitting import at_values, unfitted
 from rockref.discover.tosses.gates import floor_of, paired, step_small, total
 from rockref.discover.tosses.parameters import CANDIDATES, apply
 from rockref.discover.tosses.predict import predict
-from rockref.discover.tosses.together import STAGES, Stair, all_together, needed, way_down
+from rockref.discover.tosses.together import STAGES, Stair, all_together, way_down
 from rockref.discover.verdict import RIVAL
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT
@@ -79,6 +79,7 @@ class TossDiagnosis:
     agreement: list[dict[str, Any]]
     gates: list[dict[str, Any]]
     seconds: float
+    not_needed: tuple[str, ...] = ()
 
     @property
     def model(self) -> Model:
@@ -93,6 +94,7 @@ class TossDiagnosis:
             "kind": "toss",
             "verdict": self.verdict,
             "effects": list(self.effects),
+            "not_needed": list(self.not_needed),
             "sentence": self.sentence,
             "nominal_holdout": {k: e.summary() for k, e in self.nominal.items()},
             "staircase": [rung(s) for s in self.steps],
@@ -154,21 +156,21 @@ def diagnose(
     fit = TossFit(base, tuple(own), poses, tosses.width, log=say)
     law = Stair(fit, *fit.run(at_values(fit.parameters, own), FIRST_ITERATIONS))
     steps = [Step("", law.fit, law.z)]
+    others = [id for id in (candidates or tuple(CANDIDATES)) if id not in own]
     if not at_the_floor(steps[0], say):
-        others = [id for id in (candidates or tuple(CANDIDATES)) if id not in own]
         say("all candidates together")
         full = all_together(law, others, first_guesses(found, base), stages)
         say("the way down")
         steps = rungs(way_down(full, tuple(own), say), law, say)
     held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
     say("the held-out tosses")
-    return conclude(tosses, given, steps, poses, held, found, begun)
+    result = conclude(tosses, given, steps, poses, held, found, begun)
+    return replace(result, not_needed=tuple(id for id in others if id not in steps[-1].fit.effects))
 
 
 def rungs(stairs: list[Stair], law: Stair, say: Callable[[str], None]) -> list[Step]:
     """The way down, seen from below: from the law to the model of which every effect is needed."""
     costs = stairs[0].costs
-    stairs = stairs[needed(stairs) :]
     low = min((stairs[-1], law), key=lambda s: left_over(s.fit, s.z))
     steps = [Step("", low.fit, low.z)]
     for below, stair in zip(stairs[:0:-1], stairs[-2::-1], strict=True):

@@ -77,9 +77,10 @@ def absent_left_out(stair: Stair, candidates: Sequence[str]) -> Stair:
 
 
 def way_down(full: Stair, keep: Sequence[str], say: Callable[[str], None]) -> list[Stair]:
-    """The models from `full` to the one that has only the effects in `keep`, the least needed leaving first.
+    """The models from the one of which every effect is needed to the one that has only the effects in `keep`.
 
-    What an effect is worth is its cost, less what luck gives to as many numbers.
+    The least needed effect leaves first; what it is worth is its cost, less what luck gives to as many numbers. The
+    costs that the first model comes with are those beside all the effects of `full`.
     """
     poses = cut(full.fit.poses, HORIZONS[-1])
     weight = full.fit.frame_weights(full.z, poses)
@@ -88,7 +89,10 @@ def way_down(full: Stair, keep: Sequence[str], say: Callable[[str], None]) -> li
     while True:
         going = [id for id in stair.fit.effects if id not in keep]
         if not going:
-            return way_up([*stairs, stair], poses, weight)
+            stairs.append(stair)
+            first = needed(stairs)
+            stairs[first] = replace(stairs[first], costs=stairs[0].costs)
+            return way_up(stairs[first:], poses, weight)
         slopes = stair.fit.slopes(stair.z, poses, weight)
         # At the first step all are tried: what each is worth beside all the others.
         likely = going if not stairs else sorted(going, key=lambda id: _worth(stair, id, slopes))[:TRIED]

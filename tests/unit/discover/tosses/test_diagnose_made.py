@@ -27,6 +27,8 @@ def test_a_hidden_centre_is_named_shown_and_saved(capsys, tmp_path, monkeypatch)
     assert end.value.code == 0
     record = json.loads(capsys.readouterr().out)
     assert record["effects"] == ["mass_eccentricity"] and record["verdict"] in ("named", "class")
+    # What the tosses do not have is tried, and said to be so.
+    assert record["not_needed"] == ["plate_tilt"]
     first = record["staircase"][1]
     assert first["proof"]["low"] > 0
     assert first["parameters"]["mass_eccentricity.z"]["value"] == pytest.approx(5e-3, abs=3e-4)

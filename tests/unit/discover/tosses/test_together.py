@@ -60,25 +60,25 @@ def full():
 
 def test_what_is_not_needed_leaves_first(full):
     stairs = way_down(full, (), lambda line: None)
-    assert [s.fit.effects for s in stairs[:2]] == [("a", "b", "c"), ("a", "b")]
-    assert stairs[-1].fit.effects == () and len(stairs) == 4
-    # c explains nothing: without it nothing is lost; of a and b one can stand for the other almost, so one is needed.
+    # c explains nothing: without it nothing is lost, and the way begins below it.
+    assert [s.fit.effects for s in stairs][::2] == [("a", "b"), ()] and len(stairs) == 3
     assert stairs[0].costs["c"] == pytest.approx(0, abs=1e-9)
-    assert 0 < stairs[0].costs["a"] < 0.1 < stairs[2].objective - 1 + max(stairs[2].costs.values())
+    # b can stand for a in part: beside b, a costs less than alone.
+    assert 0 < stairs[0].costs["a"] < stairs[2].objective - stairs[1].objective
     objectives = [s.objective for s in stairs]
     assert objectives == sorted(objectives)
 
 
 def test_a_model_that_got_stuck_is_fitted_from_the_one_below(full):
     down = way_down(full, (), lambda line: None)
-    stuck = replace(down[1], z=down[1].z + 3.0, objective=50.0)
-    up = way_up([down[0], stuck, *down[2:]], full.fit.poses, np.ones(1))
+    stuck = replace(down[0], z=down[0].z + 3.0, objective=50.0)
+    up = way_up([stuck, *down[1:]], full.fit.poses, np.ones(1))
     assert [s.fit.effects for s in up] == [s.fit.effects for s in down]
-    assert up[1].objective == pytest.approx(down[1].objective)
+    assert up[0].objective == pytest.approx(down[0].objective)
 
 
 def test_effects_that_are_kept_stay(full):
-    assert way_down(full, ("c",), lambda line: None)[-1].fit.effects == ("c",)
+    assert all("c" in s.fit.effects for s in way_down(full, ("c",), lambda line: None))
 
 
 def test_the_others_make_up_for_what_is_taken_away(full):
