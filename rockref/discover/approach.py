@@ -26,11 +26,14 @@ SHARES = (-1.8, -1.0, -0.5, 0.5, 1.0, 1.8)
 #: The same for what can only grow, in typical sizes (compliance of a plate: one that rings at 120 to 33 Hz).
 UPWARDS = (0.25, 0.5, 1.0, 1.8, 3.2)
 #: Parameters of the law that move every impact, in the order in which they are looked at.
-LINES = ("tilt_offset", "mu_ext", "K_N", "K_T", "beta_ext", "tilt_offset")
+LINES = ("tilt_offset", "mu_ext", "delta_diag", "K_N", "K_T", "beta_ext", "mu_int", "delta_diag", "tilt_offset")
 #: Seconds at the end of the first windows that are not release (they end 45 ms after the impact, or a little later).
 BEFORE = 0.12
+#: Prior deviations by which a fit that has not arrived jumps along the ridge of the feet (decided: four fits that had
+#: stopped beside their valley were 0.4 to 0.8 from it).
+JUMPS = (0.6, -0.6)
 #: Lines after which the effects' own parameters and the warp are looked at again.
-FOLLOWED = ("mu_ext", "K_N", "beta_ext")
+FOLLOWED = ("mu_ext", "delta_diag", "K_N", "beta_ext")
 
 
 def approached(fit: Fit, z: np.ndarray) -> Point:
@@ -119,6 +122,19 @@ def heights_of(names: list[str]) -> list[int]:
         if all(f"{stem}{i}" in names for i in (1, 2, 3, 4)):
             return [names.index(f"{stem}{i}") for i in (1, 2, 3, 4)]
     return []
+
+
+def along_ridge(fit: Fit) -> np.ndarray:
+    """Changes of z along which fits stop beside their valley: the feet's heights and their diagonal distance together.
+
+    Larger heights at a larger distance strike at nearly the same angles, in nearly the same order.
+    """
+    names = [p.name for p in fit.parameters]
+    heights = heights_of(names)
+    distance = [i for i, name in enumerate(names) if name.endswith("delta_diag")]
+    moves = np.zeros((len(JUMPS) if heights and distance else 0, len(names)))
+    moves[:, [*heights, *distance]] = np.array(JUMPS[: len(moves)])[:, None]
+    return moves
 
 
 def along_warp(fit: Fit, heights: list[int], warps: np.ndarray) -> np.ndarray:

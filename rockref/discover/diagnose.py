@@ -47,6 +47,9 @@ REFITTED, ITERATIONS = 6, 3
 POLISH = 4
 #: Share of structured windows above which a family is too far off for small steps: candidates begin at a size.
 FAR = 0.5
+#: Candidates begin at a size, too, where no small step leaves less than NOWHERE of the structured windows that there
+#: were, and where these are more than FEW_STRUCTURED of all (on controls 0 to 2 % stay structured).
+NOWHERE, FEW_STRUCTURED = 0.6, 0.05
 #: The plain baseline is built on unless a suspect of the presearch, on windows of its own, fits better by this factor
 #: of mean loss (decided).
 NO_WORSE = 1.1
@@ -156,7 +159,7 @@ def diagnose(
         second = bool(start.effects)
         if not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
             break
-        wider = duel(setup, look, say) if structured(look.kept) <= FAR else look.order[0]
+        wider = look.order[0] if look.in_full else duel(setup, look, say)
         if look.gains[wider.effects[-1]] < PLAIN:
             challenge(look, wider, seed)
             say(f"  {wider.effects[-1]} against the family begun where it ended: {look.gains[wider.effects[-1]]:.0f}")
@@ -183,11 +186,15 @@ def diagnose(
 
 @dataclass
 class Look:
-    """Candidates on top of a family: the family refitted, the candidates by gain, their gains."""
+    """Candidates on top of a family: the family refitted, the candidates by gain, their gains.
+
+    in_full : whether the front of them was fitted through both stages already.
+    """
 
     kept: Family
     order: list[Family]
     gains: dict[str, float]
+    in_full: bool = False
 
 
 def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int, say) -> Look:
@@ -196,18 +203,21 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
     candidates = kinds(experiment.baseline, (*start.effects, *had, "base_vibration", "gyro_saturation"))
     trials = screen(start.fit, start.point, candidates, setup, start.effects)
     kept = refit(start, ITERATIONS, seed + 1)
-    if structured(kept) > FAR:
-        found = from_far(setup, trials, kept, say)
-        gains = {f.effects[-1]: gain_between(kept, f) for f in found}
-        return Look(kept, sorted(found, key=lambda f: -gains[f.effects[-1]]), gains)
-    worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
-    refitted = race([Family(t.effects, t.fit, t.point) for t in worth], start, seed)
-    gains = {f.effects[-1]: gain_over(kept, f) for f in refitted}
-    order = sorted(refitted, key=lambda f: -gains[f.effects[-1]])
+    refitted: list[Family] = []
+    if structured(kept) <= FAR:
+        worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
+        refitted = race([Family(t.effects, t.fit, t.point) for t in worth], start, seed)
+    nowhere = min(structured(f) for f in (kept, *refitted)) > max(NOWHERE * structured(kept), FEW_STRUCTURED)
+    if nowhere:
+        refitted += from_far(setup, trials, kept, say)
+    order: list[Family] = []
+    for f in sorted(refitted, key=lambda f: -gain_between(kept, f)):
+        if f.effects not in [better.effects for better in order]:
+            order.append(f)
+    gains = {f.effects[-1]: gain_between(kept, f) for f in order}
     for f in order:
-        id = f.effects[-1]
-        say(f"  {id}: gain {gains[id]:.0f}, size {size_of(f):.2f}")
-    return Look(kept, order, gains)
+        say(f"  {f.effects[-1]}: gain {gains[f.effects[-1]]:.0f}, size {size_of(f):.2f}")
+    return Look(kept, order, gains, in_full=nowhere)
 
 
 def race(families: list[Family], start: Family, seed: int) -> list[Family]:

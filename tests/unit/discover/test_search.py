@@ -1,0 +1,75 @@
+"""The search: jumps out of the side valleys that the ridge of the feet has, on a loss with two valleys."""
+
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from rockref import Model
+from rockref.discover.approach import JUMPS, along_ridge
+from rockref.discover.fit import Parameter, Point, baseline_parameters
+from rockref.discover.search import jumped
+
+WINDOWS = 20
+PARAMETERS = baseline_parameters(Model.table_3_1(), 0, 0.0014)
+NAMES = [p.name for p in PARAMETERS]
+RIDGE = [i for i, n in enumerate(NAMES) if n.startswith("delta_long_") or n == "delta_diag"]
+
+
+@dataclass
+class TwoValleys:
+    """Along the mean of the feet's z there is a valley at `deep` and a worse one at 0; a run ends in the nearer."""
+
+    deep: float
+    parameters: tuple[Parameter, ...] = PARAMETERS
+    runs: int = 0
+    series: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(B=WINDOWS, count=np.full(WINDOWS, 150.0)))
+    asked: int = 0
+
+    def point(self, z, corrections):
+        s = float(np.mean(np.asarray(z)[RIDGE])) if RIDGE else 0.0
+        mean = min(0.95 + (s - self.deep) ** 2, 1.10 + s**2)
+        return Point(np.array(z, float), corrections, 0.5 * mean * self.series.count, 0.0), None
+
+    def run(self, point, iterations, rng, lam=0.0, relative=0.0):
+        self.asked += 1
+        z = point.z.copy()
+        s = float(np.mean(z[RIDGE]))
+        z[RIDGE] += (self.deep if abs(s - self.deep) < abs(s) else 0.0) - s
+        return self.point(z, point.corrections)[0]
+
+
+def test_a_jump_moves_heights_and_their_diagonal_distance_alike():
+    moves = along_ridge(TwoValleys(0.5))
+    assert moves.shape == (len(JUMPS), len(NAMES))
+    for move, size in zip(moves, JUMPS, strict=True):
+        assert np.all(move[RIDGE] == size) and np.all(np.delete(move, RIDGE) == 0)
+
+
+def test_four_points_have_no_ridge():
+    four = baseline_parameters(Model.four_points(), 0, 0.0014)
+    assert along_ridge(TwoValleys(0.5, parameters=four)).shape == (0, len(four))
+
+
+@pytest.mark.parametrize("deep", [0.55, -0.7])
+def test_a_fit_that_stopped_beside_its_valley_jumps_into_it(deep):
+    fit = TwoValleys(deep)
+    start, _ = fit.point(np.zeros(len(NAMES)), np.zeros((WINDOWS, 5)))
+    end = jumped(fit, start, np.random.default_rng(0))
+    assert np.mean(end.z[RIDGE]) == pytest.approx(deep)
+    assert end.objective < start.objective
+
+
+def test_a_fit_that_has_arrived_stays():
+    fit = TwoValleys(0.0)
+    start, _ = fit.point(np.zeros(len(NAMES)), np.zeros((WINDOWS, 5)))
+    assert jumped(fit, start, np.random.default_rng(0)) is start
+    assert fit.asked == 0
+
+
+def test_jumps_that_do_not_help_are_not_kept():
+    fit = TwoValleys(5.0)
+    start, _ = fit.point(np.zeros(len(NAMES)), np.zeros((WINDOWS, 5)))
+    assert jumped(fit, start, np.random.default_rng(0)) is start
+    assert fit.asked == len(JUMPS)
