@@ -7,7 +7,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.tosses.body import frames_of, nominal_model
-from rockref.discover.tosses.predict import simulated
+from rockref.discover.tosses.predict import STEPS_A_FRAME, simulated
 from rockref.measure.flight import Poses, Starts
 from rockref.measure.tosses import CUBE_MASS, CUBE_WIDTH, Tosses
 from rockref.model.rotation import exponential, quaternion
@@ -35,7 +35,7 @@ def made(model: Model, count: int, frames: int = 100, seed: int = 0, noise: floa
         np.arange(frames) / RATE, np.zeros((count, frames, 3)), np.zeros((count, frames, 3, 3)),
         np.full(count, frames), v, W,
     )  # fmt: skip
-    x_body, Lambda_body = simulated(model, starts, poses, 32, "auto")
+    x_body, Lambda_body = simulated(model, starts, poses, STEPS_A_FRAME, "auto")
     heading = exponential(np.column_stack([nothing, nothing, rng.uniform(-3, 3, count)]))
     x_t, Lambda_t = frames_of(model, heading).to_tracked(x_body, Lambda_body)
     x_t = x_t + noise * rng.normal(size=x_t.shape)
