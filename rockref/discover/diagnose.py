@@ -16,7 +16,6 @@ from rockref.discover.candidates import kinds
 from rockref.discover.evidence import HeldOut, held_out, rms_deg_s
 from rockref.discover.families import (
     Family,
-    afresh,
     amplitudes,
     gain_between,
     gain_over,
@@ -28,7 +27,7 @@ from rockref.discover.families import (
     size_of,
     structured,
 )
-from rockref.discover.far import from_far
+from rockref.discover.far import fitted_anew, from_far, kin, own_z
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
 from rockref.discover.on_this_data import seen_by
@@ -207,17 +206,29 @@ def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int,
     if structured(kept) <= FAR:
         worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
         refitted = race([Family(t.effects, t.fit, t.point) for t in worth], start, seed)
-    nowhere = min(structured(f) for f in (kept, *refitted)) > max(NOWHERE * structured(kept), FEW_STRUCTURED)
-    if nowhere:
-        refitted += from_far(setup, trials, kept, say)
+    look = ranked(kept, refitted, say)
+    best = min(structured(f) for f in (kept, *refitted))
+    nowhere = best > NOWHERE * structured(kept) or not there(look, bool(start.effects))
+    if nowhere and structured(kept) > FEW_STRUCTURED:
+        look = ranked(kept, [*refitted, *from_far(setup, trials, kept, say)], say, in_full=True)
+    return look
+
+
+def ranked(kept: Family, families: list[Family], say, in_full: bool = False) -> Look:
+    """Families by their gain over the one that was kept, the better one of each name."""
     order: list[Family] = []
-    for f in sorted(refitted, key=lambda f: -gain_between(kept, f)):
+    for f in sorted(families, key=lambda f: -gain_between(kept, f)):
         if f.effects not in [better.effects for better in order]:
             order.append(f)
     gains = {f.effects[-1]: gain_between(kept, f) for f in order}
     for f in order:
         say(f"  {f.effects[-1]}: gain {gains[f.effects[-1]]:.0f}, size {size_of(f):.2f}")
-    return Look(kept, order, gains, in_full=nowhere)
+    return Look(kept, order, gains, in_full)
+
+
+def there(look: Look, second: bool) -> bool:
+    """Whether the leader of a look is an effect: gain and size."""
+    return bool(look.order) and rules.is_detected(look.gains[look.order[0].effects[-1]], size_of(look.order[0]), second)
 
 
 def race(families: list[Family], start: Family, seed: int) -> list[Family]:
@@ -260,18 +271,23 @@ def without(setup: Setup, family: Family, effect: str) -> Family:
 
 
 def duel(setup: Setup, look: Look, say) -> Family:
-    """The winner of a look and its near rivals, each fitted once more from the nominal parameters; gains are mended."""
-    near = rules.RIVAL_BEFORE_DUEL * look.gains[look.order[0].effects[-1]]
-    if structured(look.order[0]) < ARRIVED and all(look.gains[f.effects[-1]] < near for f in look.order[1:]):
-        return look.order[0]
-    fitted = []
-    for family in look.order[:3]:
-        if look.gains[family.effects[-1]] < near:
-            continue
-        fitted.append(min(family, afresh(setup, family), key=mean_loss))
-        look.gains[family.effects[-1]] = max(gain_between(look.kept, fitted[-1]), 0.0)
-        say(f"  duel: {family.effects[-1]} {look.gains[family.effects[-1]]:.0f}")
-    look.order = sorted(fitted, key=lambda f: -look.gains[f.effects[-1]])
+    """The winner of a look, its near rivals and its kin, each fitted once more from the nominal parameters.
+
+    A name is not given before the effects that are most easily taken for it were fitted in full. Gains are mended.
+    """
+    winner = look.order[0]
+    gain = look.gains[winner.effects[-1]]
+    near = [f.effects for f in look.order[:3] if look.gains[f.effects[-1]] >= rules.RIVAL_BEFORE_DUEL * gain]
+    if structured(winner) < ARRIVED and len(near) == 1 and gain > PLAIN:
+        return winner
+    z = {f.effects: f.point.z[len(look.kept.point.z) :] for f in look.order}
+    had = {*look.kept.effects, *(e.id for e in setup.base.active_effects()), "base_vibration", "gyro_saturation"}
+    offered = [k.id for k in kinds(setup.experiment.baseline, tuple(had))]
+    relatives = [(*look.kept.effects, id) for id in kin(winner.effects[-1]) if id in offered]
+    begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
+    anew = fitted_anew(setup, begun, look.kept, say)
+    mended = ranked(look.kept, [*(f for f in look.order if f.effects in near), *anew], say)
+    look.order, look.gains = mended.order, look.gains | {id: max(g, 0.0) for id, g in mended.gains.items()}
     return look.order[0]
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rockref.discover.approach import approached
 from rockref.discover.fit import Fit, Point
 from rockref.discover.search import MIDDLE, Setup, windows
 
@@ -49,6 +50,6 @@ def held_out(setup: Setup, fit: Fit, point: Point, experiment, effects: tuple[st
     series = windows(own, MIDDLE, fixed)
     free = Fit(series, fixed, tuple(parameters), log=setup.log)
     rng = np.random.default_rng(seed)
-    start = free.relax_states(free.begin(), 2)
+    start = free.relax_states(approached(free, np.zeros(len(parameters))), 2)
     best = free.run(start, 3, rng)
     return HeldOut(best.loss, series.count, series.run_of, rms_deg_s(free, best))

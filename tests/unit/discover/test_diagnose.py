@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rockref.discover import diagnose
-from rockref.discover.diagnose import Look, challenge, race, without
+from rockref.discover.diagnose import Look, challenge, race, ranked, there, without
 from rockref.discover.evidence import CLIP
 from rockref.discover.families import Family, by_sample, gain_between, gain_over
 from rockref.discover.fit import Parameter, Point
@@ -129,3 +129,21 @@ def test_the_loss_by_sample_sums_to_the_loss():
     one = family((), Bowl(np.array([0.0]), floor=1.3, series=series(5)), [0.2])
     assert by_sample(one).sum() == pytest.approx(one.point.loss.sum())
     assert len(by_sample(one)) == WINDOWS * SAMPLES
+
+
+def test_a_look_keeps_the_better_family_of_each_name_best_first():
+    kept = family((), Bowl(np.array([0.0]), floor=1.2), [0.0])
+    worse = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.15), [0.0, 1.0])
+    better = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.05), [0.0, 1.0])
+    other = family(("quadratic_drag",), Bowl(np.array([0.0, 1.0]), floor=1.10), [0.0, 1.0])
+    look = ranked(kept, [worse, other, better], lambda line: None, in_full=True)
+    assert look.order == [better, other] and look.in_full
+    assert look.gains["rolling_resistance"] == gain_over(kept, better)
+
+
+@pytest.mark.parametrize("size, found", [(0.05, False), (1.0, True)])
+def test_a_gain_without_a_size_is_no_effect(size, found):
+    kept = family((), Bowl(np.array([0.0]), floor=1.2), [0.0])
+    wider = family(("rolling_resistance",), Bowl(np.array([0.0, size])), [0.0, size])
+    assert there(ranked(kept, [wider], lambda line: None), second=False) is found
+    assert not there(Look(kept, [], {}), second=False)

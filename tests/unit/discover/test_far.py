@@ -1,11 +1,16 @@
 """Where candidates begin when the baseline is far from the runs."""
 
+from types import SimpleNamespace
+
 import numpy as np
 
 from rockref import Model
+from rockref.discover import far, search
 from rockref.discover.families import Family
-from rockref.discover.far import first_looks
+from rockref.discover.far import first_looks, kin
+from rockref.discover.fit import Parameter, Point
 from rockref.discover.search import SHORT, Setup, Trial, nominal, windows
+from rockref.effects import catalogue
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 
@@ -38,3 +43,39 @@ def test_nominal_keeps_the_effects_alone():
     z = nominal(family.fit.parameters, family.point.z)
     effects = np.array(["." in p.name for p in family.fit.parameters])
     assert np.all(z[effects] == 0.5) and np.all(z[~effects] == 0)
+
+
+def test_kin_are_those_that_are_easily_taken_for_an_effect():
+    """The declared confounder, who declares this one, and who shares the confounder; never the effect itself."""
+    for id, effect in catalogue.EFFECTS.items():
+        near = kin(id)
+        assert effect.confounder in near and id not in near and len(near) == len(set(near))
+    assert "clock_error" in kin("gyro_scale") and "rolling_resistance" in kin("cable_restraint")
+
+
+def test_who_comes_nearest_on_the_short_windows_is_fitted_in_full(monkeypatch):
+    """Four sets of effects with known losses; one alone is ahead, and one that is at the noise goes along."""
+    losses = {"adhesion": 0.9, "spin_friction": 0.99, "clock_error": 2.0, "gyro_scale": 2.2, "plate_tilt": 2.4}
+    in_full = []
+
+    def early(setup, effects, z, iterations):
+        count = np.full(3, 100.0)
+        fit = SimpleNamespace(series=SimpleNamespace(count=count))
+        return fit, Point(z, None, losses[effects[-1]] * count / 2)
+
+    def baseline(setup, effects, z, iterations):
+        in_full.append((effects, tuple(z), iterations))
+        return early(setup, effects, z, 0)
+
+    monkeypatch.setattr(far, "early", early)
+    monkeypatch.setattr(far, "baseline", baseline)
+    parameters = (Parameter("K_N", None, 1.0, 0.1), Parameter("gyro_drift.bias_x", None, 0.0, 1.0))
+    kept = Family(
+        ("gyro_drift",), SimpleNamespace(parameters=parameters), Point(np.array([0.7, 0.3]), None, np.ones(3))
+    )
+    begun = {("gyro_drift", id): np.array([0.5]) for id in losses}
+    found = far.fitted_anew(None, begun, kept, lambda line: None)
+    assert [f.effects[-1] for f in found] == ["adhesion", "spin_friction"]
+    # The baseline begins at its nominal parameters, the effects where they are.
+    assert in_full[0][1] == (0.0, 0.3, 0.5)
+    assert in_full[0][2] == (search.FRESH[0] - far.LOOKS, search.FRESH[1])
