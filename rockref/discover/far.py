@@ -17,8 +17,9 @@ from rockref.effects import catalogue
 #: how many are then fitted in full.
 LOOKED_AT, LOOKS, FITTED = 4, 3, 3
 #: Share of the way from the best loss to the middle one within which a candidate is fitted in full (decided: in the
-#: runs of a spinning foot, of 28 candidates only the right one was there); a loss of noise is within it in any case.
-AHEAD, AT_NOISE = 0.4, 1.0
+#: runs of a spinning foot, of 28 candidates only the right one was there); and the share of the best loss that short
+#: windows do not tell apart (drag, a cable and rolling ended at 1.02, 1.02 and 1.03).
+AHEAD, ALIKE = 0.4, 1.02
 
 
 def from_far(setup: Setup, trials: list[Trial], kept: Family, say: Callable[[str], None]) -> list[Family]:
@@ -43,7 +44,7 @@ def fitted_anew(setup: Setup, begun: dict, kept: Family, say: Callable[[str], No
         say(f"  from nominal: {effects[-1]} {mean_loss(looked[-1]):.2f}")
     looked.sort(key=mean_loss)
     best, middle = mean_loss(looked[0]), mean_loss(looked[len(looked) // 2])
-    most = max(best + AHEAD * (middle - best), AT_NOISE)
+    most = max(best + AHEAD * (middle - best), ALIKE * best)
     ahead = [f for f in looked if mean_loss(f) <= most][:FITTED]
     rest = (FRESH[0] - LOOKS, FRESH[1])
     return [Family(f.effects, *baseline(setup, f.effects, f.point.z, iterations=rest)) for f in ahead]
