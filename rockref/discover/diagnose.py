@@ -56,6 +56,9 @@ NO_WORSE = 1.1
 WORTH_A_REFIT = 120.0
 #: Share of the leader's gain below which a candidate is left where it is (decided: refits have doubled a gain).
 BEHIND = 0.4
+#: Share of structured windows above which what the release suggested is doubted (decided: right sensors left 0 to 6 %).
+#: It stays if the baseline's mean loss is larger by this factor (decided).
+DOUBTFUL, FAR_WORSE = 0.2, 2.0
 #: Gain above which an effect needs no challenge by the narrower family begun where it ended.
 PLAIN = 3000.0
 #: Share of structured windows below which the only candidate near the front is polished, not fitted afresh.
@@ -144,6 +147,10 @@ def diagnose(
         families.append(Family(effects, fit, point))
     null = families[0]
     start = min(families, key=mean_loss)
+    if start.effects and structured(start) > DOUBTFUL:
+        # A sensor that explains the release and not what follows may stand in for a load: the baseline gets its turn.
+        null = Family((), *baseline(setup))
+        start = start if mean_loss(null) > FAR_WORSE * mean_loss(start) else null
     if same_windows(null, start):
         better = gain_over(null, start) > rules.DETECTED
     else:

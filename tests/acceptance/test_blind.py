@@ -1,0 +1,48 @@
+"""A small blind test from end to end: five experiments made by the other simulator, and a verdict on each.
+
+A control, a load, a friction law, a sensor fault, an effect in no list. Three short runs each, so that it takes
+minutes; `rockref blind make` and `rockref blind score` do the same at full length with as many cases as are asked for.
+"""
+
+import pytest
+
+from rockref.discover.blind.generator import make_case
+from rockref.discover.blind.marks import gap_closed
+from rockref.discover.diagnose import diagnose
+
+RUNS = (("01", "fit", 0.117, False), ("02", "fit", 0.098, True), ("03", "holdout", 0.108, False))
+SECONDS, SEED = 2.0, 11
+
+
+def verdict(tmp_path, *effects):
+    make_case(tmp_path / "case", effects, SEED, runs=RUNS, seconds=SECONDS, other_form=False)
+    return diagnose(tmp_path / "case", workers=1).to_dict()
+
+
+def test_nothing_hidden_nothing_found(tmp_path):
+    found = verdict(tmp_path)
+    assert (found["verdict"], found["effects"]) == ("none", [])
+    # What could have hidden all the same is said for every number of every effect.
+    assert found["detection_limits"]["quadratic_drag.c"]["value"] > 0
+
+
+@pytest.mark.parametrize(
+    "effect, size",
+    [
+        pytest.param("cable_restraint", 2.0, id="load"),
+        pytest.param("stribeck_friction", 2.0, id="friction"),
+        pytest.param("gyro_misalignment", 1.0, id="sensor"),
+    ],
+)
+def test_hidden_effect_is_named_or_in_a_class_that_holds_it(tmp_path, effect, size):
+    found = verdict(tmp_path, (effect, size))
+    assert found["verdict"] in ("named", "indicated", "class")
+    assert effect in found["effects"] and len(found["effects"]) <= 3
+    closed = gap_closed(found["error"])
+    assert closed is None or closed > 0.8
+
+
+def test_an_effect_in_no_list_is_something_else(tmp_path):
+    found = verdict(tmp_path, ("rotor", 1.0))
+    assert (found["verdict"], found["effects"]) == ("something_else", [])
+    assert "not in the catalogue" in found["sentence"]
