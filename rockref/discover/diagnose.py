@@ -33,7 +33,7 @@ from rockref.discover.information import information
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.plan import switches_of
 from rockref.discover.presearch import STRONG, suspects
-from rockref.discover.search import FRESH, Setup, baseline, screen
+from rockref.discover.search import FRESH, LITTLE, Setup, baseline, screen
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
@@ -42,7 +42,8 @@ from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
 REFITTED, ITERATIONS = 6, 3
-#: Further iterations of the family that is gone on with, and whose sizes are read.
+#: Further iterations of a challenge, half of those of a baseline that is left; the family that is gone on with, and
+#: whose sizes are read, gets three times as many while it gains.
 POLISH = 4
 #: Share of structured windows above which a family is too far off for small steps: candidates begin at a size.
 FAR = 0.5
@@ -171,7 +172,7 @@ def diagnose(
             say(f"  {wider.effects[-1]} against the family begun where it ended: {look.gains[wider.effects[-1]]:.0f}")
         if not rules.is_detected(look.gains[wider.effects[-1]], size_of(wider), second):
             break
-        wider = refit(wider, POLISH, seed)
+        wider = refit(wider, 3 * POLISH, seed, relative=LITTLE / 5)
         say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
         if start.effects and not rules.settles(structured(start), structured(wider)):
             break
@@ -292,7 +293,7 @@ def duel(setup: Setup, look: Look, say) -> Family:
     offered = [k.id for k in kinds(setup.experiment.baseline, tuple(had))]
     relatives = [(*look.kept.effects, id) for id in kin(winner.effects[-1]) if id in offered]
     begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
-    anew = fitted_anew(setup, begun, look.kept, say)
+    anew = fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
     mended = ranked(look.kept, [*(f for f in look.order if f.effects in near), *anew], say)
     look.order, look.gains = mended.order, look.gains | {id: max(g, 0.0) for id, g in mended.gains.items()}
     return look.order[0]

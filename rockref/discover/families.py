@@ -23,10 +23,10 @@ class Family:
     point: Point
 
 
-def refit(family: Family, iterations: int, seed: int) -> Family:
+def refit(family: Family, iterations: int, seed: int, relative: float = 0.0) -> Family:
     """Go on from where a family stands; the baseline and every candidate get the same iterations."""
     rng = np.random.default_rng(seed)
-    return Family(family.effects, family.fit, family.fit.run(family.point, iterations, rng))
+    return Family(family.effects, family.fit, family.fit.run(family.point, iterations, rng, relative=relative))
 
 
 def afresh(setup: Setup, family: Family) -> Family:

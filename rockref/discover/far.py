@@ -35,8 +35,13 @@ def from_far(setup: Setup, trials: list[Trial], kept: Family, say: Callable[[str
     return fitted_anew(setup, {effects: begun[effects] for effects in chosen}, kept, say)
 
 
-def fitted_anew(setup: Setup, begun: dict, kept: Family, say: Callable[[str], None]) -> list[Family]:
-    """Sets of effects, each with the z of its last one, fitted from nominal parameters; who comes nearest, in full."""
+def fitted_anew(
+    setup: Setup, begun: dict, kept: Family, say: Callable[[str], None], sure: tuple[str, ...] = ()
+) -> list[Family]:
+    """Sets of effects, each with the z of its last one, fitted from nominal parameters; who comes nearest, in full.
+
+    sure : the set that is fitted in full wherever it stands.
+    """
     looked = []
     for effects, own in begun.items():
         z = np.concatenate([nominal(kept.fit.parameters, kept.point.z), own])
@@ -46,6 +51,7 @@ def fitted_anew(setup: Setup, begun: dict, kept: Family, say: Callable[[str], No
     best, middle = mean_loss(looked[0]), mean_loss(looked[len(looked) // 2])
     most = max(best + AHEAD * (middle - best), ALIKE * best)
     ahead = [f for f in looked if mean_loss(f) <= most][:FITTED]
+    ahead += [f for f in looked if f.effects == sure and all(f is not other for other in ahead)]
     rest = (FRESH[0] - LOOKS, FRESH[1])
     return [Family(f.effects, *baseline(setup, f.effects, f.point.z, iterations=rest)) for f in ahead]
 
