@@ -42,7 +42,7 @@ class Bowl:
         mean = self.floor + float(np.sum((np.asarray(z) - self.bottom) ** 2))
         return Point(np.array(z, float), corrections, 0.5 * mean * self.series.count, 0.0), None
 
-    def run(self, point, iterations, rng):
+    def run(self, point, iterations, rng, relative=0.0):
         self.iterations += iterations
         if self.stuck:
             return point

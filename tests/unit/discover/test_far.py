@@ -79,3 +79,20 @@ def test_who_comes_nearest_on_the_short_windows_is_fitted_in_full(monkeypatch):
     # The baseline begins at its nominal parameters, the effects where they are.
     assert in_full[0][1] == (0.0, 0.3, 0.5)
     assert in_full[0][2] == (search.FRESH[0] - far.LOOKS, search.FRESH[1])
+
+
+def test_the_winner_is_fitted_in_full_wherever_it_stands(monkeypatch):
+    losses = {"adhesion": 1.0, "spin_friction": 1.5, "clock_error": 1.6}
+
+    def fitted(setup, effects, z, iterations):
+        count = np.full(3, 100.0)
+        return SimpleNamespace(series=SimpleNamespace(count=count)), Point(z, None, losses[effects[-1]] * count / 2)
+
+    monkeypatch.setattr(far, "early", fitted)
+    monkeypatch.setattr(far, "baseline", fitted)
+    kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
+    begun = {(id,): np.zeros(1) for id in losses}
+    found = far.fitted_anew(None, begun, kept, lambda line: None, sure=("clock_error",))
+    assert [f.effects for f in found] == [("adhesion",), ("clock_error",)]
+    again = far.fitted_anew(None, begun, kept, lambda line: None, sure=("adhesion",))
+    assert [f.effects for f in again] == [("adhesion",)]
