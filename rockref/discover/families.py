@@ -114,6 +114,8 @@ def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
             continue
         half = 1.645 * rules.INTERVAL * float(np.sqrt(max(covariance[i, i], 0.0)))
         part = 1 / p.spread if p.log else point.z[i]
+        if p.name == "base_vibration.frequency":
+            part = 0.0  # counted over seconds: no parameter of the law shifts it
         half = float(np.hypot(half, rules.SYSTEMATIC * part))
         ends = sorted((value_of(p, point.z[i] - half), value_of(p, point.z[i] + half)))
         found[p.name] = {
