@@ -29,8 +29,8 @@ UPWARDS = (0.25, 0.5, 1.0, 1.8, 3.2)
 LINES = ("tilt_offset", "mu_ext", "delta_diag", "K_N", "K_T", "beta_ext", "mu_int", "delta_diag", "tilt_offset")
 #: Seconds at the end of the first windows that are not release (they end 45 ms after the impact, or a little later).
 BEFORE = 0.12
-#: Prior deviations by which a fit that has not arrived jumps along the ridge of the feet (decided: four fits that had
-#: stopped beside their valley were 0.4 to 0.8 from it).
+#: Prior deviations by which a fit that has not arrived jumps along the ridge of the feet (decided: two fits that had
+#: stopped beside their valley were 0.4 to 0.8 from it, in most heights and in the distance).
 JUMPS = (0.6, -0.6)
 #: Lines after which the effects' own parameters and the warp are looked at again.
 FOLLOWED = ("mu_ext", "delta_diag", "K_N", "beta_ext")

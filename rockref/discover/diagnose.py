@@ -31,13 +31,14 @@ from rockref.discover.far import fitted_anew, from_far, kin, own_z
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
 from rockref.discover.on_this_data import seen_by
-from rockref.discover.plan import switches_of
+from rockref.discover.plan import LEFT_OUT, switches_of
 from rockref.discover.presearch import STRONG, suspects
 from rockref.discover.search import FRESH, LITTLE, Setup, baseline, screen
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
 from rockref.effects import catalogue
+from rockref.effects.base import Effect
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
@@ -62,8 +63,8 @@ BEHIND = 0.4
 DOUBTFUL, FAR_WORSE = 0.2, 2.0
 #: Gain above which an effect needs no challenge by the narrower family begun where it ended.
 PLAIN = 3000.0
-#: Share of structured windows below which the only candidate near the front is polished, not fitted afresh.
-ARRIVED = 0.03
+#: Share of structured windows below which the only candidate near the front, with a plain gain, is not fitted afresh.
+CLEAN = 0.03
 
 
 @dataclass
@@ -159,7 +160,7 @@ def diagnose(
     start = start if better else null
     looks = []
     while len(start.effects) < rules.MOST_EFFECTS and (not start.effects or room(start) > rules.SECOND_ROOM):
-        look = look_further(setup, experiment, start, seed, say)
+        look = look_further(setup, start, seed, say)
         looks.append(look)
         if not look.order:
             break
@@ -204,11 +205,15 @@ class Look:
     in_full: bool = False
 
 
-def look_further(setup: Setup, experiment: Experiment, start: Family, seed: int, say) -> Look:
-    """Screen all candidates on top of a family, refit the best, and the family itself with the same budget."""
+def candidates_beside(setup: Setup, effects: tuple[str, ...]) -> tuple[type[Effect], ...]:
+    """What could be missing beside these effects and those of the model that was given."""
     had = (e.id for e in setup.base.active_effects())
-    candidates = kinds(experiment.baseline, (*start.effects, *had, "base_vibration", "gyro_saturation"))
-    trials = screen(start.fit, start.point, candidates, setup, start.effects)
+    return kinds(setup.experiment.baseline, (*effects, *had, *LEFT_OUT))
+
+
+def look_further(setup: Setup, start: Family, seed: int, say) -> Look:
+    """Screen all candidates on top of a family, refit the best, and the family itself with the same budget."""
+    trials = screen(start.fit, start.point, candidates_beside(setup, start.effects), setup, start.effects)
     kept = refit(start, ITERATIONS, seed + 1)
     refitted: list[Family] = []
     if structured(kept) <= FAR:
@@ -286,11 +291,10 @@ def duel(setup: Setup, look: Look, say) -> Family:
     winner = look.order[0]
     gain = look.gains[winner.effects[-1]]
     near = [f.effects for f in look.order[:3] if look.gains[f.effects[-1]] >= rules.RIVAL_BEFORE_DUEL * gain]
-    if structured(winner) < ARRIVED and len(near) == 1 and gain > PLAIN:
+    if structured(winner) < CLEAN and len(near) == 1 and gain > PLAIN:
         return winner
     z = {f.effects: f.point.z[len(look.kept.point.z) :] for f in look.order}
-    had = {*look.kept.effects, *(e.id for e in setup.base.active_effects()), "base_vibration", "gyro_saturation"}
-    offered = [k.id for k in kinds(setup.experiment.baseline, tuple(had))]
+    offered = [k.id for k in candidates_beside(setup, look.kept.effects)]
     relatives = [(*look.kept.effects, id) for id in kin(winner.effects[-1]) if id in offered]
     begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
     anew = fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
@@ -325,7 +329,7 @@ def conclude(
     )
     decision = rules.decide(facts)
     # What was there from the start, by the look at the release, is ranked by what it gains over the plain baseline.
-    ranked = {e: gain_between(null, final) for e in final.effects if e not in look.gains} | look.gains
+    gains = {e: gain_between(null, final) for e in final.effects if e not in look.gains} | look.gains
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
     card = signature(null.fit, null.point, final.fit, final.point)
     noise = float(np.degrees(gyro_of(setup.experiment).noise))
@@ -339,7 +343,7 @@ def conclude(
         experiment=experiment,
         verdict=decision.verdict,
         effects=decision.effects,
-        ranking=rules.ranking(ranked),
+        ranking=rules.ranking(gains),
         amplitudes=amplitudes(final) if kept else {},
         error={
             "unit": "deg/s RMS",

@@ -26,8 +26,8 @@ FRESH = (12, 6)
 #: Iterations after which the better of two starts is kept, and the share of the objective that an iteration must gain
 #: for another one to follow (a fifth of it on the longer windows).
 TRIED, LITTLE = 3, 0.015
-#: Mean loss below which a fit has arrived (fits begun at the truth end at 0.91 to 0.96, fits that had stopped beside
-#: their valley at 1.01 and more), and most jumps of one that has not.
+#: Mean loss below which a fit has arrived (decided: a little above NOISE, which a right model reaches), and most jumps
+#: of one that has not.
 ARRIVED, MOST_JUMPS = 0.985, 2
 #: Seconds of each run that the first stage looks at.
 FIRST_STAGE = 1.6

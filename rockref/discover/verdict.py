@@ -49,8 +49,9 @@ INTERVAL = 2.0
 #: place; decided: with 0.10 intervals held 27 of 40 numbers of the blind test, with twice that 30.
 SYSTEMATIC = 0.15
 #: Mean loss of a window that is loud, and how many loud windows among the fitted and the held-out runs say that
-#: something happens now and then which nothing in the catalogue does (on controls the loudest window has 1.7, on their
-#: held-out runs 1.4; a blow or a puff of air makes one to three windows of a run louder than 2.5).
+#: something happens now and then which nothing in the catalogue does (on a control that had come down to the noise the
+#: loudest window has 1.7, on its held-out runs 1.4; others have one louder; a blow or a puff of air makes one to three
+#: windows of a run louder than 2.5).
 LOUD, LOUD_FITTED, LOUD_HELD = 2.0, 2, 2
 #: Held-out mean loss must fall by this much to prove an effect; below it the held-out runs were at their floor before.
 HELD_OUT = 0.01
