@@ -27,7 +27,7 @@ from rockref.discover.families import (
     size_of,
     structured,
 )
-from rockref.discover.far import fitted_anew, from_far, kin, own_z
+from rockref.discover.far import fitted_anew, from_far, in_the_valley_of, kin, own_z
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
 from rockref.discover.on_this_data import seen_by
@@ -284,7 +284,8 @@ def without(setup: Setup, family: Family, effect: str) -> Family:
 
 
 def duel(setup: Setup, look: Look, say) -> Family:
-    """The winner of a look, its near rivals and its kin, each fitted once more from the nominal parameters.
+    """The winner of a look, its near rivals and its kin, each fitted once more from the nominal parameters, and, where
+    the gain is not plain, from where the winner ended.
 
     A name is not given before the effects that are most easily taken for it were fitted in full. Gains are mended.
     """
@@ -298,7 +299,11 @@ def duel(setup: Setup, look: Look, say) -> Family:
     relatives = [(*look.kept.effects, id) for id in kin(winner.effects[-1]) if id in offered]
     begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
     anew = fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
-    mended = ranked(look.kept, [*(f for f in look.order if f.effects in near), *anew], say)
+    fought = [*(f for f in look.order if f.effects in near), *anew]
+    mended = ranked(look.kept, fought, say)
+    if mended.gains[mended.order[0].effects[-1]] < PLAIN:
+        others = [effects for effects in begun if effects != mended.order[0].effects]
+        mended = ranked(look.kept, [*fought, *in_the_valley_of(setup, mended.order[0], others)], say)
     look.order, look.gains = mended.order, look.gains | {id: max(g, 0.0) for id, g in mended.gains.items()}
     return look.order[0]
 
@@ -325,6 +330,7 @@ def conclude(
         held_gain=held_gains(plain, with_effect),
         held_floor=float(np.median(2 * plain.loss / plain.count)),
         by_run={r.id: structured(final, i) for i, r in enumerate(setup.runs)},
+        room=room(final),
         loud=(loud(final.point.loss, final.fit.series.count), loud(with_effect.loss, with_effect.count)),
     )
     decision = rules.decide(facts)

@@ -8,14 +8,28 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.discover.approach import approached, approached_beside
-from rockref.discover.families import Family, mean_loss
+from rockref.discover.families import Family, mean_loss, refit
 from rockref.discover.fit import Fit
-from rockref.discover.search import FIRST_STAGE, FRESH, SHORT, Setup, Trial, baseline, early, nominal, windows
+from rockref.discover.search import (
+    FIRST_STAGE,
+    FRESH,
+    LITTLE,
+    SHORT,
+    Setup,
+    Trial,
+    baseline,
+    early,
+    nominal,
+    screen,
+    windows,
+)
 from rockref.effects import catalogue
 
 #: Candidates of the screen, and of the first looks, that are fitted to the short windows, with so many iterations; and
 #: how many are then fitted in full.
 LOOKED_AT, LOOKS, FITTED = 4, 3, 3
+#: Most iterations of a fit that is begun where another one ended.
+SWAPPED = 6
 #: Share of the way from the best loss to the middle one within which a candidate is fitted in full (decided: in the
 #: runs of a spinning foot, of 28 candidates only the right one was there); and the share of the best loss that short
 #: windows do not tell apart (drag, a cable and rolling ended at 1.02, 1.02 and 1.03).
@@ -61,6 +75,23 @@ def kin(id: str) -> list[str]:
     own = catalogue.find(id).confounder
     near = [own, *(k for k, e in catalogue.EFFECTS.items() if e.confounder in (id, own))]
     return [k for k in dict.fromkeys(near) if k and k != id]
+
+
+def in_the_valley_of(setup: Setup, winner: Family, others: Iterable[tuple[str, ...]]) -> list[Family]:
+    """Other sets of effects, begun where the winner ended, less its effect: by one step of everything, then fitted.
+
+    A fit that stopped in a side valley lies some hundred units too high; in one valley effects are compared, not
+    valleys. Where a sensor effect moves the windows, nothing is begun.
+    """
+    effects = winner.effects[:-1]
+    kinds = [catalogue.find(other[-1]) for other in others]
+    if catalogue.find(winner.effects[-1]).question == "sensor":
+        return []
+    plain = setup.fit(winner.fit.series, effects)
+    point, _ = plain.point(winner.point.z[: len(plain.parameters)], winner.point.corrections)
+    trials = screen(plain, point, [kind for kind in kinds if kind.question != "sensor"], setup, effects)
+    begun = [Family(t.effects, t.fit, t.point) for t in trials]
+    return [refit(f, SWAPPED, setup.seed, relative=LITTLE / 5) for f in begun]
 
 
 def own_z(setup: Setup, effects: tuple[str, ...]) -> np.ndarray:

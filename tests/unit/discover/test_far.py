@@ -7,7 +7,7 @@ import numpy as np
 from rockref import Model
 from rockref.discover import far, search
 from rockref.discover.families import Family
-from rockref.discover.far import first_looks, kin
+from rockref.discover.far import first_looks, in_the_valley_of, kin
 from rockref.discover.fit import Parameter, Point
 from rockref.discover.search import SHORT, Setup, Trial, nominal, windows
 from rockref.effects import catalogue
@@ -96,3 +96,19 @@ def test_the_winner_is_fitted_in_full_wherever_it_stands(monkeypatch):
     assert [f.effects for f in found] == [("adhesion",), ("clock_error",)]
     again = far.fitted_anew(None, begun, kept, lambda line: None, sure=("adhesion",))
     assert [f.effects for f in again] == [("adhesion",)]
+
+
+def test_rivals_begun_where_the_winner_ended_are_compared_in_its_valley():
+    setup, kept = far_from("quadratic_drag:c=0.8")
+    wide = setup.fit(kept.fit.series, ("cable_restraint",))
+    winner = Family(("cable_restraint",), wide, wide.run(wide.begin(), 3, np.random.default_rng(0)))
+    found = in_the_valley_of(setup, winner, [("quadratic_drag",), ("gyro_scale",)])
+    assert [f.effects for f in found] == [("quadratic_drag",)]  # a sensor would move the windows
+    assert found[0].fit.series is winner.fit.series
+    assert found[0].point.objective < winner.point.objective  # the truth, at last
+
+
+def test_nothing_is_begun_in_the_valley_of_a_sensor():
+    setup, kept = far_from("gyro_scale:x=1.01,y=1.01,z=1.01")
+    wide = setup.fit(kept.fit.series, ("gyro_scale",))
+    assert in_the_valley_of(setup, Family(("gyro_scale",), wide, wide.begin()), [("clock_error",)]) == []

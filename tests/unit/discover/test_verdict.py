@@ -78,3 +78,15 @@ def test_windows_far_above_the_noise_in_fitted_and_held_out_runs_are_something_e
 
 def test_a_few_loud_windows_do_not_unsay_an_effect():
     assert decide(replace(facts(), loud=(3, 3))).verdict == "named"
+
+
+@pytest.mark.parametrize("left, word", [(0.0, "named"), (200.0, "class")])
+def test_a_winner_that_has_not_arrived_is_not_told_from_what_it_left_less_far_behind(left, word):
+    gains = {"cable_restraint": 253.0, "quadratic_drag": 139.0, "adhesion": 20.0}
+    found = decide(replace(facts(("cable_restraint",), gains), room=left))
+    assert found.verdict == word and set(found.effects) <= {"cable_restraint", "quadratic_drag"}
+
+
+def test_a_rival_that_gained_nothing_is_no_rival():
+    found = decide(replace(facts(gains={"quadratic_drag": 150.0, "adhesion": 0.0}), room=500.0))
+    assert (found.verdict, found.effects) == ("named", ("quadratic_drag",))
