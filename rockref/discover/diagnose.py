@@ -12,7 +12,6 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover import verdict as rules
-from rockref.discover.candidates import kinds
 from rockref.discover.evidence import HeldOut, held_out, rms_deg_s
 from rockref.discover.families import (
     Family,
@@ -27,44 +26,25 @@ from rockref.discover.families import (
     size_of,
     structured,
 )
-from rockref.discover.far import fitted_anew, from_far, in_the_valley_of, kin, own_z
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
+from rockref.discover.looking import PLAIN, POLISH, Look, challenge, duel, look_further
 from rockref.discover.on_this_data import seen_by
-from rockref.discover.plan import LEFT_OUT, switches_of
+from rockref.discover.plan import switches_of
 from rockref.discover.presearch import STRONG, suspects
-from rockref.discover.search import FRESH, LITTLE, Setup, baseline, screen
+from rockref.discover.search import FRESH, LITTLE, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
 from rockref.effects import catalogue
-from rockref.effects.base import Effect
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
-#: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
-REFITTED, ITERATIONS = 6, 3
-#: Further iterations of a challenge, half of those of a baseline that is left; the family that is gone on with, and
-#: whose sizes are read, gets three times as many while it gains.
-POLISH = 4
-#: Share of structured windows above which a family is too far off for small steps: candidates begin at a size.
-FAR = 0.5
-#: Candidates begin at a size, too, where no small step leaves less than NOWHERE of the structured windows that there
-#: were, and where these are more than FEW_STRUCTURED of all (on controls 0 to 2 % stay structured).
-NOWHERE, FEW_STRUCTURED = 0.6, 0.05
 #: The plain baseline is built on unless a suspect of the presearch, on windows of its own, fits better by this factor
 #: of mean loss (decided).
 NO_WORSE = 1.1
-#: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
-WORTH_A_REFIT = 120.0
-#: Share of the leader's gain below which a candidate is left where it is (decided: refits have doubled a gain).
-BEHIND = 0.4
 #: Share of structured windows above which what the release suggested is doubted (decided: right sensors left 0 to 6 %).
 #: It stays if the baseline's mean loss is larger by this factor (decided).
 DOUBTFUL, FAR_WORSE = 0.2, 2.0
-#: Gain above which an effect needs no challenge by the narrower family begun where it ended.
-PLAIN = 3000.0
-#: Share of structured windows below which the only candidate near the front, with a plain gain, is not fitted afresh.
-CLEAN = 0.03
 
 
 @dataclass
@@ -139,16 +119,33 @@ def diagnose(
     experiment = load_experiment(path, uses=(FIT,))
     setup = Setup(experiment, experiment.fit_runs(), baseline_model(experiment, model), end, seed, workers, say)
     setup, sets, seen = suspects(setup)
+    null, start = beginning(setup, sets, seen)
+    start, looks = grown(setup, start, seed, say)
+    if len(start.effects) == 2 and (needless := [e for e in start.effects if size_of(start, e) < rules.LEAST_SIZE]):
+        start = without(setup, start, needless[0])
+        say(f"  without {needless[0]}: structured {structured(start):.3f}, room {room(start):.0f}")
+    if looks and not looks[0].kept.effects:
+        null = looks[0].kept
+    if not start.effects:
+        # Nothing was found: the baseline itself has to be taken down to what it can reach before that is said.
+        null = start = refit(null, 2 * POLISH, seed)
+    held = load_experiment(path, uses=(FIT, HOLDOUT))
+    return conclude(setup, held, null, start, looks, seen, begun)
+
+
+def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Family, Family]:
+    """The plain baseline, and what is built on: it, or a suspect of the releases that does better.
+
+    Where the releases are far from the baseline and a suspect explains them, the baseline gets few iterations at first.
+    """
     families = []
     for effects in sets:
         hopeless = not effects and bool(seen.get("starts")) and seen["loss"] > STRONG
         z = np.zeros(len(setup.parameters(effects)))
         known = np.clip(seen.get("starts", {}).get(effects, seen["z"]), -3, 3)
         z[: len(known)] = 0 if hopeless else known
-        fit, point = baseline(setup, effects, z, iterations=(2, 1) if hopeless else FRESH)
-        families.append(Family(effects, fit, point))
-    null = families[0]
-    start = min(families, key=mean_loss)
+        families.append(Family(effects, *baseline(setup, effects, z, iterations=(2, 1) if hopeless else FRESH)))
+    null, start = families[0], min(families, key=mean_loss)
     if start.effects and structured(start) > DOUBTFUL:
         # A sensor that explains the release and not what follows may stand in for a load: the baseline gets its turn.
         null = Family((), *baseline(setup))
@@ -157,15 +154,16 @@ def diagnose(
         better = gain_over(null, start) > rules.DETECTED
     else:
         better = mean_loss(start) * NO_WORSE < mean_loss(null)
-    start = start if better else null
-    looks = []
+    return null, start if better else null
+
+
+def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) -> tuple[Family, list[Look]]:
+    """Effects added one at a time, as long as each is there, stands against its rivals, and settles what was left."""
+    looks: list[Look] = []
     while len(start.effects) < rules.MOST_EFFECTS and (not start.effects or room(start) > rules.SECOND_ROOM):
-        look = look_further(setup, start, seed, say)
+        look, second = look_further(setup, start, seed, say), bool(start.effects)
         looks.append(look)
-        if not look.order:
-            break
-        second = bool(start.effects)
-        if not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
+        if not look.order or not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
             break
         wider = look.order[0] if look.in_full else duel(setup, look, say)
         if look.gains[wider.effects[-1]] < PLAIN:
@@ -180,97 +178,7 @@ def diagnose(
         start = wider
         if structured(start) > rules.HOPELESS:
             break
-    if len(start.effects) == 2 and (needless := [e for e in start.effects if size_of(start, e) < rules.LEAST_SIZE]):
-        start = without(setup, start, needless[0])
-        say(f"  without {needless[0]}: structured {structured(start):.3f}, room {room(start):.0f}")
-    if looks and not looks[0].kept.effects:
-        null = looks[0].kept
-    if not start.effects:
-        # Nothing was found: the baseline itself has to be taken down to what it can reach before that is said.
-        null = start = refit(null, 2 * POLISH, seed)
-    held = load_experiment(path, uses=(FIT, HOLDOUT))
-    return conclude(setup, held, null, start, looks, seen, begun)
-
-
-@dataclass
-class Look:
-    """Candidates on top of a family: the family refitted, the candidates by gain, their gains.
-
-    in_full : whether the front of them was fitted through both stages already.
-    """
-
-    kept: Family
-    order: list[Family]
-    gains: dict[str, float]
-    in_full: bool = False
-
-
-def candidates_beside(setup: Setup, effects: tuple[str, ...]) -> tuple[type[Effect], ...]:
-    """What could be missing beside these effects and those of the model that was given."""
-    had = (e.id for e in setup.base.active_effects())
-    return kinds(setup.experiment.baseline, (*effects, *had, *LEFT_OUT))
-
-
-def look_further(setup: Setup, start: Family, seed: int, say) -> Look:
-    """Screen all candidates on top of a family, refit the best, and the family itself with the same budget."""
-    trials = screen(start.fit, start.point, candidates_beside(setup, start.effects), setup, start.effects)
-    kept = refit(start, ITERATIONS, seed + 1)
-    refitted: list[Family] = []
-    if structured(kept) <= FAR:
-        worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
-        refitted = race([Family(t.effects, t.fit, t.point) for t in worth], start, seed)
-    look = ranked(kept, refitted, say)
-    best = min(structured(f) for f in (kept, *refitted))
-    nowhere = best > NOWHERE * structured(kept) or not there(look, bool(start.effects))
-    if nowhere and structured(kept) > FEW_STRUCTURED:
-        look = ranked(kept, [*refitted, *from_far(setup, trials, kept, say)], say, in_full=True)
-    return look
-
-
-def ranked(kept: Family, families: list[Family], say, in_full: bool = False) -> Look:
-    """Families by their gain over the one that was kept, the better one of each name."""
-    order: list[Family] = []
-    for f in sorted(families, key=lambda f: -gain_between(kept, f)):
-        if f.effects not in [better.effects for better in order]:
-            order.append(f)
-    gains = {f.effects[-1]: gain_between(kept, f) for f in order}
-    for f in order:
-        say(f"  {f.effects[-1]}: gain {gains[f.effects[-1]]:.0f}, size {size_of(f):.2f}")
-    return Look(kept, order, gains, in_full)
-
-
-def there(look: Look, second: bool) -> bool:
-    """Whether the leader of a look is an effect: gain and size."""
-    return bool(look.order) and rules.is_detected(look.gains[look.order[0].effects[-1]], size_of(look.order[0]), second)
-
-
-def race(families: list[Family], start: Family, seed: int) -> list[Family]:
-    """Refit families an iteration at a time; one that has fallen far behind the leader stays where it is."""
-    alive = set(range(len(families)))
-    for i in range(ITERATIONS):
-        for k in alive:
-            families[k] = refit(families[k], 1, seed + 1 + i)
-        gains = {k: gain_over(start, families[k]) for k in alive}
-        leader = max(gains.values(), default=0.0)
-        if leader < WORTH_A_REFIT / 2 and i:
-            break
-        alive = {k for k in alive if gains[k] > min(BEHIND * leader, leader - WORTH_A_REFIT)}
-    return families
-
-
-def challenge(look: Look, wider: Family, seed: int) -> None:
-    """Begin the narrower family once more where the wider one ended, less the effect; if that is better, gains shrink.
-
-    A fit that was begun afresh may only have found a better valley, with the effect or without it.
-    """
-    if not same_windows(look.kept, wider):
-        return
-    point, _ = look.kept.fit.point(wider.point.z[: len(look.kept.point.z)], wider.point.corrections)
-    again = refit(Family(look.kept.effects, look.kept.fit, point), POLISH, seed)
-    if again.point.objective < look.kept.point.objective:
-        less = gain_over(look.kept, again)
-        look.kept = again
-        look.gains = {id: gain - less for id, gain in look.gains.items()}
+    return start, looks
 
 
 def without(setup: Setup, family: Family, effect: str) -> Family:
@@ -281,31 +189,6 @@ def without(setup: Setup, family: Family, effect: str) -> Family:
     ]
     single = Family(left, *baseline(setup, left, np.array(own)))
     return single if mean_loss(single) < rules.NO_LOSS * mean_loss(family) else family
-
-
-def duel(setup: Setup, look: Look, say) -> Family:
-    """The winner of a look, its near rivals and its kin, each fitted once more from the nominal parameters, and, where
-    the gain is not plain, from where the winner ended.
-
-    A name is not given before the effects that are most easily taken for it were fitted in full. Gains are mended.
-    """
-    winner = look.order[0]
-    gain = look.gains[winner.effects[-1]]
-    near = [f.effects for f in look.order[:3] if look.gains[f.effects[-1]] >= rules.RIVAL_BEFORE_DUEL * gain]
-    if structured(winner) < CLEAN and len(near) == 1 and gain > PLAIN:
-        return winner
-    z = {f.effects: f.point.z[len(look.kept.point.z) :] for f in look.order}
-    offered = [k.id for k in candidates_beside(setup, look.kept.effects)]
-    relatives = [(*look.kept.effects, id) for id in kin(winner.effects[-1]) if id in offered]
-    begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
-    anew = fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
-    fought = [*(f for f in look.order if f.effects in near), *anew]
-    mended = ranked(look.kept, fought, say)
-    if mended.gains[mended.order[0].effects[-1]] < PLAIN:
-        others = [effects for effects in begun if effects != mended.order[0].effects]
-        mended = ranked(look.kept, [*fought, *in_the_valley_of(setup, mended.order[0], others)], say)
-    look.order, look.gains = mended.order, look.gains | {id: max(g, 0.0) for id, g in mended.gains.items()}
-    return look.order[0]
 
 
 def conclude(

@@ -8,7 +8,7 @@ from types import ModuleType
 import pytest
 import typer
 
-from rockref import cli, commands
+from rockref import __version__, cli, commands
 from rockref.model.errors import InputError, NumericalError
 
 
@@ -70,6 +70,11 @@ def test_faults_of_ours_keep_their_traceback(command_that):
     command_that(ZeroDivisionError())
     with pytest.raises(ZeroDivisionError):
         cli.main(["act"])
+
+
+def test_the_package_runs_as_a_module():
+    done = subprocess.run([sys.executable, "-m", "rockref", "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout == f"rockref {__version__}\n"
 
 
 def test_unknown_command_ends_with_2_and_suggests(capsys):

@@ -1,0 +1,146 @@
+"""One look further: which effect explains more, tried from everywhere that is cheap, and held against its rivals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rockref.discover import verdict as rules
+from rockref.discover.candidates import kinds
+from rockref.discover.families import (
+    Family,
+    gain_between,
+    gain_over,
+    refit,
+    same_windows,
+    size_of,
+    structured,
+)
+from rockref.discover.far import fitted_anew, from_far, in_the_valley_of, kin, own_z
+from rockref.discover.plan import LEFT_OUT
+from rockref.discover.search import Setup, screen
+from rockref.effects.base import Effect
+
+#: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
+REFITTED, ITERATIONS = 6, 3
+#: Further iterations of a challenge, half of those of a baseline that is left; the family that is gone on with, and
+#: whose sizes are read, gets three times as many while it gains.
+POLISH = 4
+#: Share of structured windows above which a family is too far off for small steps: candidates begin at a size.
+FAR = 0.5
+#: Candidates begin at a size, too, where no small step leaves less than NOWHERE of the structured windows that there
+#: were, and where these are more than FEW_STRUCTURED of all (on controls 0 to 2 % stay structured).
+NOWHERE, FEW_STRUCTURED = 0.6, 0.05
+#: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
+WORTH_A_REFIT = 120.0
+#: Share of the leader's gain below which a candidate is left where it is (decided: refits have doubled a gain).
+BEHIND = 0.4
+#: Gain above which an effect needs no challenge by the narrower family begun where it ended.
+PLAIN = 3000.0
+#: Share of structured windows below which the only candidate near the front, with a plain gain, is not fitted afresh.
+CLEAN = 0.03
+
+
+@dataclass
+class Look:
+    """Candidates on top of a family: the family refitted, the candidates by gain, their gains.
+
+    in_full : whether the front of them was fitted through both stages already.
+    """
+
+    kept: Family
+    order: list[Family]
+    gains: dict[str, float]
+    in_full: bool = False
+
+
+def candidates_beside(setup: Setup, effects: tuple[str, ...]) -> tuple[type[Effect], ...]:
+    """What could be missing beside these effects and those of the model that was given."""
+    had = (e.id for e in setup.base.active_effects())
+    return kinds(setup.experiment.baseline, (*effects, *had, *LEFT_OUT))
+
+
+def look_further(setup: Setup, start: Family, seed: int, say) -> Look:
+    """Screen all candidates on top of a family, refit the best, and the family itself with the same budget."""
+    trials = screen(start.fit, start.point, candidates_beside(setup, start.effects), setup, start.effects)
+    kept = refit(start, ITERATIONS, seed + 1)
+    refitted: list[Family] = []
+    if structured(kept) <= FAR:
+        worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
+        refitted = race([Family(t.effects, t.fit, t.point) for t in worth], start, seed)
+    look = ranked(kept, refitted, say)
+    best = min(structured(f) for f in (kept, *refitted))
+    nowhere = best > NOWHERE * structured(kept) or not there(look, bool(start.effects))
+    if nowhere and structured(kept) > FEW_STRUCTURED:
+        look = ranked(kept, [*refitted, *from_far(setup, trials, kept, say)], say, in_full=True)
+    return look
+
+
+def ranked(kept: Family, families: list[Family], say, in_full: bool = False) -> Look:
+    """Families by their gain over the one that was kept, the better one of each name."""
+    order: list[Family] = []
+    for f in sorted(families, key=lambda f: -gain_between(kept, f)):
+        if f.effects not in [better.effects for better in order]:
+            order.append(f)
+    gains = {f.effects[-1]: gain_between(kept, f) for f in order}
+    for f in order:
+        say(f"  {f.effects[-1]}: gain {gains[f.effects[-1]]:.0f}, size {size_of(f):.2f}")
+    return Look(kept, order, gains, in_full)
+
+
+def there(look: Look, second: bool) -> bool:
+    """Whether the leader of a look is an effect: gain and size."""
+    return bool(look.order) and rules.is_detected(look.gains[look.order[0].effects[-1]], size_of(look.order[0]), second)
+
+
+def race(families: list[Family], start: Family, seed: int) -> list[Family]:
+    """Refit families an iteration at a time; one that has fallen far behind the leader stays where it is."""
+    alive = set(range(len(families)))
+    for i in range(ITERATIONS):
+        for k in alive:
+            families[k] = refit(families[k], 1, seed + 1 + i)
+        gains = {k: gain_over(start, families[k]) for k in alive}
+        leader = max(gains.values(), default=0.0)
+        if leader < WORTH_A_REFIT / 2 and i:
+            break
+        alive = {k for k in alive if gains[k] > min(BEHIND * leader, leader - WORTH_A_REFIT)}
+    return families
+
+
+def challenge(look: Look, wider: Family, seed: int) -> None:
+    """Begin the narrower family once more where the wider one ended, less the effect; if that is better, gains shrink.
+
+    A fit that was begun afresh may only have found a better valley, with the effect or without it.
+    """
+    if not same_windows(look.kept, wider):
+        return
+    point, _ = look.kept.fit.point(wider.point.z[: len(look.kept.point.z)], wider.point.corrections)
+    again = refit(Family(look.kept.effects, look.kept.fit, point), POLISH, seed)
+    if again.point.objective < look.kept.point.objective:
+        less = gain_over(look.kept, again)
+        look.kept = again
+        look.gains = {id: gain - less for id, gain in look.gains.items()}
+
+
+def duel(setup: Setup, look: Look, say) -> Family:
+    """The winner of a look, its near rivals and its kin, each fitted once more from the nominal parameters, and, where
+    the gain is not plain, from where the winner ended.
+
+    A name is not given before the effects that are most easily taken for it were fitted in full. Gains are mended.
+    """
+    winner = look.order[0]
+    gain = look.gains[winner.effects[-1]]
+    near = [f.effects for f in look.order[:3] if look.gains[f.effects[-1]] >= rules.RIVAL_BEFORE_DUEL * gain]
+    if structured(winner) < CLEAN and len(near) == 1 and gain > PLAIN:
+        return winner
+    z = {f.effects: f.point.z[len(look.kept.point.z) :] for f in look.order}
+    offered = [k.id for k in candidates_beside(setup, look.kept.effects)]
+    relatives = [(*look.kept.effects, id) for id in kin(winner.effects[-1]) if id in offered]
+    begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
+    anew = fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
+    fought = [*(f for f in look.order if f.effects in near), *anew]
+    mended = ranked(look.kept, fought, say)
+    if mended.gains[mended.order[0].effects[-1]] < PLAIN:
+        others = [effects for effects in begun if effects != mended.order[0].effects]
+        mended = ranked(look.kept, [*fought, *in_the_valley_of(setup, mended.order[0], others)], say)
+    look.order, look.gains = mended.order, look.gains | {id: max(g, 0.0) for id, g in mended.gains.items()}
+    return look.order[0]
