@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from rockref.commands._results import keep, say_written
+
 
 def compare_tosses(path: Path, model: Sequence[str] | None, report: Path | None, as_json: bool) -> None:
     """Print models beside tosses, and write the page where it is wanted."""
@@ -30,8 +32,7 @@ def compare_tosses(path: Path, model: Sequence[str] | None, report: Path | None,
         typer.echo(json.dumps(record | {"written": [str(p) for p in written]}, indent=1))
         return
     print_toss_comparison(console(), record)
-    for p in written:
-        typer.echo(f"wrote {p}")
+    say_written(written)
 
 
 def diagnose_tosses(
@@ -43,7 +44,6 @@ def diagnose_tosses(
     from rockref.commands._stages import console, stages
     from rockref.discover.tosses.diagnose import diagnose
     from rockref.measure.tosses import load_tosses
-    from rockref.model.storage import write_text
     from rockref.report.toss_text import print_toss_diagnosis
 
     tosses = load_tosses(path)
@@ -58,18 +58,12 @@ def diagnose_tosses(
         from rockref.report.toss_page import write_toss_diagnosis
 
         written.append(write_toss_diagnosis(record, made_folder(report)))
-    if output is not None:
-        write_text(output, text + "\n")
-        written.append(output)
-    if save_model is not None:
-        found.model.save(save_model)
-        written.append(save_model)
+    written += keep(text, output, found.model, save_model)
     if as_json:
         typer.echo(text)
         return
     print_toss_diagnosis(console(), record)
-    for p in written:
-        typer.echo(f"wrote {p}")
+    say_written(written)
 
 
 def fit_to_tosses(
@@ -123,5 +117,4 @@ def add_to_model_of_tosses(
         typer.echo(json.dumps(record | {"written": [str(p) for p in written]}, indent=1))
         return
     print_toss_addition(console(), record)
-    for p in written:
-        typer.echo(f"wrote {p}")
+    say_written(written)

@@ -48,6 +48,7 @@ def add(
 
         return add_to_model_of_tosses(effect, experiment, model, output, report, verbose, as_json)
     from rockref.commands._models import named_model
+    from rockref.commands._results import say_written
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
     from rockref.discover.diagnosis_record import plain
@@ -71,5 +72,4 @@ def add(
         from rockref.report.addition_text import print_addition
 
         print_addition(console(), found)
-        for path in written:
-            typer.echo(f"wrote {path}")
+        say_written(written)

@@ -48,6 +48,7 @@ def compare(
         return compare_tosses(experiment, model, report, as_json)
     from rockref.commands._models import labels, named_model
     from rockref.commands._progress import progress
+    from rockref.commands._results import say_written
     from rockref.discover.compare import baseline_model
     from rockref.discover.compare import compare as run_comparison
     from rockref.measure import load_experiment
@@ -70,7 +71,6 @@ def compare(
         from rockref.report.text import print_comparison
 
         print_comparison(Console(), comparison)
-        for path in written:
-            typer.echo(f"wrote {path}")
+        say_written(written)
     if check and not comparison.holds_to_second_impact():
         raise typer.Exit(1)

@@ -45,10 +45,10 @@ def diagnose(
 
         return diagnose_tosses(experiment, model, report, output, save_model, verbose, as_json)
     from rockref.commands._models import named_model
+    from rockref.commands._results import keep, say_written
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
-    from rockref.model.storage import write_text
     from rockref.report.output import made_folder
 
     given = named_model(model) if model is not None else None
@@ -63,12 +63,7 @@ def diagnose(
             say("the page")
             written.append(write_diagnosis(found, folder))
     text = json.dumps(record, indent=1, allow_nan=False)
-    if output is not None:
-        write_text(output, text + "\n")
-        written.append(output)
-    if save_model is not None:
-        found.model.save(save_model)
-        written.append(save_model)
+    written += keep(text, output, found.model, save_model)
     if as_json:
         typer.echo(text)
     else:
@@ -76,7 +71,6 @@ def diagnose(
         from rockref.report.diagnosis_text import print_diagnosis
 
         print_diagnosis(console(), record)
-        for path in written:
-            typer.echo(f"wrote {path}")
+        say_written(written)
     if record["verdict"] == "not_trustworthy":
         raise typer.Exit(1)

@@ -45,6 +45,7 @@ def identify(
       rockref identify data/experiments/mystery-08 --dask tcp://127.0.0.1:8786
     """
     from rockref.commands._models import named_model
+    from rockref.commands._results import say_written
     from rockref.commands._searching import searching
     from rockref.identify.campaign import campaign
     from rockref.identify.from_experiment import identify_experiment
@@ -71,7 +72,6 @@ def identify(
         from rockref.report.identification_text import print_identification
 
         print_identification(Console(), result)
-        for path in files.values():
-            typer.echo(f"wrote {path}")
+        say_written(files.values())
     if not result["least_squares"]["at_noise_floor"]:
         raise typer.Exit(1)

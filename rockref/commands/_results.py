@@ -1,0 +1,27 @@
+"""What a diagnosis leaves behind beside what it prints: the record, the model, and a line for every file."""
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+if TYPE_CHECKING:
+    from rockref.api import Model
+
+
+def keep(text: str, output: Path | None, model: "Model", save_model: Path | None) -> list[Path]:
+    """Write the record and the model where they are wanted; where they are now."""
+    from rockref.model.storage import write_text
+
+    if output is not None:
+        write_text(output, text + "\n")
+    if save_model is not None:
+        model.save(save_model)
+    return [path for path in (output, save_model) if path is not None]
+
+
+def say_written(paths: Iterable[Path]) -> None:
+    """A line for every file that was written."""
+    for path in paths:
+        typer.echo(f"wrote {path}")

@@ -1,0 +1,215 @@
+"""What the law says when it refuses: place, finding, cure and code, word for word.
+
+The text is the contract with whoever reads it: it names the value that was found, the limit, and what to do.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rockref
+from rockref.model import energy, geometry, housner, parameters, problem, release, rotation, simulate, storage
+from rockref.model.errors import InputError, NumericalError
+from tests import physics
+
+MODEL = rockref.Model.table_3_1()
+FOOT = physics.mass_on_a_foot()
+
+
+def run(problem):
+    return simulate.simulate(problem)
+
+
+def two():
+    return run(problem.stack([physics.mass_on_a_foot(duration=2e-5)] * 2))
+
+
+def body(**changes):
+    return replace(FOOT, block=replace(FOOT.block, **changes))
+
+
+def start(**changes):
+    return replace(FOOT, start=replace(FOOT.start, **changes))
+
+
+def feet(**properties):
+    return replace(FOOT, points=physics.points([0, 0, 0], **properties))
+
+
+def cuboid(**changes):
+    sizes = dict(mass=54.0, width=0.1, depth=0.1, height=0.688, delta_long=(0, 0, 0, 0), delta_diag=0.006)
+    geometry.check_cuboid(**{**sizes, **changes})
+
+
+def released(theta_0, points=None):
+    points = MODEL.body()[1] if points is None else points
+    release.release_posture(physics.block(), points, theta_0)
+
+
+NO_NUMBER = "Give one real number. [E-TYPE]"
+ONE_BLOCK = "was asked of a batch. Index the response first: response[i]. [E-BATCH]"
+ONE_BY_ONE = "differs between the problems of a batch. Run them one by one. [E-STACK]"
+MATRIX = "Give a symmetric, positive definite 3 x 3 matrix in kg m2. [E-RANGE]"
+FINITE = "Give a positive, finite number. [E-RANGE]"
+BODY = "Give a finite number, not negative; a mass is positive. [E-RANGE]"
+FEET = "Stiffness must be positive; damping, friction and radius must not be negative. [E-RANGE]"
+TILT = "Give a release tilt in radians between 0 and the tipping angle. [E-TILT]"
+PIVOT = "A release needs a pivot point on either side; give a start state instead. [E-RELEASE]"
+
+REFUSALS = [
+    # numbers
+    (lambda: geometry.check_number("mu", "x"), f"mu: is 'x'. {NO_NUMBER}"),
+    (lambda: geometry.check_number("mu", 300 * "x"), f"mu: is '{116 * 'x'}. {NO_NUMBER}"),
+    (lambda: geometry.check_number("mu", -0.5), "mu: is -0.5. Give a finite number, not below 0. [E-RANGE]"),
+    (
+        lambda: geometry.check_number("K_N", 0.0, more_than_least=True),
+        "K_N: is 0.0. Give a finite number, above 0. [E-RANGE]",
+    ),
+    (lambda: geometry.check_number("g", 2e30), "g: is 2e+30. No block has such a number: check its unit. [E-RANGE]"),
+    # the block
+    (lambda: geometry.check_inertia(np.zeros((1, 1))), f"inertia: is [[0.0]]. {MATRIX}"),
+    (
+        lambda: geometry.check_inertia(np.full((5, 3, 3), 0.25)),
+        # the first two hundred characters of what was given
+        f"inertia: is {str(np.full((5, 3, 3), 0.25).tolist())[:197]}. {MATRIX}",
+    ),
+    (lambda: cuboid(mass=0), "mass: is 0. Give a finite number, above 0. [E-RANGE]"),
+    (lambda: cuboid(delta_diag=-1.0), "delta_diag: is -1.0. Give a finite number, not below 0. [E-RANGE]"),
+    (lambda: cuboid(delta_long=(0, 0)), "delta_long: has 2 values. Give four heights in metres. [E-SHAPE]"),
+    (lambda: cuboid(delta_long=(0, "a", 0, 0)), f"delta_long[1]: is 'a'. {NO_NUMBER}"),
+    (
+        lambda: cuboid(delta_long=(0, 0, 0, -0.688)),
+        "delta_long[3]: is -0.688 m, larger than the block. Give heights in metres. [E-RANGE]",
+    ),
+    (
+        lambda: cuboid(width=0.6, depth=0.8, delta_diag=0.5),
+        "delta_diag: is 0.5 m; half the diagonal of the base is 0.5 m. "
+        "Give a distance from the corner in metres, between 0 and half the diagonal. [E-RANGE]",
+    ),
+    # parameters
+    (
+        lambda: parameters.Parameters().replace(k_n=1.0),
+        "k_n: is no parameter. Known: K_N, K_T, beta_int, beta_ext, mu_int, mu_ext, delta_long, delta_diag, theta_0. "
+        "[E-KEY]",
+    ),
+    (
+        lambda: parameters.from_chromosome_12(np.ones((2, 13))),
+        "chromosome: has shape (2, 13). Give 12 genes. [E-SHAPE]",
+    ),
+    (lambda: parameters.split_54([1.0]), "chromosome: has shape (1,). Give 54 genes. [E-SHAPE]"),
+    # batches
+    (lambda: problem.stack([FOOT, FOOT.replace(step=2e-5)]), f"step: {ONE_BY_ONE}"),
+    (lambda: problem.stack([FOOT, FOOT.replace(effects=(physics.Pull(),))]), f"effects: {ONE_BY_ONE}"),
+    (
+        lambda: problem.stack([FOOT, feet(radius=1e-3)]),
+        "radius: is given for some of the problems only. Give it for all of them. [E-STACK]",
+    ),
+    (lambda: run(FOOT)[0], "response: is of one block. Only a batch can be indexed. [E-BATCH]"),
+    (lambda: two().main_impacts(), f"main_impacts: {ONE_BLOCK}"),
+    (lambda: two().contacts(), f"contacts: {ONE_BLOCK}"),
+    (lambda: two().to_frame(), f"to_frame: {ONE_BLOCK}"),
+    (lambda: energy.balance(two()), f"balance: {ONE_BLOCK}"),
+    (
+        lambda: energy.balance(run(FOOT.replace(output_rate=2000.0))),
+        "output_rate: 2000 Hz skips steps. Record 100000 rows a second. [E-RATE]",
+    ),
+    # release
+    (
+        lambda: housner.housner(54.0, 0.1, 0.688, 2.175, 9.81, 0.2, 1.0, 100.0),
+        "theta_0: is 0.2 rad. Give a tilt between 0 and 0.1443 rad. [E-TILT]",
+    ),
+    (lambda: released(0.25), f"theta_0: is 0.25 rad; the block tips over at 0.1443 rad. {TILT}"),
+    (
+        lambda: released(0.1, physics.points([[0.05, 0.05, -0.344]])),
+        f"contact points: there is no point with x < 0. {PIVOT}",
+    ),
+    (
+        lambda: released(0.1, physics.points([[-0.05, 0.05, -0.344]])),
+        f"contact points: there is no point with x > 0. {PIVOT}",
+    ),
+    # the step
+    (
+        lambda: rotation.exp_minus_identity(np.array([0.0, 3.0, 4.0])),
+        "Theta: a step turns the block by 5 rad. Use a smaller step or a smaller angular velocity. [E-ANGLE]",
+    ),
+    # what cannot be simulated
+    (lambda: run(FOOT.replace(step=-1.0)), f"step: is -1.0. {FINITE}"),
+    (lambda: run(FOOT.replace(output_rate=np.inf)), f"output_rate: is inf. {FINITE}"),
+    (
+        lambda: run(FOOT.replace(duration=5e-6)),
+        "duration: 5e-06 s is shorter than one step. Ask for a longer run. [E-DURATION]",
+    ),
+    (
+        lambda: run(FOOT.replace(output_rate=2e5)),
+        "output_rate: 200000 Hz asks for more than one row a step of 1e-05 s. "
+        "Use at most 100000 Hz or a smaller step. [E-RATE]",
+    ),
+    (
+        # an undamped spring of 6e7 N/m under 66 kg: (w h)^2 / 4 = 1 at h = 2.098 ms
+        lambda: run(physics.mass_on_a_foot(mass=66.0, K_N=6e7, K_T=6e7, C_N=0, C_T=0, step=3e-3)),
+        "step: 0.003 s is too large for the stiffest contact. Use a step of at most 0.002 s. [E-STEP]",
+    ),
+    (lambda: run(body(mass=np.array(0.0))), f"mass: is 0.0. {BODY}"),
+    (lambda: run(body(g=np.array(-1.0))), f"g: is -1.0. {BODY}"),
+    (
+        lambda: run(start(v=np.array([0, np.nan, 0]))),
+        "start.v: is not finite everywhere. Give finite numbers. [E-START]",
+    ),
+    (
+        lambda: run(start(Lambda=2 * np.eye(3))),
+        "start.Lambda: is no rotation. Give a matrix with orthonormal columns, or use from_quaternion. [E-START]",
+    ),
+    (lambda: run(feet(C_T=-1.0)), f"C_T of point 0: is -1.0. {FEET}"),
+    (lambda: run(feet(K_T=0.0)), f"K_T of point 0: is 0.0. {FEET}"),
+    (
+        lambda: run(feet(mu_0=0.2, mu=0.3)),
+        "mu_0: is below mu. Static friction is at least as large as dynamic friction. [E-RANGE]",
+    ),
+    # files
+    (
+        lambda: storage.write_text("/nowhere/a.txt", ""),
+        "/nowhere/a.txt: cannot be written (No such file or directory). Check the folder and its space. [E-WRITE]",
+    ),
+]
+
+
+@pytest.mark.parametrize("call, text", REFUSALS, ids=[text[:40] for _, text in REFUSALS])
+def test_a_refusal_says_what_was_found_and_what_to_do(call, text):
+    with pytest.raises(InputError) as refused:
+        call()
+    assert str(refused.value) == text
+
+
+CURE = "Check the start state and the parameters, or use a smaller step. [E-NAN]"
+
+
+def lost_at_a_point(problem):
+    """An anchor that is no number: the friction of this point is none either."""
+    s = np.full(problem.start.s.shape, np.nan)
+    return replace(problem, start=replace(problem.start, s=s, anchored=np.ones(s.shape[:-1], bool)))
+
+
+@pytest.mark.parametrize(
+    "lost, text",
+    [
+        (
+            lost_at_a_point(FOOT),
+            f"step 0 (t = 0 s): the motion is no longer made of finite numbers; it began at: 0. {CURE}",
+        ),
+        (
+            physics.mass_on_a_foot(z=1.0, effects=(physics.Pull(force=np.inf),)),
+            "step 1 (t = 1e-05 s): the motion is no longer made of finite numbers; "
+            f"it began at: none of the contact points. {CURE}",
+        ),
+        (
+            problem.stack([FOOT, lost_at_a_point(FOOT)]),
+            f"step 0 (t = 0 s): the motion of block 1 is no longer made of finite numbers; it began at: 0. {CURE}",
+        ),
+    ],
+    ids=["point", "body", "batch"],
+)
+def test_a_run_that_loses_its_numbers_says_where(lost, text):
+    with pytest.raises(NumericalError) as stopped:
+        run(lost)
+    assert str(stopped.value) == text
