@@ -148,13 +148,13 @@ def reduce_54(genes: np.ndarray, mass: float) -> Parameters:
     q, delta_long, delta_diag, theta_0 = split_54(genes)
     beta = (q["C_N"] / (2 * np.sqrt(q["K_N"] * mass)) + q["C_T"] / (2 * np.sqrt(q["K_T"] * mass))) / 2
     mu = (q["mu_0"] + q["mu"]) / 2
-    ext, inn = slice(0, 4), slice(4, 8)
-    means = [q["K_N"], q["K_T"], beta[inn], beta[ext], mu[inn], mu[ext]]
+    external, internal = slice(4), slice(4, None)
+    means = [q["K_N"], q["K_T"], beta[internal], beta[external], mu[internal], mu[external]]
     return from_chromosome_12(np.array([*(np.mean(a) for a in means), *delta_long, delta_diag, theta_0]))
 
 
 def _genes(genes: np.ndarray, n: int) -> list[float]:
-    genes = np.asarray(genes, float)
+    genes = np.asarray(genes)
     if genes.shape != (n,):
         raise InputError("E-SHAPE", "chromosome", f"has shape {genes.shape}", f"Give {n} genes.")
     return [float(g) for g in genes]

@@ -102,7 +102,7 @@ class Response:
         for i, name in enumerate(self.problem.points.names):
             on = np.concatenate([[False], self.anchored[:, i], [False]]).astype(np.int8)
             begin, end = np.flatnonzero(np.diff(on) == 1), np.flatnonzero(np.diff(on) == -1) - 1
-            found.append((name, np.stack([self.t[begin], self.t[end]], axis=-1)))
+            found.append((name, np.column_stack([self.t[begin], self.t[end]])))
         return found
 
     def energy(self) -> dict[str, np.ndarray]:

@@ -97,13 +97,15 @@ class TestN2:
     def test_effects_act_before_the_cut(self):
         class Pulled:
             def normal_force(self, F_N, k, points, m):
-                return F_N - 50
+                # 1e-6 m times 6e7, 1e7, 6e7 N/m is taken off, and what the memory says
+                return F_N - points.K_N * k.xi - m["pull"] + 60
 
         s = {**moving_block(), "P": np.zeros((3, 3)), "Lambda": np.eye(3), "v": np.zeros(3)}
         s["x"] = np.array([0, 0, -1e-6])
         k = contact.point_kinematics(**s)
         properties = type("P", (), {"K_N": np.array([6e7, 1e7, 6e7]), "C_N": np.zeros(3)})()
-        assert contact.altered_normal_force(k, properties, [(Pulled(), {})]) == pytest.approx([10, 0, 10], abs=1e-12)
+        F = contact.altered_normal_force(k, properties, [(Pulled(), {"pull": np.array([50, 70, 20.0])})])
+        assert F == pytest.approx([10, 0, 40], abs=1e-12)
         assert np.array_equal(
             contact.altered_normal_force(k, properties, []),
             contact.open_gap(k.xi, contact.kelvin_voigt(k.xi, k.xi_rate, properties.K_N, properties.C_N)),
@@ -230,8 +232,14 @@ class TestNorm:
 
 def test_rolling_anchor_follows_the_lowest_point():
     """A sphere that rolls by an angle about y moves its lowest point by radius * angle along x; about x, along -y."""
-    s, radius = np.zeros((2, 2)), np.array([0.001, 0.0])
-    assert contact.roll_anchor(s, radius, np.array([0.3, 0.2, 9.0])) == pytest.approx(
-        np.array([[0.0002, -0.0003], [0, 0]]), rel=1e-15
-    )
-    assert np.array_equal(s, np.zeros((2, 2)))
+    s, radius = np.array([[0.5, 0.25], [3.0, 4.0]]), np.array([0.001, 0.0])
+    rolled = contact.roll_anchor(s, radius, np.array([0.3, 0.2, 9.0]))
+    # rounded once, at 0.5
+    assert rolled - s == pytest.approx(np.array([[0.0002, -0.0003], [0, 0]]), rel=0, abs=1e-16)
+    assert np.array_equal(s, [[0.5, 0.25], [3, 4]])
+
+
+def test_rolling_keeps_the_batch_fastest_in_memory():
+    s = rotation.empty((5,), (8, 2), float)
+    s[...] = 0
+    assert contact.roll_anchor(s, np.zeros((5, 8)), np.zeros((5, 3))).strides == s.strides

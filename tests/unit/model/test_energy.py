@@ -1,5 +1,7 @@
 """Energies of the block and of the springs, and the account of a run."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -27,9 +29,11 @@ def test_potential_energy_is_the_height_times_the_weight():
 
 def test_springs_of_points_in_the_air_store_nothing():
     xi, touching = np.array([1e-6, 2e-6]), np.array([True, False])
-    u, s = np.array([[3e-6, 4e-6], [1, 1]]), np.zeros((2, 2))
+    s = np.array([[1e-3, -2e-3], [0, 0]])
+    u = s + [[3e-6, 4e-6], [1, 1]]
     normal, tangential = energy.spring_energy(xi, touching, u, s, np.full(2, 6e7), np.full(2, 5e7))
-    assert (normal, tangential) == pytest.approx((3e-5, 5e7 * 25e-12 / 2), rel=1e-14)
+    # the stretch of 5e-6 m is the difference of places at 1e-3 m: two digits and a half less
+    assert (normal, tangential) == pytest.approx((3e-5, 5e7 * 25e-12 / 2), rel=1e-12, abs=0)
 
 
 def test_sums_of_energies():
@@ -65,6 +69,15 @@ def test_a_row_for_every_step_is_needed():
     assert (refused.value.code, refused.value.where) == ("E-RATE", "output_rate")
 
 
+def test_the_account_does_not_mind_when_the_run_began():
+    problem = physics.mass_on_a_foot(z=-1e-6, v=(0.3, 0, -0.1), duration=1e-3)
+    early = energy.balance(every_step(problem))
+    late = energy.balance(every_step(problem.replace(start=replace(problem.start, t=7.0))))
+    assert late.t[0] == 7
+    assert late.t == pytest.approx(7 + early.t, rel=1e-15)
+    assert np.array_equal(late.residual, early.residual)
+
+
 def test_one_block_only():
     with pytest.raises(InputError) as refused:
         energy.balance(rockref.simulate(stack([physics.mass_on_a_foot(duration=1e-4)] * 2), engine="numpy"))
@@ -72,4 +85,7 @@ def test_one_block_only():
 
 
 def test_from_start():
-    assert np.array_equal(energy.from_start(np.array([1.0, 2, 3])), [0, 1, 3, 6])
+    for dtype in (np.float32, np.float64, np.longdouble):
+        sums = energy.from_start(np.array([1, 2, 3], dtype))
+        assert np.array_equal(sums, [0, 1, 3, 6])
+        assert sums.dtype == dtype

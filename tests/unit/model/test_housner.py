@@ -85,6 +85,13 @@ def test_signs_and_rows():
     assert np.all(np.diff(r.impacts) > 0)
 
 
+def test_few_rows_are_as_good_as_many():
+    many, few = run(0.1170, rate=2000.0), run(0.1170, rate=5.0)
+    # both step by 1e-4 s at most, but not at the same instants: (p h)^4 = 5e-14 a unit of time
+    assert few.theta == pytest.approx(many.theta[::400], abs=1e-11)
+    assert few.impacts == pytest.approx(many.impacts, abs=1e-10)
+
+
 def test_impacts_come_closer_together():
     r = run(0.1170, duration=4.0, rate=100.0)
     assert np.all(np.diff(r.impacts, 2) < 0)

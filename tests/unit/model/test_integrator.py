@@ -169,6 +169,29 @@ class TestContactOfAStep:
         assert np.array_equal(state.F, np.zeros((1, 3)))
 
 
+class Shaken:
+    """A plate that moves along x as its memory says."""
+
+    def plate_motion(self, t, m):
+        return np.array([m["rate"] * t, 0, 0]), np.array([m["rate"], 0, 0])
+
+
+class Still:
+    def plate_motion(self, t, m):
+        return None
+
+
+class TestPlateMotion:
+    def test_motions_add_up(self):
+        effects = [(Shaken(), {"rate": 2.0}), (Still(), {}), (Shaken(), {"rate": 0.5})]
+        q, q_rate = integrator.plate_motion(effects, 3.0)
+        assert np.array_equal(q, [7.5, 0, 0])
+        assert np.array_equal(q_rate, [2.5, 0, 0])
+
+    def test_without_one_the_plate_is_fixed(self):
+        assert integrator.plate_motion([(Still(), {})], 3.0) is None
+
+
 @dataclass(frozen=True)
 class Recorder(Effect):
     """Calls every hook and changes nothing."""

@@ -190,6 +190,13 @@ def lost_at_a_point(problem):
     return replace(problem, start=replace(problem.start, s=s, anchored=np.ones(s.shape[:-1], bool)))
 
 
+class Twisted(physics.Pull):
+    """After the start a moment that is no number: it takes the angular velocity of the same step, no force yet."""
+
+    def body_wrench(self, problem, c, x, Lambda, v, W, m):
+        return np.zeros_like(x), np.full_like(x, np.nan if c.t > 0 else 0)
+
+
 @pytest.mark.parametrize(
     "lost, text",
     [
@@ -203,11 +210,20 @@ def lost_at_a_point(problem):
             f"it began at: none of the contact points. {CURE}",
         ),
         (
+            physics.mass_on_a_foot(effects=(Twisted(),)),
+            "step 1 (t = 1e-05 s): the motion is no longer made of finite numbers; "
+            f"it began at: none of the contact points. {CURE}",
+        ),
+        (
+            problem.stack([problem.stack([FOOT, FOOT]), problem.stack([lost_at_a_point(FOOT), FOOT])]),
+            f"step 0 (t = 0 s): the motion of block 1, 0 is no longer made of finite numbers; it began at: 0. {CURE}",
+        ),
+        (
             problem.stack([FOOT, lost_at_a_point(FOOT)]),
             f"step 0 (t = 0 s): the motion of block 1 is no longer made of finite numbers; it began at: 0. {CURE}",
         ),
     ],
-    ids=["point", "body", "batch"],
+    ids=["point", "body", "turn", "plane of blocks", "batch"],
 )
 def test_a_run_that_loses_its_numbers_says_where(lost, text):
     with pytest.raises(NumericalError) as stopped:

@@ -55,6 +55,12 @@ def test_stack_puts_the_batch_fastest():
     assert np.array_equal(q.points.mu[:, 0], 0.2 + 0.01 * np.arange(5))
 
 
+def test_a_batch_of_one_is_a_batch():
+    one = p.stack([MODEL.problem()])
+    assert one.batch == (1,)
+    assert np.array_equal(one.points.P[0], MODEL.problem().points.P)
+
+
 def test_one_value_is_broadcast_to_the_batch():
     one, many = MODEL.problem(), p.stack([MODEL.problem()] * 3)
     q = p.as_arrays(p.replace(one, start=many.start))

@@ -1,6 +1,6 @@
 """What a run gives back."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -10,6 +10,7 @@ from rockref.model import rotation
 from rockref.model.errors import InputError
 from rockref.model.problem import stack
 from rockref.model.simulate import simulate
+from tests import physics
 
 MODEL = rockref.Model.table_3_1()
 
@@ -48,6 +49,30 @@ class TestMainImpacts:
         quiver = -1e-6 * (-1.0) ** np.arange(20)
         instants = tilting(np.concatenate([[-0.1, -0.05, 0.05], quiver])).main_impacts()
         assert instants == pytest.approx([1.5, 3.0], abs=1e-4)
+
+    def test_rows_may_be_any_time_apart(self):
+        t = np.array([10.0, 10.5, 12.5])
+        # one fifth of the way from 10.5 to 12.5
+        assert tilting([-0.05, -0.01, 0.04], t).main_impacts() == pytest.approx([10.9], rel=1e-12)
+
+    def test_the_first_row_may_be_the_whole_swing(self):
+        assert tilting([-0.05, 0.05, 0.01]).main_impacts() == pytest.approx([0.5], rel=1e-12)
+
+    @pytest.mark.parametrize("largest", [0.5, 0.1, 1e-3])
+    def test_a_swing_counts_above_a_thousandth_of_the_largest(self, largest):
+        """The second half swing decides on the second crossing, whatever comes after it."""
+        for size, count in ((1.01e-3, 2), (0.99e-3, 1)):
+            assert len(tilting(largest * np.array([-1, -0.5, size, -size / 2])).main_impacts()) == count
+            assert len(tilting(largest * np.array([-1, -0.5, size, -0.5])).main_impacts()) == count
+
+    def test_a_swing_of_a_thousandth_exactly_is_none(self):
+        # of angles this small the tangent is the angle itself, to the last bit
+        tangent = 1e-9 * np.array([-1, 1e-3, -1e-4])
+        Lambda = np.zeros((3, 3, 3))
+        Lambda[:, 2, 1], Lambda[:, 2, 2] = tangent, 1
+        r = replace(tilting(tangent), Lambda=Lambda)
+        assert np.array_equal(r.tilt, tangent)
+        assert len(r.main_impacts()) == 1
 
     def test_a_block_that_does_not_cross_has_none(self):
         assert len(tilting([-0.1, -0.05, -0.2]).main_impacts()) == 0
@@ -93,8 +118,13 @@ class TestEnergy:
         )
         assert e["dissipated"] == pytest.approx(e["total"][0] - e["total"], abs=1e-12)
 
-    def test_of_a_batch_is_that_of_its_members(self):
-        problems = [MODEL.replace(foot_radius=1e-3).problem(duration=0.003, theta_0=q) for q in (0.02, 0.1)]
+    def test_springs_under_round_feet_carry_the_same_weight(self):
+        e = simulate(MODEL.replace(foot_radius=1e-3).problem(duration=1e-4)).energy()
+        assert e["stored_normal"][0] == pytest.approx(264.87**2 / 6e7, rel=1e-6)
+
+    @pytest.mark.parametrize("radius", [0.0, 1e-3])
+    def test_of_a_batch_is_that_of_its_members(self, radius):
+        problems = [MODEL.replace(foot_radius=radius).problem(duration=0.003, theta_0=q) for q in (0.02, 0.1)]
         together = simulate(stack(problems)).energy()
         for i, problem in enumerate(problems):
             for key, values in simulate(problem).energy().items():
@@ -118,6 +148,25 @@ class TestFrame:
         assert np.max(np.abs(rotation.from_quaternion(q) - short.Lambda)) < 1e-14
 
 
+@dataclass(frozen=True)
+class Counting(physics.Pull):
+    """Pulls at nothing, and adds the mass of the block to its memory in every step."""
+
+    def start(self, problem):
+        return {"weights": np.zeros(problem.batch)}
+
+    def advance(self, problem, c, h, m):
+        m["weights"] = m["weights"] + problem.block.mass
+
+
+def assert_same(a, b):
+    for name in a.__dataclass_fields__:
+        x, y = getattr(a, name), getattr(b, name)
+        assert (x is None) == (y is None), name
+        if name != "memory" and x is not None:
+            assert np.array_equal(x, y), name
+
+
 class TestBatch:
     def test_picking_gives_the_response_of_the_one(self):
         problems = [MODEL.problem(duration=0.002, theta_0=q) for q in (0.05, 0.1)]
@@ -127,6 +176,18 @@ class TestBatch:
         assert np.array_equal(both[1].final_state.x, one.final_state.x)
         assert both[1].problem.batch == ()
         assert both[1].main_impacts().shape == (0,)
+
+    @pytest.mark.parametrize("radius", [0.0, 1e-3])
+    def test_picking_gives_the_problem_and_the_memories_of_the_one(self, radius):
+        models = [MODEL.replace(mass=m, K_N=k, mu_ext=0.3, foot_radius=radius) for m, k in ((54.0, 6e7), (60.0, 5e7))]
+        problems = [replace(model.problem(duration=1e-4, output_rate=1e5), effects=(Counting(),)) for model in models]
+        both = simulate(stack(problems))
+        for i, one in enumerate(map(simulate, problems)):
+            assert_same(both[i].problem.block, one.problem.block)
+            assert_same(both[i].problem.points, one.problem.points)
+            assert_same(both[i].problem.start, one.problem.start)
+            assert_same(both[i].final_state, one.final_state)
+            assert np.array_equal(both[i].final_state.memory[0]["weights"], 10 * one.problem.block.mass)
 
     @pytest.mark.parametrize("method", ["main_impacts", "contacts", "to_frame"])
     def test_what_needs_one_block_says_so(self, method):

@@ -175,7 +175,8 @@ def test_quaternion_of_half_turns_and_of_the_identity():
     for k in range(3):
         half_turn = -np.eye(3)
         half_turn[k, k] = 1
-        assert np.array_equal(np.abs(rotation.quaternion(half_turn)), np.eye(4)[k + 1])
+        # the largest component is taken first, and with its sign
+        assert np.array_equal(rotation.quaternion(half_turn), np.eye(4)[k + 1])
     assert np.array_equal(rotation.quaternion(np.eye(3)), [1, 0, 0, 0])
     assert np.array_equal(rotation.logarithm(np.eye(3)), [0, 0, 0])
 
@@ -196,4 +197,13 @@ def test_inverse():
 def test_logarithm_of_a_rotation_whose_square_vanishes():
     """1e-170 rad: its square is zero, it is not."""
     Theta = np.array([1e-170, -2e-170, 3e-170])
-    assert rotation.logarithm(np.eye(3) + rotation.hat(Theta)) == pytest.approx(Theta, rel=1e-15)
+    assert rotation.logarithm(np.eye(3) + rotation.hat(Theta)) == pytest.approx(Theta, rel=1e-15, abs=0)
+
+
+@pytest.mark.parametrize("dtype", REALS)
+@pytest.mark.parametrize("batch", BATCHES, ids=str)
+def test_matrix_of_a_quaternion_keeps_batch_and_precision(batch, dtype):
+    Lambda = rotation.from_quaternion(np.ones(batch + (4,), dtype))
+    assert Lambda.dtype == dtype
+    # a third of a turn about the diagonal: x to y, y to z, z to x
+    assert np.array_equal(Lambda, np.broadcast_to([[0, 0, 1], [1, 0, 0], [0, 1, 0]], batch + (3, 3)))

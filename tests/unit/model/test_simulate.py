@@ -133,6 +133,12 @@ def test_the_step_that_is_offered_is_not_rounded_up():
     )
 
 
+def test_no_step_is_offered_that_rounding_may_lift_above_the_limit():
+    """A limit that has two digits itself: the next lower number is offered."""
+    for digits in range(11, 100):
+        assert loop.rounded_down(digits * 1e-6) == pytest.approx((digits - 1) * 1e-6, rel=1e-12, abs=0)
+
+
 class TestLargestStep:
     @pytest.mark.parametrize("C_T", [0.0, 1e3, 2e4, 2e5])
     def test_is_where_a_damped_spring_begins_to_grow(self, C_T, monkeypatch):
@@ -189,13 +195,14 @@ class TestLostNumbers:
         assert "none of the contact points" in lost.value.what
 
     def test_of_a_batch_the_block_is_named(self):
-        problem = stack([MODEL.problem(duration=0.002)] * 3)
+        problem = stack([MODEL.problem(duration=0.002, theta_0=1e-4)] * 3)
         s, anchored = problem.start.s.copy(), problem.start.anchored.copy()
-        s[1, 0], anchored[1, 0] = np.nan, True
+        s[1, 5], anchored[1, 5] = np.nan, True
         problem = replace(problem, start=replace(problem.start, s=s, anchored=anchored))
         with pytest.raises(NumericalError) as lost:
             loop.simulate(problem)
         assert "block 1" in lost.value.what
+        assert lost.value.what.endswith("at: 2int")
         kept = loop.simulate(problem, keep_going=True)
         assert np.all(np.isfinite(kept.W[[0, 2]]))
         assert not np.any(np.isfinite(kept.W[1, -1]))

@@ -34,6 +34,15 @@ def test_an_interrupted_write_leaves_the_old_file(tmp_path, monkeypatch):
     assert os.listdir(tmp_path) == ["a.txt"]
 
 
+def test_until_it_is_whole_the_file_lies_hidden_beside_its_place(tmp_path, monkeypatch):
+    """In the same folder, so that the rename never crosses a disk."""
+    seen = []
+    monkeypatch.setattr(os, "fsync", lambda _: seen.extend(os.listdir(tmp_path)))
+    storage.write_text(tmp_path / "a.txt", "new")
+    assert len(seen) == 1
+    assert seen[0].startswith(".a.txt.")
+
+
 def test_a_missing_folder_is_named(tmp_path):
     with pytest.raises(InputError) as refused:
         storage.write_text(tmp_path / "nowhere" / "a.txt", "x")
