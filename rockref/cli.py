@@ -38,8 +38,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
         application()(args=None if arguments is None else list(arguments))
     except RockrefError as error:
         _stop(str(error), 2)
-    except KeyboardInterrupt:
-        _stop("interrupted", 130)
+    except (KeyboardInterrupt, SystemExit) as end:
+        # Typer makes a silent exit of an interruption.
+        if isinstance(end, SystemExit) and end.code != 130:
+            raise
+        _stop("interrupted. No file is half-written; what has --resume goes on from where it was.", 130)
     except OSError as error:
         where = os.fsdecode(error.filename) if error.filename is not None else "input or output"
         _stop(f"{where}: {error.strerror or error}. Nothing was left half-written. [E-OS]", 2)

@@ -7,6 +7,7 @@ pieces: each chromosome is evaluated by itself.
 from __future__ import annotations
 
 import os
+import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
@@ -99,7 +100,13 @@ def campaign(
 
 def _processes(n: int) -> ProcessPoolExecutor:
     # Fresh processes: a forked one would inherit threads of numba and BLAS in an unknown state.
-    return ProcessPoolExecutor(n, mp_context=get_context("spawn"), initializer=_end_with_parent)
+    return ProcessPoolExecutor(n, mp_context=get_context("spawn"), initializer=_as_a_worker)
+
+
+def _as_a_worker() -> None:
+    """Begin as a worker: Ctrl-C, which a terminal sends to all, ends it without a word (the parent has the word)."""
+    signal.signal(signal.SIGINT, lambda number, frame: os._exit(130))
+    _end_with_parent()
 
 
 def _end_with_parent() -> None:

@@ -56,7 +56,8 @@ def test_our_errors_end_with_2_and_one_line(capsys, command_that, kind):
 
 def test_interrupt_ends_with_130(capsys, command_that):
     command_that(KeyboardInterrupt())
-    assert run(capsys, "act")[0] == 130
+    code, out, err = run(capsys, "act")
+    assert (code, out) == (130, "") and err.startswith("rockref: interrupted") and "--resume" in err
 
 
 def test_errors_of_the_system_name_the_file(capsys, command_that):
