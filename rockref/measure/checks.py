@@ -28,6 +28,9 @@ FIRST_SWING = 1.3
 FLAT_TOP = 0.010
 # decided: clatter jumps by 6 deg/s in two samples and back in tens; a quarter of the first swing's rate is 9 deg/s.
 SPIKE = 0.25
+# decided: a gyroscope's scale and drift are off by a tenth of the tipping angle at most; beyond 1.3 of it there is no
+# way back.
+FALLEN = 1.3
 # decided: noise of three times the data sheet is a disturbance, or another data sheet.
 NOISE_MARGIN = 3.0
 
@@ -75,6 +78,22 @@ def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, ex
         *_noisy(t, crv, names, math.hypot(experiment.gyro.noise, experiment.gyro.resolution), where),
     ]
     return notices
+
+
+def samples_before_a_fall(t: np.ndarray, crv: np.ndarray, run: Run, experiment: Experiment) -> int:
+    """How many samples of a release, times t (N,) s and body rates crv (N, 3) rad/s, come before the block falls over.
+
+    The tilt is the release's less the integral of wx. The fall begins where it last leaves the tipping angle for good;
+    all samples, where it does not, or where it does so before a first impact could be (another unit, another sign).
+    """
+    assert run.release_tilt is not None
+    alpha = math.atan2(experiment.width, experiment.height)
+    duration = rocking_time(run.release_tilt, experiment.width, experiment.height)
+    tilt = np.abs(run.release_tilt - _sign(run) * np.cumsum(crv[:, 0]) * sample_step(t))
+    fallen = int(np.argmax(tilt > FALLEN * alpha)) if np.any(tilt > FALLEN * alpha) else len(t)
+    inside = np.flatnonzero(tilt[:fallen] <= alpha)
+    last = int(inside[-1]) + 1 if fallen < len(t) and len(inside) else len(t)
+    return last if last < len(t) and t[last] > duration * (1.0 + TIME_MARGIN) else len(t)
 
 
 def _sign(run: Run) -> int:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.measure.checks import check_release_run
+from rockref.measure.checks import check_release_run, samples_before_a_fall
 from rockref.measure.columns import DEGREE, POSE, RATES
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import shown
@@ -325,6 +325,11 @@ def _load_run(run: Run, experiment: Experiment, notices: list[Notice]) -> Run:
         notices.extend(found)
     crv = _stack(columns, RATES)
     if release and crv is not None:
+        stands = samples_before_a_fall(t, crv, run, experiment)
+        if stands < len(t):
+            what = f"the block falls over at {t[stands]:.2f} s"
+            notices.append(Notice("W-OVERTURNED", str(table.path), what, "What follows is left out."))
+            t, crv, filled = t[:stands], _frozen(crv[:stands].copy()), tuple(i for i in filled if i < stands)
         notices.extend(check_release_run(t, crv, table, run, experiment))
     return replace(run, t=_frozen(t), crv=crv, pose=_stack(columns, POSE), filled=filled, sha256=table.sha256)
 

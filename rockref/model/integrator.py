@@ -58,7 +58,7 @@ def prepared_inertia(block: Block) -> Inertia:
         return Inertia(principal, 1 / principal)
     J_inverse = np.empty_like(J)
     J_inverse[...] = inverse(J)
-    J_inverse[is_principal] = (1 / principal[is_principal])[..., None] * np.eye(3, dtype=J.dtype)
+    J_inverse[is_principal] = (1 / principal[is_principal])[..., None] * np.eye(3)
     return Inertia(J, J_inverse)
 
 
@@ -172,7 +172,7 @@ def resultants(problem: Problem, c: Contact, x, Lambda, v, W, memory) -> tuple[n
 
 def evaluate(problem: Problem, state: State, x, Lambda, v, W, turn, t):
     """One force evaluation: acceleration, body moment, contact, and the memories of the effects afterwards."""
-    memory = tuple(dict(m) for m in state.memory) if state.memory else ()
+    memory = tuple(dict(m) for m in state.memory)
     c = evaluate_contact(problem, state, x, Lambda, v, W, turn, t, memory)
     a, T = resultants(problem, c, x, Lambda, v, W, memory)
     return a, T, c, memory

@@ -98,7 +98,7 @@ def point_properties(parameters: Parameters, mass: float, external: np.ndarray) 
 
     external : (n,) bool, which points are external ones  ->  K_N, K_T, C_N, C_T, mu_0, mu, each (n,).
     """
-    external = np.asarray(external, bool)
+    external = np.asarray(external)
     n = len(external)
     K_N, K_T = common_stiffness(parameters.K_N, n), common_stiffness(parameters.K_T, n)
     beta_N, beta_T = common_damping_ratio(np.where(external, parameters.beta_ext, parameters.beta_int))

@@ -11,22 +11,22 @@ from rockref.model.rotation import apply, exponential, product
 
 def tipping_angle(block: Block, points: ContactPoints, side: int = 1) -> float:
     """Tilt [rad] at which the centre of mass stands above the pivot points; released beyond it the block overturns."""
-    P = np.asarray(points.P, float)
+    P = points.P
     return float(np.arctan2(np.max(P[:, 1] * side), -np.min(P[:, 2])))
 
 
 def pivot_points(points: ContactPoints, theta_0: float, side: int) -> tuple[int, int]:
     """The two points on which the tilted block rests: the lowest with x > 0 and the lowest with x < 0."""
-    P = np.asarray(points.P, float)
+    P = points.P
     height = -side * np.sin(theta_0) * P[:, 1] + np.cos(theta_0) * P[:, 2]
     found = []
-    for sign in (1, -1):
-        candidates = np.flatnonzero(P[:, 0] * sign > 0)
+    for where, there in (("x > 0", P[:, 0] > 0), ("x < 0", P[:, 0] < 0)):
+        candidates = np.flatnonzero(there)
         if not len(candidates):
             raise InputError(
                 "E-RELEASE",
                 "contact points",
-                "there is no point with " + ("x > 0" if sign > 0 else "x < 0"),
+                f"there is no point with {where}",
                 "A release needs a pivot point on either side; give a start state instead.",
             )
         found.append(int(candidates[np.argmin(height[candidates])]))

@@ -28,7 +28,7 @@ def largest_step(problem: Problem) -> float:
         return np.inf
     P = np.asarray(points.P, float)
     M = np.zeros(P.shape[:-2] + (6, 6))
-    M[..., :3, :3] = np.asarray(block.mass, float)[..., None, None] * np.eye(3)
+    M[..., :3, :3] = np.asarray(block.mass)[..., None, None] * np.eye(3)
     M[..., 3:, 3:] = block.inertia
     root = np.linalg.inv(np.linalg.cholesky(M))
     B = np.concatenate([np.broadcast_to(np.eye(3), P.shape + (3,)), -hat(P)], axis=-1)  # velocity of a point from v, W
@@ -98,7 +98,7 @@ def check_body(problem: Problem) -> None:
     for key in ("x", "v", "Lambda", "W"):
         if not np.all(np.isfinite(np.asarray(getattr(start, key)))):
             raise InputError("E-START", f"start.{key}", "is not finite everywhere", "Give finite numbers.")
-    Lambda = np.asarray(start.Lambda, float)
+    Lambda = np.asarray(start.Lambda)
     if np.max(np.abs(product(transposed(Lambda), Lambda) - np.eye(3))) > ORTHONORMAL:
         raise InputError(
             "E-START",
@@ -110,12 +110,12 @@ def check_body(problem: Problem) -> None:
 
 def check_points(points: ContactPoints) -> None:
     """Refuse contact points with a negative or non-finite property (E-RANGE)."""
-    for key, least in (("K_N", 0), ("K_T", 0), ("C_N", 0), ("C_T", 0), ("mu_0", 0), ("mu", 0), ("radius", 0)):
+    for key in ("radius", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu"):
         values = getattr(points, key)
         if values is None:
             continue
         values = np.asarray(values)
-        bad = ~np.isfinite(values) | (values < least)
+        bad = ~np.isfinite(values) | (values < 0)
         if key in ("K_N", "K_T"):
             bad |= values == 0
         if np.any(bad):

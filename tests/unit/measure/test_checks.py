@@ -80,7 +80,16 @@ def spiked(t, w):
     return t, w
 
 
+def falling(t, w):
+    """The block goes on over its edge after the first swing, faster and faster, and lies still from 1.4 s on."""
+    w = w.copy()
+    after = t > 0.7
+    w[after, 0] = np.where(t < 1.4, 20.0 * np.exp(4.0 * (t - 0.7)), 0.0)[after]
+    return t, w
+
+
 ODD = {
+    "falls over": (falling, {"W-OVERTURNED"}, "run01.csv", "falls over at"),
     "clipped": (lambda t, w: (t, np.clip(w, -30.0, 30.0)), {"W-FLAT-TOP"}, "column wx_deg_s", "at 30 deg/s"),
     "clipped below": (lambda t, w: (t, np.maximum(w, -28.0)), {"W-FLAT-TOP"}, "column wx_deg_s", "flat bottom"),
     "axis dead": (lambda t, w: (t, w * [1.0, 1.0, 0.0]), {"W-CONSTANT"}, "column wz_deg_s", "same"),
@@ -98,6 +107,14 @@ def test_odd_signal_is_said_and_used(folder, as_table, good_signal, case):
     assert where in experiment.notices[0].where
     assert words in str(experiment.notices[0])
     assert experiment.runs[0].loaded
+
+
+def test_nothing_is_left_of_a_fall(folder, as_table, good_signal):
+    whole = load_experiment(folder, uses=("fit",)).runs[0]
+    cut = load_experiment(edited(folder, as_table, good_signal, falling), uses=("fit",)).runs[0]
+    # Half of the tipping angle of 0.14 rad at 20 deg/s and more takes a quarter of a second at most.
+    assert 0.7 < cut.t[-1] < 1.0 and len(cut.crv) == len(cut.t)
+    np.testing.assert_array_equal(cut.crv[cut.t < 0.699], whole.crv[whole.t < 0.699])
 
 
 def test_first_impact_at_another_time_is_said(folder):
