@@ -31,7 +31,7 @@ from rockref.discover.information import information
 from rockref.discover.looking import PLAIN, POLISH, Look, challenge, duel, look_further
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.plan import switches_of
-from rockref.discover.presearch import STRONG, suspects
+from rockref.discover.presearch import STRONG, flat_tops, suspects
 from rockref.discover.search import FRESH, LITTLE, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
@@ -146,6 +146,9 @@ def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Fa
         z[: len(known)] = 0 if hopeless else known
         families.append(Family(effects, *baseline(setup, effects, z, iterations=(2, 1) if hopeless else FRESH)))
     null, start = families[0], min(families, key=mean_loss)
+    if "flat_top" in seen:
+        # Nobody has to infer this: it is in the records.
+        return null, next(f for f in families if f.effects == ("gyro_saturation",))
     if start.effects and structured(start) > DOUBTFUL:
         # A sensor that explains the release and not what follows may stand in for a load: the baseline gets its turn.
         null = Family((), *baseline(setup))
@@ -214,6 +217,7 @@ def conclude(
         held_floor=float(np.median(2 * plain.loss / plain.count)),
         by_run={r.id: structured(final, i) for i, r in enumerate(setup.runs)},
         room=room(final),
+        clipped=clipped(experiment, seen),
         loud=(loud(final.point.loss, final.fit.series.count), loud(with_effect.loss, with_effect.count)),
     )
     decision = rules.decide(facts)
@@ -254,6 +258,14 @@ def conclude(
         seconds=time.perf_counter() - begun,
         model=shown.fit.models(shown.point.z)[0][0],
     )
+
+
+def clipped(experiment: Experiment, seen: dict) -> bool:
+    """Whether the held-out records are cut flat at the same rate as the fitted ones."""
+    if "flat_top" not in seen:
+        return False
+    held = flat_tops(experiment, experiment.holdout_runs())
+    return held is not None and abs(held - seen["flat_top"]) < 2 * gyro_of(experiment).resolution
 
 
 def to_be_sure(setup: Setup, null: Family, final: Family, decision: rules.Decision) -> str:

@@ -80,16 +80,13 @@ def kin(id: str) -> list[str]:
 def in_the_valley_of(setup: Setup, winner: Family, others: Iterable[tuple[str, ...]]) -> list[Family]:
     """Other sets of effects, begun where the winner ended, less its effect: by one step of everything, then fitted.
 
-    A fit that stopped in a side valley lies some hundred units too high; in one valley effects are compared, not
-    valleys. Where a sensor effect moves the windows, nothing is begun.
+    A fit that stopped in a side valley lies some hundred units too high; in one valley, and on the winner's windows,
+    effects are compared, not valleys.
     """
     effects = winner.effects[:-1]
-    kinds = [catalogue.find(other[-1]) for other in others]
-    if catalogue.find(winner.effects[-1]).question == "sensor":
-        return []
     plain = setup.fit(winner.fit.series, effects)
     point, _ = plain.point(winner.point.z[: len(plain.parameters)], winner.point.corrections)
-    trials = screen(plain, point, [kind for kind in kinds if kind.question != "sensor"], setup, effects)
+    trials = screen(plain, point, [catalogue.find(other[-1]) for other in others], setup, effects)
     begun = [Family(t.effects, t.fit, t.point) for t in trials]
     return [refit(f, SWAPPED, setup.seed, relative=LITTLE / 5) for f in begun]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from rockref.discover.fit import Fit, Point
 from rockref.discover.search import Setup, release_windows
 from rockref.discover.windows import gyro_of
+from rockref.measure.experiment import Experiment, Run
 
 #: Sensor effects that spoil the reconstructed state, so that every window misfits whatever the physics.
 MISLEADING = ("gyro_misalignment", "gyro_scale", "gyro_drift", "gyro_bandwidth", "clock_error", "gyro_saturation")
@@ -63,17 +65,16 @@ def tone(setup: Setup, fit: Fit, point: Point, low: float = 2.0, high: float = 6
     return float(frequencies[best]), float(steady * power[best] / max(np.median(power), 6.0 * r.shape[0]))
 
 
-def flat_tops(setup: Setup) -> float | None:
+def flat_tops(experiment: Experiment, runs: Iterable[Run]) -> float | None:
     """Rate [rad/s] at which the records are clipped on both sides or in two runs, or None."""
-    limits = []
-    for run in setup.runs:
+    limits, resolution, count = [], gyro_of(experiment).resolution, 0
+    for run in runs:
+        assert run.crv is not None
         x = np.abs(run.crv)
-        top = x.max()
-        resolution = gyro_of(setup.experiment).resolution
-        near = np.sum(np.any(x > top - 0.6 * resolution, axis=1))
-        if near >= 12:
+        top, count = x.max(), count + 1
+        if np.sum(np.any(x > top - 0.6 * resolution, axis=1)) >= 12:
             limits.append(top)
-    if len(limits) < max(2, len(setup.runs) // 2) or np.ptp(limits) > 2 * gyro_of(setup.experiment).resolution:
+    if len(limits) < max(2, count // 2) or np.ptp(limits) > 2 * resolution:
         return None
     return float(np.median(limits))
 
@@ -86,9 +87,11 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
     fit, point = release_fit(setup)
     seen: dict = {"loss": float(np.mean(2 * point.loss / fit.series.count)), "z": point.z}
     sets: list[tuple[str, ...]] = [()]
-    if (limit := flat_tops(setup)) is not None:
+    if (limit := flat_tops(setup.experiment, setup.runs)) is not None:
         seen["flat_top"] = limit
         sets.append(("gyro_saturation",))
+        (own,) = setup.parameters(("gyro_saturation",))[len(seen["z"]) :]
+        seen.setdefault("starts", {})["gyro_saturation",] = np.append(seen["z"], 1 / limit / own.spread)
     best = (fit, point)
     if seen["loss"] > STRONG:
         whole = excess(fit, point)
@@ -103,7 +106,7 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
         seen["release_shares"] = {id: share for share, id, _, _ in ranked}
         taken = [row for row in ranked[:2] if row[0] > EXPLAINED]
         sets += [(id,) for _, id, _, _ in taken]
-        seen["starts"] = {(id,): trial.z for _, id, _, trial in taken}
+        seen.setdefault("starts", {}).update({(id,): trial.z for _, id, _, trial in taken})
         best = taken[0][2:] if taken else best
     frequency, strength = tone(setup, *best)
     seen |= {"tone_hz": frequency, "tone_strength": strength}

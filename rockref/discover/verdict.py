@@ -66,7 +66,7 @@ class Facts:
     """What the fits say: effects kept, their sizes, gains of the rivals, how much stays unexplained.
 
     loud : windows of the fitted and of the held-out runs that stay far above the noise; room : what is left to gain
-    when the effects are in.
+    when the effects are in; clipped : whether fitted and held-out records are cut flat at the same rate.
     """
 
     effects: tuple[str, ...]
@@ -79,6 +79,7 @@ class Facts:
     by_run: dict[str, float] = field(default_factory=dict)
     loud: tuple[int, int] = (0, 0)
     room: float = 0.0
+    clipped: bool = False
 
 
 @dataclass
@@ -117,6 +118,12 @@ def decide(facts: Facts) -> Decision:
             "not_trustworthy", (),
             f"Run {run} contradicts the others: {facts.by_run[run]:.0%} of its windows stay structured where the other "
             "runs are explained. Check its stated tilt, its side and its clock, or leave it out.",
+        )  # fmt: skip
+    if facts.clipped and facts.effects == ("gyro_saturation",) and facts.bad > UNEXPLAINED:
+        return Decision(
+            "named", facts.effects,
+            "gyro_saturation: fitted and held-out records are cut flat at the same rate. What was cut away leaves "
+            f"{facts.bad:.0%} of the windows without a state to start from, so nothing else can be said.",
         )  # fmt: skip
     if facts.bad > UNEXPLAINED:
         near = ", ".join(facts.effects) or max(facts.gains, key=lambda k: facts.gains[k], default="none")

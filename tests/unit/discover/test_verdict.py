@@ -90,3 +90,9 @@ def test_a_winner_that_has_not_arrived_is_not_told_from_what_it_left_less_far_be
 def test_a_rival_that_gained_nothing_is_no_rival():
     found = decide(replace(facts(gains={"quadratic_drag": 150.0, "adhesion": 0.0}), room=500.0))
     assert (found.verdict, found.effects) == ("named", ("quadratic_drag",))
+
+
+@pytest.mark.parametrize("clipped, word", [(True, "named"), (False, "something_else")])
+def test_records_that_are_cut_flat_are_saturated_whatever_the_windows_say(clipped, word):
+    found = decide(replace(facts(("gyro_saturation",), {}, bad=0.7), clipped=clipped))
+    assert found.verdict == word
