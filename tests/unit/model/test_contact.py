@@ -180,6 +180,15 @@ class TestT3:
         returned = contact.radial_return(F, contact.norm(F), np.array([False]), np.array([25.0]))
         assert returned == pytest.approx(np.array([[15, 20]]), rel=1e-15)
 
+    @pytest.mark.parametrize("dtype", REALS)
+    def test_precision_is_kept(self, dtype):
+        third = dtype(1) / dtype(3)
+        F = np.array([[3, 4], [3, 4]], dtype)
+        returned = contact.radial_return(F, contact.norm(F), np.array([True, False]), np.full(2, 5 * third))
+        assert returned.dtype == dtype
+        # 5/3 N along (3, 4)/5: two roundings
+        assert np.all(np.abs(returned - [[3, 4], [1, 4 * third]]) <= 2 * np.finfo(dtype).eps)
+
 
 class TestT4:
     def test_moved_anchor_gives_the_friction_force(self):

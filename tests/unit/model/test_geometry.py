@@ -122,4 +122,5 @@ def test_inertias_of_no_body_are_refused(J):
 
 def test_the_block_of_the_source_is_accepted():
     geometry.check_inertia(np.stack([np.eye(3), geometry.cuboid_inertia(**SIZES)]))
+    geometry.check_inertia(np.eye(3, dtype=np.longdouble))
     geometry.check_cuboid(**SIZES, delta_long=DELTA_LONG, delta_diag=DELTA_DIAG)

@@ -1,13 +1,11 @@
 """One step: the rules I1 to I5 by themselves, the force evaluation, and what a restart needs."""
 
-from dataclasses import dataclass, replace
-from typing import ClassVar
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import rockref
-from rockref.effects.base import Effect, Quantity
 from rockref.model import integrator, rotation
 from rockref.model.problem import as_arrays, stack
 from tests import physics
@@ -96,6 +94,14 @@ class TestInertia:
         a = np.array([1.0, 2, 3])
         assert integrator.times(prepared.J_inverse, integrator.times(prepared.J, a)) == pytest.approx(a, rel=1e-13)
 
+    @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
+    def test_precision_is_kept(self, dtype):
+        problem = as_arrays(stack([MODEL.problem(), MODEL.problem()]), dtype)
+        third = replace(problem.block, inertia=problem.block.inertia * 0 + np.eye(3, dtype=dtype) * 3)
+        prepared = integrator.prepared_inertia(third)
+        assert prepared.J.dtype == prepared.J_inverse.dtype == dtype
+        assert np.array_equal(prepared.J_inverse, np.full((2, 3), dtype(1) / dtype(3)))
+
     def test_a_batch_of_diagonal_inertias(self):
         problem = as_arrays(stack([MODEL.problem(), MODEL.replace(mass=60.0).problem()]))
         prepared = integrator.prepared_inertia(problem.block)
@@ -130,6 +136,13 @@ class TestFirstEvaluation:
         again = integrator.first_evaluation(replace(problem, start=state))
         assert again is state
 
+    def test_what_is_missing_of_a_state_is_evaluated(self):
+        problem = as_arrays(MODEL.problem())
+        state = integrator.first_evaluation(problem)
+        for name in ("a", "T", "F"):
+            again = integrator.first_evaluation(replace(problem, start=replace(state, **{name: None})))
+            assert np.array_equal(getattr(again, name), getattr(state, name))
+
     def test_another_step_length_counts_anew(self):
         problem = as_arrays(MODEL.problem())
         state = after(problem, 3)
@@ -152,6 +165,35 @@ class TestContactOfAStep:
         assert state.F[0, 2] == pytest.approx(F, rel=1e-14)
         assert state.v[2] == pytest.approx(-0.1 + h / 2 * (a + F / m - g), rel=1e-14)
 
+    def test_a_turning_block_is_felt_where_it_will_turn(self):
+        """The same for W + h A: a foot beside the centre, whose force gives the block an angular acceleration."""
+        foot = physics.points([0.05, 0, 0], K_N=6e7, C_N=2e4, mu_0=0)
+        problem = as_arrays(replace(physics.mass_on_a_foot(z=-1e-5), points=foot))
+        first, state = integrator.first_evaluation(problem), after(problem, 1)
+        h, F = 1e-5, 6e7 * 1e-5
+        A_y = -0.05 * F / physics.J_MAIN
+        assert first.F[0, 2] == pytest.approx(F, rel=1e-12)
+        # still to first order in h: the foot falls with a_z - 0.05 A_y
+        rate = h * (F / physics.MASS - 9.81) - 0.05 * h * A_y
+        assert state.F[0, 2] - F == pytest.approx(-(6e7 * h / 2 + 2e4) * rate, rel=1e-6)
+
+    def test_a_point_at_rest_holds_more_than_one_that_slides(self):
+        """A pull of 0.4 of the weight is above mu = 0.25; put on at once it asks for twice that, below mu_0 = 1."""
+        pull = dict(mu_0=1.0, mu=0.25, effects=(physics.Pull(force=0.4 * 54 * 9.81),))
+        held = after(physics.mass_on_a_foot(z=physics.resting(), **pull), 300)
+        assert not held.sliding.any()
+        slides = after(physics.mass_on_a_foot(z=physics.resting(), v=(0.5, 0, 0), **pull), 300)
+        assert slides.sliding.all()
+        # 0.15 g for 3 ms
+        assert slides.v[0] == pytest.approx(0.5 + 0.15 * 9.81 * 3e-3, rel=1e-4)
+
+    def test_the_anchor_of_a_round_foot_rolls_along(self):
+        problem = as_arrays(physics.mass_on_a_foot(z=-1e-6, radius=0.1, mu_0=1e9))
+        state = replace(integrator.first_evaluation(problem), anchored=np.array([True]))
+        turn = np.array([0.0, 1e-4, 0.0])
+        c = integrator.evaluate_contact(problem, state, state.x, state.Lambda, state.v, state.W, turn, 0.0, ())
+        assert c.s - state.s == pytest.approx(np.array([[1e-5, 0]]), rel=1e-12, abs=0)
+
     def test_a_point_that_slides_and_one_that_sticks(self):
         sliding = after(physics.mass_on_a_foot(z=physics.resting(), v=(1.0, 0, 0)), 5)
         sticking = after(physics.mass_on_a_foot(z=physics.resting(), v=(1e-5, 0, 0)), 5)
@@ -167,87 +209,3 @@ class TestContactOfAStep:
         assert not state.sliding.any()
         assert not state.anchored.any()
         assert np.array_equal(state.F, np.zeros((1, 3)))
-
-
-class Shaken:
-    """A plate that moves along x as its memory says."""
-
-    def plate_motion(self, t, m):
-        return np.array([m["rate"] * t, 0, 0]), np.array([m["rate"], 0, 0])
-
-
-class Still:
-    def plate_motion(self, t, m):
-        return None
-
-
-class TestPlateMotion:
-    def test_motions_add_up(self):
-        effects = [(Shaken(), {"rate": 2.0}), (Still(), {}), (Shaken(), {"rate": 0.5})]
-        q, q_rate = integrator.plate_motion(effects, 3.0)
-        assert np.array_equal(q, [7.5, 0, 0])
-        assert np.array_equal(q_rate, [2.5, 0, 0])
-
-    def test_without_one_the_plate_is_fixed(self):
-        assert integrator.plate_motion([(Still(), {})], 3.0) is None
-
-
-@dataclass(frozen=True)
-class Recorder(Effect):
-    """Calls every hook and changes nothing."""
-
-    size: float = 1.0
-    id: ClassVar[str] = "recorder"
-    quantities: ClassVar[dict[str, Quantity]] = {"size": Quantity("", 0.0, 0.0, 1.0, 1.0)}
-    calls: ClassVar[list[str]] = []
-
-    def start(self, problem):
-        return {"steps": np.zeros(problem.batch)}
-
-    def plate_motion(self, t, m):
-        self.calls.append("plate_motion")
-
-    def normal_force(self, F_N, k, points, m):
-        self.calls.append("normal_force")
-        return F_N
-
-    def friction_coefficient(self, mu_0, mu, F_N, k, points, m):
-        self.calls.append("friction_coefficient")
-        return mu_0, mu
-
-    def point_wrench(self, problem, c, m):
-        self.calls.append("point_wrench")
-
-    def body_wrench(self, problem, c, x, Lambda, v, W, m):
-        self.calls.append("body_wrench")
-
-    def advance(self, problem, c, h, m):
-        self.calls.append("advance")
-        m["steps"] = m["steps"] + 1
-
-
-class TestEffects:
-    def test_hooks_are_called_in_the_order_of_the_step(self):
-        problem = replace(MODEL.problem(), effects=(Recorder(),))
-        Recorder.calls.clear()
-        state = after(problem, 2)
-        evaluation = ["plate_motion", "normal_force", "friction_coefficient", "point_wrench", "body_wrench"]
-        assert Recorder.calls == evaluation + (evaluation + ["advance"]) * 2
-        assert state.memory[0]["steps"] == 2
-
-    def test_an_effect_that_does_nothing_changes_no_bit(self):
-        plain, with_effect = after(MODEL.problem(), 50), after(replace(MODEL.problem(), effects=(Recorder(),)), 50)
-        for name in ("x", "v", "Lambda", "W", "F", "s", "T", "a"):
-            assert np.array_equal(getattr(plain, name), getattr(with_effect, name)), name
-
-    def test_memories_of_the_state_before_are_not_touched(self):
-        problem = as_arrays(replace(MODEL.problem(), effects=(Recorder(),)))
-        first = integrator.first_evaluation(problem)
-        integrator.step(problem, first, integrator.prepared_inertia(problem.block))
-        assert first.memory[0]["steps"] == 0
-
-    def test_loads_add_up(self):
-        pull = (physics.Pull(force=54.0), physics.Pull(force=-27.0))
-        problem = as_arrays(physics.mass_on_a_foot(z=1.0, effects=pull))
-        # 54 N - 27 N on 54 kg
-        assert integrator.first_evaluation(problem).a == pytest.approx([0.5, 0, -9.81], rel=1e-15)

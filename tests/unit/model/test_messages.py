@@ -1,6 +1,7 @@
 """What the law says when it refuses: place, finding, cure and code, word for word.
 
-The text is the contract with whoever reads it: it names the value that was found, the limit, and what to do.
+The words may change from version to version, but on purpose, and here as well: a finding without its value, or a cure
+without its limit, leaves the reader alone.
 """
 
 from dataclasses import replace
@@ -123,6 +124,15 @@ REFUSALS = [
     (
         lambda: released(0.1, physics.points([[0.05, 0.05, -0.344]])),
         f"contact points: there is no point with x < 0. {PIVOT}",
+    ),
+    (
+        # a point on the axis is on neither side
+        lambda: released(0.1, physics.points([[0.05, 0.05, -0.344], [0, 0.05, -0.344]])),
+        f"contact points: there is no point with x < 0. {PIVOT}",
+    ),
+    (
+        lambda: released(0.1, physics.points([[0, 0.05, -0.344], [-0.05, 0.05, -0.344]])),
+        f"contact points: there is no point with x > 0. {PIVOT}",
     ),
     (
         lambda: released(0.1, physics.points([[-0.05, 0.05, -0.344]])),

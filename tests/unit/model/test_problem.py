@@ -13,8 +13,9 @@ MODEL = rockref.Model.table_3_1()
 def test_state_at_rest():
     s = p.State.at_rest(np.zeros(3), np.eye(3), 8)
     assert s.s.shape == (8, 2)
-    assert not s.anchored.any()
-    assert not s.sliding.any()
+    for flags in (s.anchored, s.sliding):
+        assert flags.dtype == bool
+        assert not flags.any()
     assert np.array_equal(s.v, np.zeros(3))
     assert s.a is s.T is s.F is None
     moving = p.State.at_rest(np.zeros((5, 3), np.float32), np.eye(3), 4, v=[1, 2, 3], W=[4, 5, 6])

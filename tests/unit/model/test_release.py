@@ -1,5 +1,7 @@
 """The release posture: touching, in equilibrium, leaning the right way."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -99,6 +101,32 @@ def test_unequal_stiffness_sinks_unequally():
     assert xi[:2] == pytest.approx([HALF_WEIGHT / 6e7, HALF_WEIGHT / 3e7], rel=1e-9)
 
 
+def test_pivots_at_unequal_distances_from_the_edge_touch_as_well():
+    """Leaning over an oblique edge: the roll is no longer small, 20 mm sin(0.1) over 100 mm."""
+    points = physics.points([[0.05, 0.05, -0.344], [-0.05, 0.03, -0.344], [-0.05, -0.05, -0.3], [0.05, -0.05, -0.3]])
+    state = release.release_posture(physics.block(), points, 0.1)
+    k = point_kinematics(state.x, state.Lambda, state.v, state.W, points.P)
+    # heights of 0.35 m are rounded at 5e-17, some ten times
+    assert k.xi[:2] == pytest.approx([HALF_WEIGHT / 6e7] * 2, abs=1e-15)
+    assert state.Lambda[2, 0] == pytest.approx(0.02 * np.sin(0.1) / 0.1, rel=1e-12)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
+@pytest.mark.parametrize("turned", [False, True])
+def test_posture_is_as_precise_as_the_points(dtype, turned):
+    block, points = MODEL.body()
+    state = release.release_posture(block, replace(points, P=points.P.astype(dtype)), 0.1, turned, out_of_plane=1e-3)
+    assert state.x.dtype == state.Lambda.dtype == dtype
+    product = rotation.product(rotation.transposed(state.Lambda), state.Lambda)
+    # three rotations are multiplied, each entry rounded a few times
+    assert np.max(np.abs(product - np.eye(3, dtype=dtype))) < 10 * np.finfo(dtype).eps
+
+
+def test_the_centre_of_mass_starts_above_the_origin():
+    state, _ = penetrations(MODEL, theta_0=0.1)
+    assert np.array_equal(state.x[:2], [0, 0])
+
+
 def test_tipping_angle():
     block, points = MODEL.body()
     assert release.tipping_angle(block, points) == pytest.approx(np.arctan2(0.05, 0.344), rel=1e-12)
@@ -107,10 +135,17 @@ def test_tipping_angle():
 @pytest.mark.parametrize("theta_0", [0.0, -0.1, 0.1444, 0.2, np.nan, np.inf])
 def test_tilt_out_of_range(theta_0):
     block, points = MODEL.body()
-    with pytest.raises(InputError) as refused:
-        release.release_posture(block, points, theta_0)
-    assert (refused.value.code, refused.value.where) == ("E-TILT", "theta_0")
-    assert "0.1443" in refused.value.what
+    for turned in (False, True):
+        with pytest.raises(InputError) as refused:
+            release.release_posture(block, points, theta_0, turned)
+        assert (refused.value.code, refused.value.where) == ("E-TILT", "theta_0")
+        assert "0.1443" in refused.value.what
+
+
+def test_at_the_tipping_angle_itself_the_block_would_not_come_back():
+    block, points = MODEL.body()
+    with pytest.raises(InputError):
+        release.release_posture(block, points, release.tipping_angle(block, points))
 
 
 def test_without_a_point_on_either_side_there_is_no_posture():

@@ -104,6 +104,7 @@ def test_exponential_against_fifty_digits(size, dtype):
         axis = np.random.default_rng(seed).normal(size=3)
         Theta = (axis / np.linalg.norm(axis) * size).astype(np.float32).astype(dtype)
         E, exact = rotation.exp_minus_identity(Theta), exact_exponential_minus_identity(Theta)
+        assert E.dtype == rotation.exponential(Theta).dtype == dtype
         difference = np.array([[float(mpmath.mpf(float(E[i, j])) - exact[i][j]) for j in range(3)] for i in range(3)])
         # Each entry is a sum of two rounded products of size |Theta| at most; the coefficients are within 2 ulp; at
         # 3.1 rad the alternating series has terms of 3.1^2/6, which costs the factor 8. float() rounds longdouble.

@@ -8,7 +8,7 @@ import pytest
 import rockref
 from rockref.model import simulate as loop
 from rockref.model.errors import InputError, NumericalError
-from rockref.model.problem import stack
+from rockref.model.problem import State, as_arrays, stack
 from tests import physics
 
 MODEL = rockref.Model.table_3_1()
@@ -53,11 +53,25 @@ class TestRows:
         assert b.anchored.shape == (3, 3, 8)
         assert b.t.shape == (3,)
 
-    def test_progress_comes_to_its_end(self):
+    def test_progress_of_a_few_rows_is_told_at_each(self):
         seen = []
-        loop.simulate(MODEL.problem(duration=0.01), progress=seen.append)
-        assert seen[-1] == 1
-        assert seen == sorted(seen)
+        loop.simulate(physics.mass_on_a_foot(duration=1e-4), progress=seen.append)
+        assert seen == [i / 11 for i in range(1, 12)]
+
+    def test_progress_of_many_rows_is_told_two_hundred_times(self):
+        seen = []
+        loop.simulate(physics.mass_on_a_foot(duration=0.01), progress=seen.append)
+        # of 1001 rows every fifth
+        assert seen == [i / 1001 for i in range(1, 1002, 5)]
+
+    def test_a_run_of_one_step(self):
+        assert np.array_equal(loop.output_steps(physics.mass_on_a_foot(duration=1e-5)), [0, 1])
+        assert len(loop.simulate(physics.mass_on_a_foot(duration=1e-5)).t) == 2
+
+    @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
+    def test_a_run_is_as_precise_as_is_asked(self, dtype):
+        r = loop.simulate(MODEL.problem(duration=1e-4), dtype=dtype)
+        assert r.x.dtype == r.Lambda.dtype == r.F.dtype == dtype
 
 
 class TestRefusals:
@@ -140,6 +154,27 @@ def test_no_step_is_offered_that_rounding_may_lift_above_the_limit():
 
 
 class TestLargestStep:
+    def test_the_limit_itself_is_allowed(self):
+        problem = physics.mass_on_a_foot(K_N=6e7, K_T=6e7, C_N=0, C_T=0)
+        limit = loop.largest_step(problem)
+        loop.check(replace(problem, step=limit, output_rate=0.5 / limit))
+        with pytest.raises(InputError):
+            loop.check(replace(problem, step=np.nextafter(limit, 1), output_rate=0.5 / limit))
+
+    def test_of_one_foot_below_the_centre_is_that_of_its_pendulum(self):
+        """Pushed sideways at h below the centre the foot feels the mass 1 / (1/m + h^2/J), the lesser J of two."""
+        m, h, J = 54.0, 0.3, 1.5
+        foot = physics.points([0, 0, -h], K_N=6e7, K_T=6e7, C_N=0, C_T=0)
+        problem = replace(physics.mass_on_a_foot(), block=physics.block(m, (J, 2.0, 0.1)), points=foot)
+        # of an undamped oscillator w h = 2
+        expected = 2 / np.sqrt(6e7 * (1 / m + h * h / J))
+        assert loop.largest_step(problem) == pytest.approx(expected, rel=1e-12, abs=0)
+
+    def test_does_not_depend_on_the_precision(self):
+        problem = MODEL.problem()
+        precise = loop.largest_step(as_arrays(problem, np.longdouble))
+        assert precise == pytest.approx(loop.largest_step(problem), rel=1e-12, abs=0)
+
     @pytest.mark.parametrize("C_T", [0.0, 1e3, 2e4, 2e5])
     def test_is_where_a_damped_spring_begins_to_grow(self, C_T, monkeypatch):
         """A mass held by the tangential spring, friction out of reach: linear, so it grows or it does not."""
@@ -169,6 +204,17 @@ class TestLargestStep:
 
 
 class TestLostNumbers:
+    @pytest.mark.parametrize("name", ["x", "W", "Lambda"])
+    @pytest.mark.parametrize("batch", [(), (3,)], ids=str)
+    def test_one_number_is_enough(self, name, batch):
+        state = State.at_rest(np.zeros(batch + (3,)), np.broadcast_to(np.eye(3), batch + (3, 3)), 8)
+        assert not np.any(loop.body_lost(state))
+        assert loop.body_lost(state).shape == batch
+        values = np.array(getattr(state, name))
+        (values[1] if batch else values).flat[-1] = np.nan
+        lost = loop.body_lost(replace(state, **{name: values}))
+        assert np.array_equal(lost, [False, True, False] if batch else True)
+
     def test_nan_in_the_start_is_found_at_its_point(self):
         problem = MODEL.problem(duration=0.01)
         start = replace(problem.start, s=np.full((8, 2), np.nan), anchored=np.arange(8) == 1)
