@@ -12,6 +12,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover import verdict as rules
+from rockref.discover.clipped import flat_tops
 from rockref.discover.evidence import HeldOut, held_out, rms_deg_s
 from rockref.discover.families import (
     Family,
@@ -31,7 +32,7 @@ from rockref.discover.information import information
 from rockref.discover.looking import PLAIN, POLISH, Look, challenge, duel, look_further
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.plan import switches_of
-from rockref.discover.presearch import STRONG, flat_tops, suspects
+from rockref.discover.presearch import STRONG, suspects
 from rockref.discover.search import FRESH, LITTLE, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature

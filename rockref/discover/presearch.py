@@ -1,19 +1,20 @@
-"""What must be known before the runs are cut into windows: a sensor that misleads, a base that shakes."""
+"""What must be known before the runs are cut: a sensor that misleads, a wire that holds, a base that shakes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
+from rockref.discover.approach import best_for_all, shares_of, switches
+from rockref.discover.clipped import flat_tops
 from rockref.discover.fit import Fit, Point
 from rockref.discover.search import Setup, release_windows
-from rockref.discover.windows import gyro_of
-from rockref.measure.experiment import Experiment, Run
 
 #: Sensor effects that spoil the reconstructed state, so that every window misfits whatever the physics.
 MISLEADING = ("gyro_misalignment", "gyro_scale", "gyro_drift", "gyro_bandwidth", "clock_error", "gyro_saturation")
+#: Loads that act on the release so strongly that the baseline has to bend out of shape to follow.
+HOLDING = ("lingering_wire_pull", "release_velocity", "plate_tilt", "mass_eccentricity")
 #: Mean loss of the release windows (1 is noise) above which something strong is at work; decided on the control's 0.9.
 STRONG = 1.35
 #: Share of the excess loss that an effect must explain to be taken along from the start.
@@ -28,9 +29,13 @@ def excess(fit: Fit, point: Point) -> float:
 
 
 def release_fit(setup: Setup, effects: tuple[str, ...] = (), iterations: int = 6) -> tuple[Fit, Point]:
-    """Fit of the release windows, where nothing is restarted."""
+    """Fit of the release windows, where nothing is restarted; begun at the best of some sizes of the effects."""
     fit = setup.fit(release_windows(setup), effects)
     point = fit.begin()
+    for i in switches([p.name for p in fit.parameters], []):
+        moves = np.zeros((len(shares := shares_of(fit.parameters[i])), len(point.z)))
+        moves[:, i] = shares
+        point = best_for_all(fit, point, moves)
     lam = 1e-2
     for _ in range(iterations):
         before = point.objective
@@ -65,20 +70,6 @@ def tone(setup: Setup, fit: Fit, point: Point, low: float = 2.0, high: float = 6
     return float(frequencies[best]), float(steady * power[best] / max(np.median(power), 6.0 * r.shape[0]))
 
 
-def flat_tops(experiment: Experiment, runs: Iterable[Run]) -> float | None:
-    """Rate [rad/s] at which the records are clipped on both sides or in two runs, or None."""
-    limits, resolution, count = [], gyro_of(experiment).resolution, 0
-    for run in runs:
-        assert run.crv is not None
-        x = np.abs(run.crv)
-        top, count = x.max(), count + 1
-        if np.sum(np.any(x > top - 0.6 * resolution, axis=1)) >= 12:
-            limits.append(top)
-    if len(limits) < max(2, count // 2) or np.ptp(limits) > 2 * resolution:
-        return None
-    return float(np.median(limits))
-
-
 def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
     """Sets of effects with which the whole search is to be made, the plain baseline always among them.
 
@@ -97,7 +88,7 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
         whole = excess(fit, point)
         ranked = []
         had = {e.id for e in setup.base.active_effects()}
-        for id in (id for id in MISLEADING[:5] if id not in had):
+        for id in (id for id in (*MISLEADING[:5], *HOLDING) if id not in had):
             other, trial = release_fit(setup, (id,))
             share = 1 - excess(other, trial) / max(whole, 1e-9)
             ranked.append((share, id, other, trial))

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.clipped import flat_tops, unclipped
 from rockref.discover.reconstruct import (
     attitudes,
     corner_starts,
@@ -137,7 +138,7 @@ def plate_of(model: Model) -> tuple[float, float, float] | None:
 
 
 def true_rates(crv: np.ndarray, t: np.ndarray, rate: float, bandwidth: float, sensor: Sensor) -> np.ndarray:
-    """The block's rates at the samples of a record, with the sensor undone (saturation cannot be), (N, 3) [rad/s].
+    """The block's rates at the samples of a record, with the sensor undone, (N, 3) [rad/s]; crv: with no flat tops.
 
     Sample k of the device stands at t_k * clock in the block's own time.
     """
@@ -175,6 +176,8 @@ class Series:
         for b in range(self.B):
             self.measured[b, : self.length[b]] = self.runs[self.run_of[b]].crv[self.start[b] : self.stop[b]]
         self._weight = self.valid[:, :, None] / self.sigma
+        limit = flat_tops(experiment, self.runs)
+        self._unclipped = [unclipped(experiment, run, limit) for run in self.runs]
         self._rates: dict = {}
         self._rows = np.empty((0, col.STATE))
         self._prepared: tuple | None = None
@@ -188,7 +191,7 @@ class Series:
             if len(self._rates) > 64:
                 self._rates.clear()
             run = self.runs[i]
-            w = true_rates(run.crv, run.t, self.rate, self.bandwidth, sensor)
+            w = true_rates(self._unclipped[i], run.t, self.rate, self.bandwidth, sensor)
             self._rates[key] = (np.ascontiguousarray(w), local_rates(w))
         return self._rates[key]
 
@@ -313,10 +316,10 @@ def series(
     """Cut the runs into windows of `shortest` to `longest` s up to `end` s; the first ends 45 ms after the impact."""
     from rockref.measure.impacts import main_impacts
 
-    cuts = []
+    cuts, limit = [], flat_tops(experiment, runs)
     for run in runs:
         gyro = gyro_of(experiment)
-        w = true_rates(run.crv, run.t, gyro.sample_rate, gyro.bandwidth, sensor or Sensor())
+        w = true_rates(unclipped(experiment, run, limit), run.t, gyro.sample_rate, gyro.bandwidth, sensor or Sensor())
         impact = float(main_impacts(run.t, run.crv).times[0])
         cuts.append(cut(w, gyro.sample_rate, shortest, longest, impact + 0.045, end))
     return Series(experiment, tuple(runs), tuple(cuts), **options)

@@ -1,33 +1,28 @@
-"""What is seen in the records before anything is cut: flat tops."""
-
-from dataclasses import replace
-
-import numpy as np
-import pytest
+"""What the releases tell before anything is cut into windows."""
 
 from rockref import Model
-from rockref.discover.presearch import flat_tops
+from rockref.discover.presearch import release_fit, suspects
+from rockref.discover.search import Setup
+from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 
-LIMIT = 0.45
+
+def setup_of(*effects):
+    truth = Model.table_3_1().replace(effects=tuple(parse(e) for e in effects))
+    e = experiment(truth, [{}, {"turned": True}], duration=1.2, noisy=True)
+    return Setup(e, e.runs, Model.table_3_1(), end=1.2, workers=1)
 
 
-@pytest.fixture(scope="module")
-def two_runs():
-    return experiment(Model.table_3_1(), [{}, {"turned": True}], duration=1.2, noisy=True)
+def test_a_wire_that_holds_on_is_found_at_the_release():
+    """Six newtons at the top take most of the moment that turns the block: no small step leads there."""
+    setup = setup_of("lingering_wire_pull:force=6,tau=0.25")
+    _, sets, seen = suspects(setup)
+    assert ("lingering_wire_pull",) in sets
+    fit, point = release_fit(setup, ("lingering_wire_pull",))
+    force = dict(zip([p.name for p in fit.parameters], point.z, strict=True))["lingering_wire_pull.force"]
+    assert abs(force - 2.0) < 0.2  # typical: 3 N
 
 
-def clipped(e, limits):
-    return tuple(replace(run, crv=np.clip(run.crv, -k, k)) for run, k in zip(e.runs, limits, strict=True))
-
-
-def test_records_that_are_cut_at_one_rate_have_flat_tops(two_runs):
-    assert flat_tops(two_runs, clipped(two_runs, (LIMIT, LIMIT))) == pytest.approx(LIMIT)
-
-
-def test_records_that_are_not_cut_have_none(two_runs):
-    assert flat_tops(two_runs, two_runs.runs) is None
-
-
-def test_tops_at_different_rates_are_not_one_gyroscope_s(two_runs):
-    assert flat_tops(two_runs, clipped(two_runs, (LIMIT, 0.9 * LIMIT))) is None
+def test_nothing_is_suspected_of_a_release_that_the_baseline_explains():
+    _, sets, seen = suspects(setup_of())
+    assert sets == [()] and seen["loss"] < 1.1
