@@ -248,7 +248,12 @@ def test_rolling_anchor_follows_the_lowest_point():
     assert np.array_equal(s, [[0.5, 0.25], [3, 4]])
 
 
-def test_rolling_keeps_the_batch_fastest_in_memory():
-    s = rotation.empty((5,), (8, 2), float)
-    s[...] = 0
-    assert contact.roll_anchor(s, np.zeros((5, 8)), np.zeros((5, 3))).strides == s.strides
+def test_round_feet_keep_the_batch_fastest_in_memory():
+    s, P, Lambda = (rotation.empty((5,), core, float) for core in ((8, 2), (8, 3), (3, 3)))
+    for a in (s, P, Lambda):
+        a[...] = 0
+    x, radius = np.zeros((5, 3)), rotation.empty((5,), (8,), float)
+    radius[...] = 0
+    assert contact.roll_anchor(s, radius, x).strides == s.strides
+    point, round_ = (contact.point_kinematics(x, Lambda, x, x, P, r) for r in (None, radius))
+    assert round_.r.strides == point.r.strides

@@ -187,6 +187,13 @@ class TestContactOfAStep:
         # 0.15 g for 3 ms
         assert slides.v[0] == pytest.approx(0.5 + 0.15 * 9.81 * 3e-3, rel=1e-4)
 
+    def test_a_round_foot_touches_with_its_lowest_point(self):
+        """Tilted by 0.3 about its point at the plate, a foot of 1 mm sinks in by 1 mm (1 - cos 0.3)."""
+        problem = physics.mass_on_a_foot(z=0.0, radius=1e-3)
+        tilted = replace(problem.start, Lambda=rotation.exponential(np.array([0.3, 0, 0])))
+        state = integrator.first_evaluation(as_arrays(replace(problem, start=tilted)))
+        assert state.F[0, 2] == pytest.approx(6e7 * 1e-3 * (1 - np.cos(0.3)), rel=1e-12)
+
     def test_the_anchor_of_a_round_foot_rolls_along(self):
         problem = as_arrays(physics.mass_on_a_foot(z=-1e-6, radius=0.1, mu_0=1e9))
         state = replace(integrator.first_evaluation(problem), anchored=np.array([True]))

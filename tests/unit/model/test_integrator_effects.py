@@ -28,6 +28,14 @@ class Still:
         return None
 
 
+@dataclass(frozen=True)
+class Lifted(physics.Pull):
+    """The plate is 1e-6 m above its place and comes up with 1 mm/s."""
+
+    def plate_motion(self, t, m):
+        return np.array([0, 0, 1e-6]), np.array([0, 0, 1e-3])
+
+
 class TestPlateMotion:
     def test_motions_add_up(self):
         effects = [(Shaken(), {"rate": 2.0}), (Still(), {}), (Shaken(), {"rate": 0.5})]
@@ -37,6 +45,11 @@ class TestPlateMotion:
 
     def test_without_one_the_plate_is_fixed(self):
         assert integrator.plate_motion([(Still(), {})], 3.0) is None
+
+    def test_a_plate_that_comes_up_presses(self):
+        problem = as_arrays(physics.mass_on_a_foot(effects=(Lifted(),)))
+        # spring 60 N, damper 20 N
+        assert integrator.first_evaluation(problem).F[0, 2] == pytest.approx(6e7 * 1e-6 + 2e4 * 1e-3, rel=1e-12)
 
 
 @dataclass(frozen=True)
