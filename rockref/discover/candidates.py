@@ -39,6 +39,10 @@ FACTORS = {
 }
 #: Effects that are absent at infinity: found as the inverse of their parameter.
 INVERSE = ("gyro_bandwidth", "gyro_saturation")
+#: Parameters that are typically none, and what counts as their typical size (decided: half a kilogram more at one
+#: corner makes products of inertia of 0.02 with the long axis; data sheets state cross-axis sensitivities of 1 %).
+SELDOM = {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
+SELDOM |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}
 #: Prior standard deviation in typical sizes; decided: what is five times the typical size is not expected.
 PRIOR = 3.0
 #: Where the search starts in typical sizes for effects that the law at their absence does not see change.
@@ -97,7 +101,8 @@ def parameter_of(kind: type[Effect], key: str, q: Quantity) -> Parameter:
     if kind.id in INVERSE:
         return make(inverse_setter(kind, key), 0.0, 1 / typical, low=0.0, prior=PRIOR)
     low = absent if q.sign == "+" else q.least
-    return make(setter(kind, key), absent, abs(typical - absent), prior=PRIOR, low=low, high=q.most)
+    spread = SELDOM.get((kind.id, key), abs(typical - absent))
+    return make(setter(kind, key), absent, spread, prior=PRIOR, low=low, high=q.most)
 
 
 def inverse_setter(kind: type[Effect], key: str):

@@ -79,12 +79,14 @@ def cut(crv: np.ndarray, rate: float, shortest: float, longest: float, first_end
 class Sensor:
     """What is between the block and the record: everything that a gyroscope may do to the crv.
 
-    turn : rotation vector of a misalignment [rad]; scale : of each axis; bias [rad/s]; drift [rad/s2]
+    turn : rotation vector of a misalignment [rad]; skew : xy, xz, yz of axes that are not square [rad]
+    scale : of each axis; bias [rad/s]; drift [rad/s2]
     bandwidth : [Hz] of a further low-pass, inf for none; range : [rad/s] at which it saturates; clock : seconds of the
     block per second of the device.
     """
 
     turn: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    skew: np.ndarray = field(default_factory=lambda: np.zeros(3))
     scale: np.ndarray = field(default_factory=lambda: np.ones(3))
     bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
     drift: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -93,8 +95,10 @@ class Sensor:
     clock: float = 1.0
 
     def matrix(self) -> np.ndarray:
-        """(3, 3) scale times rotation: what the axes of the record are made of."""
-        return self.scale[:, None] * exponential(np.asarray(self.turn, float))
+        """(3, 3) scale times skew times rotation: what the axes of the record are made of."""
+        xy, xz, yz = self.skew
+        square = np.array([[1.0, xy, xz], [xy, 1.0, yz], [xz, yz, 1.0]])
+        return self.scale[:, None] * (square @ exponential(np.asarray(self.turn, float)))
 
 
 def sensor_of(model: Model) -> Sensor:
@@ -104,6 +108,7 @@ def sensor_of(model: Model) -> Sensor:
         v = e.values()
         if e.id == "gyro_misalignment":
             values["turn"] = np.array([v["x"], v["y"], v["z"]])
+            values["skew"] = np.array([v["xy"], v["xz"], v["yz"]])
         elif e.id == "gyro_scale":
             values["scale"] = np.array([v["x"], v["y"], v["z"]])
         elif e.id == "gyro_drift":
@@ -185,7 +190,7 @@ class Series:
 
     def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
         """True rates of run i and the smoothed ones; kept for the sensors that were seen last."""
-        names = ("turn", "scale", "bias", "drift", "bandwidth")
+        names = ("turn", "skew", "scale", "bias", "drift", "bandwidth")
         key = (i, *(np.asarray(getattr(sensor, n), float).tobytes() for n in names))
         if key not in self._rates:
             if len(self._rates) > 64:

@@ -10,16 +10,24 @@ from rockref.model.rotation import apply, exponential
 
 @dataclass(frozen=True)
 class GyroMisalignment(Effect):
-    """The measured crv is R crv, with R the rotation by the vector (x, y, z) (exponential, no small-angle form)."""
+    """The measured crv is (I + S) R crv, with R the rotation by the vector (x, y, z), by the exponential.
+
+    S is symmetric, with xy, xz, yz off its diagonal: axes of the sensor that are not square to each other.
+    """
 
     id = "gyro_misalignment"
     question = "sensor"
     quantities = {
         axis: Quantity("rad", 0.0, -0.1, 0.1, typical, "any", f"rotation vector of the sensor, {axis}", -3.2, 3.2)
         for axis, typical in (("x", 0.03), ("y", 0.03), ("z", -0.03))
-    }
+    } | {
+        axes: Quantity(
+            "rad", 0.0, -0.05, 0.05, 0.0, "any", f"half of what {axes[0]} and {axes[1]} lack to square", -0.3, 0.3
+        )
+        for axes in ("xy", "xz", "yz")
+    }  # fmt: skip
     sentence = "A sensor glued on slightly turned shows a part of one rate in the channel of another."
-    equation = r"W_m = \exp(\hat r)\,W"
+    equation = r"W_m = (I + S)\exp(\hat r)\,W"
     source = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
     confounder = "release_velocity"
     experiment = "Mount the sensor turned by 90 degrees: does the signal follow the sensor or the block?"
@@ -27,8 +35,15 @@ class GyroMisalignment(Effect):
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
+    xy: float = 0.0
+    xz: float = 0.0
+    yz: float = 0.0
 
     def sensor(self, t, crv):
         if self.is_absent():
             return crv
-        return apply(exponential(np.array((self.x, self.y, self.z), crv.dtype)), crv)
+        turned = apply(exponential(np.array((self.x, self.y, self.z), crv.dtype)), crv)
+        if not (self.xy or self.xz or self.yz):
+            return turned
+        skew = [[1, self.xy, self.xz], [self.xy, 1, self.yz], [self.xz, self.yz, 1]]
+        return apply(np.array(skew, crv.dtype), turned)

@@ -29,6 +29,16 @@ def test_misalignment_is_the_rotation_by_its_vector():
     assert out == pytest.approx(Rotation.from_rotvec(vector).apply(crv), abs=1e-15)
 
 
+def test_axes_that_are_not_square_see_each_other():
+    """Two sensitive axes at 90 degrees less 2 xy to each other see a rate half way between them alike, and more."""
+    xy = 0.01
+    out = GyroMisalignment(xy=xy).sensor(T, tone(1.0, axes=(1.0, 1.0, 0.0)))
+    apart = math.pi / 2 - 2 * xy
+    # Of unit vectors (1, xy) and (xy, 1) the cosine is 2 xy, and each has cos(apart/2) of the rate: to first order.
+    assert out[:, 0] == pytest.approx(out[:, 1], abs=1e-15)
+    assert np.max(out[:, 0]) == pytest.approx(math.sqrt(2) * math.cos(apart / 2), abs=xy**2)
+
+
 def test_scale_is_per_axis():
     assert GyroScale(1.02, 0.98, 1.5).sensor(T, tone(1.0)) == pytest.approx(tone(1.0, axes=(1.02, 0.49, -0.45)))
 

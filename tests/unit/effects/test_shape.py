@@ -58,6 +58,20 @@ def test_inertia_deviation_keeps_a_tensor_a_tensor():
     assert np.all(np.linalg.eigvalsh(block.inertia) > 0)
 
 
+def test_products_of_inertia_are_those_of_the_axes_that_a_part_turns():
+    """Half a kilogram at two opposite corners: its tensor by the parallel axes, against the effect's numbers."""
+    r = np.array([0.05, 0.05, 0.344])
+    J = np.diag(np.diag(Model.table_3_1().body()[0].inertia))
+    wanted = J + 2 * 0.25 * (r @ r * np.eye(3) - np.outer(r, r))
+    scale = np.diag(wanted) / np.diag(J)
+    size = np.sqrt(np.diag(wanted))
+    p = wanted / np.outer(size, size)
+    effect = InertiaDeviation(*scale, xy=p[0, 1], xz=p[0, 2], yz=p[1, 2])
+    block, _ = Model.table_3_1().replace(effects=(effect,)).body()
+    assert block.inertia == pytest.approx(wanted, rel=1e-12)
+    assert np.array_equal(block.inertia, block.inertia.T)
+
+
 def arc_time(R, tilt_of_edge, tilt, inertia, weight):
     """Time from rest at `tilt` to upright of a rigid block that turns about its edge, by quadrature of its energy.
 
