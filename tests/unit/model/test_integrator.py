@@ -130,6 +130,10 @@ class TestFirstEvaluation:
         assert state.T[0] == pytest.approx(529.74 * (0.05 * np.cos(0.117) - 0.34399 * np.sin(0.117)), rel=1e-3)
         assert list(np.flatnonzero(state.anchored)) == [0, 1]
 
+    def test_a_point_that_arrives_sliding_slides_at_once(self):
+        problem = as_arrays(physics.mass_on_a_foot(z=physics.resting(), v=(1.0, 0, 0)))
+        assert integrator.first_evaluation(problem).sliding.all()
+
     def test_a_state_of_a_run_is_left_as_it_is(self):
         problem = as_arrays(MODEL.problem())
         state = after(problem, 3)

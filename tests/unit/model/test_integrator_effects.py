@@ -106,6 +106,7 @@ class Witness(Recorder):
 
     def point_wrench(self, *given):
         self.given["point_wrench"] = given
+        given[2]["asked at"] = given[1].t
         return np.array([54.0, 0, 0]), np.array([0, 0, 9.0])
 
     def body_wrench(self, *given):
@@ -177,6 +178,10 @@ class TestWhatEffectsAreGiven:
         assert c_again is c
         assert h == 1e-5
         assert m is state.memory[0]
+
+    def test_what_they_remember_is_kept_from_the_first_evaluation_on(self, witnessed):
+        assert witnessed[1].memory[0]["asked at"] == 7
+        assert witnessed[2].memory[0]["asked at"] == 7 + 1e-5
 
     def test_their_loads_are_added(self, witnessed):
         _, first, state, A, _ = witnessed

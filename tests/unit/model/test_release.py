@@ -109,6 +109,17 @@ def test_pivots_at_unequal_distances_from_the_edge_touch_as_well():
     # heights of 0.35 m are rounded at 5e-17, some ten times
     assert k.xi[:2] == pytest.approx([HALF_WEIGHT / 6e7] * 2, abs=1e-15)
     assert state.Lambda[2, 0] == pytest.approx(0.02 * np.sin(0.1) / 0.1, rel=1e-12)
+    product = rotation.product(rotation.transposed(state.Lambda), state.Lambda)
+    # two rotations are multiplied, each entry rounded a few times
+    assert np.max(np.abs(product - np.eye(3))) < 1e-15
+
+
+def test_pivots_of_unequal_radius_touch_as_well():
+    _, points = MODEL.body()
+    radius = np.linspace(1e-3, 8e-3, 8)
+    state = release.release_posture(physics.block(), replace(points, radius=radius), 0.1)
+    k = point_kinematics(state.x, state.Lambda, state.v, state.W, points.P, radius)
+    assert k.xi[:2] == pytest.approx([HALF_WEIGHT / 6e7] * 2, abs=1e-15)
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
