@@ -77,9 +77,11 @@ $(VENV)/.stamp-peers: $(VENV)/.stamp
 	@$(PIP) --editable '.[peers]'
 	@touch $@
 
-mutate: env  ## plant small faults in the law and count those that the tests notice
+# From the beginning each time: mutmut keeps its verdicts when a test changes.
+mutate: env  ## plant small faults in the law, count those that the tests notice, and hold the score to its floor
+	rm -rf mutants
 	HYPOTHESIS_PROFILE=mutation $(VENV)/bin/mutmut run
-	$(VENV)/bin/mutmut results
+	$(PY) -m tests.mutation
 
 dist: env  ## build wheel and source archive into dist/
 	@$(PIP) build

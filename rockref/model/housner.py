@@ -79,7 +79,7 @@ def housner(
     theta, rate, side, now = -theta_0, 0.0, -1.0, 0.0
     out, impacts = [], []
     for t in times:
-        while now < t:
+        while t - now > 1e-12:
             h = min(step, t - now)
             new = rk4(theta, rate, h, side)
             if new[0] * side < 0:
@@ -97,8 +97,6 @@ def housner(
             else:
                 now += h
                 theta, rate = new
-            if t - now < 1e-12:
-                break
         out.append((theta, rate))
     angles, rates = np.array(out).T
     return HousnerResponse(times, angles, rates, np.array(impacts))

@@ -47,6 +47,18 @@ def test_first_impact_against_the_energy_integral(theta_0):
     assert run(theta_0).impacts[0] == pytest.approx(exact_quarter_period(theta_0), abs=1e-10)
 
 
+def test_second_impact_is_a_swing_to_the_other_side_later():
+    """The impact leaves the square of the ratio of the energy, and with it a tilt from which the block comes back."""
+    theta_0 = 0.1170
+    ratio = housner.velocity_ratio(MASS, J, R, ALPHA)
+    left = ratio**2 * (np.cos(ALPHA - theta_0) - np.cos(ALPHA))
+    theta_1 = ALPHA - np.arccos(np.cos(ALPHA) + left)
+    r = run(theta_0)
+    # RK4 at 1e-4 s, and twice the quadrature
+    assert r.impacts[1] - r.impacts[0] == pytest.approx(2 * exact_quarter_period(theta_1), abs=1e-9)
+    assert np.max(r.theta) == pytest.approx(theta_1, rel=1e-4)
+
+
 def test_first_impact_of_a_small_tilt_is_housners_formula():
     """cosh(p t) = alpha / (alpha - theta_0) is linear in the angles: relative error about alpha^2 / 6."""
     for theta_0 in (0.01, 0.05, 0.1170):
@@ -94,6 +106,7 @@ def test_few_rows_are_as_good_as_many():
 
 def test_impacts_come_closer_together():
     r = run(0.1170, duration=4.0, rate=100.0)
+    assert len(r.impacts) > 5
     assert np.all(np.diff(r.impacts, 2) < 0)
 
 

@@ -21,6 +21,7 @@ def test_state_at_rest():
     moving = p.State.at_rest(np.zeros((5, 3), np.float32), np.eye(3), 4, v=[1, 2, 3], W=[4, 5, 6])
     assert moving.s.shape == (5, 4, 2)
     assert moving.s.dtype == np.float32
+    assert np.array_equal(moving.v, [1, 2, 3])
     assert np.array_equal(moving.W, [4, 5, 6])
 
 
@@ -85,3 +86,8 @@ def test_round_and_point_feet_do_not_share_a_batch():
 def test_replace():
     assert MODEL.problem().replace(duration=7.0).duration == 7.0
     assert MODEL.problem().batch == ()
+
+
+def test_every_block_of_a_batch_is_its_own():
+    both = p.stack([MODEL.problem(), MODEL.replace(mass=60.0).problem()])
+    assert np.array_equal(both.block.mass, [54, 60])

@@ -153,6 +153,14 @@ def test_tilt_out_of_range(theta_0):
         assert "0.1443" in refused.value.what
 
 
+def test_a_turned_block_tips_over_its_other_edge():
+    feet = physics.points([[0.05, 0.05, -0.344], [-0.05, 0.05, -0.344], [-0.05, -0.03, -0.344], [0.05, -0.03, -0.344]])
+    release.release_posture(physics.block(), feet, 0.1)
+    # arctan(0.03 / 0.344)
+    with pytest.raises(InputError, match="0.08699 rad"):
+        release.release_posture(physics.block(), feet, 0.1, turned=True)
+
+
 def test_at_the_tipping_angle_itself_the_block_would_not_come_back():
     block, points = MODEL.body()
     with pytest.raises(InputError):

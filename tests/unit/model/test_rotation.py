@@ -77,6 +77,12 @@ def test_vector_product(batch, dtype):
         assert np.array_equal(rotation.apply_to_points(rotation.hat(a), r), c)
 
 
+def test_vector_products_with_no_points_are_none():
+    a, nothing = np.ones((5, 1, 3)), rotation.empty((5,), (0, 3), float)
+    for one in (a, rotation.empty((5,), (1, 3), float)):
+        assert rotation.cross(one, nothing).shape == (5, 0, 3)
+
+
 def test_empty_lets_the_batch_vary_fastest():
     a = rotation.empty((5, 4), (8, 3), np.float32)
     assert a.shape == (5, 4, 8, 3)

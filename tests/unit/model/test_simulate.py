@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rockref
+from rockref.model import rotation
 from rockref.model import simulate as loop
 from rockref.model.errors import InputError, NumericalError
 from rockref.model.problem import State, as_arrays, stack
@@ -169,6 +170,15 @@ class TestLargestStep:
         # of an undamped oscillator w h = 2
         expected = 2 / np.sqrt(6e7 * (1 / m + h * h / J))
         assert loop.largest_step(problem) == pytest.approx(expected, rel=1e-12, abs=0)
+
+    def test_does_not_depend_on_the_axes_of_the_body(self):
+        problem = MODEL.problem()
+        Q = rotation.exponential(np.array([0.3, -0.5, 0.8]))
+        block = replace(problem.block, inertia=Q @ problem.block.inertia @ Q.T)
+        turned = replace(problem, block=block, points=replace(problem.points, P=problem.points.P @ Q.T))
+        for other in (turned, stack([turned, turned])):
+            # eigenvalues of 6 x 6 matrices, conditioned by the ratio of the moments, 24
+            assert loop.largest_step(other) == pytest.approx(loop.largest_step(problem), rel=1e-12, abs=0)
 
     def test_does_not_depend_on_the_precision(self):
         problem = MODEL.problem()

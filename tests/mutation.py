@@ -1,0 +1,99 @@
+"""What `mutmut run` found, against the floor and the survivors of `docs/mutation.md`: ``python -m tests.mutation``.
+
+A mutant that a test fails on, or whose tests do not come to an end, is killed; one that no test reaches survives. The
+score is the killed ones of all. Exit code 1 where it is below the floor, or where a mutant has no verdict.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[1]
+
+#: Exit codes of a mutant's tests, as mutmut writes them: pytest's own, a run that was cut off, no tests (33).
+KILLED, TIMEOUT, SURVIVED = {1, 3}, {36, 24, -24, 152, 255}, {0, 5, 33}
+
+
+class Score(NamedTuple):
+    """How many mutants there are, how many were killed (timeouts among them), which survived, which are undecided."""
+
+    all: int
+    killed: int
+    timeouts: int
+    survivors: list[str]
+    undecided: list[str]
+
+    @property
+    def percent(self) -> float:
+        return 100 * self.killed / self.all if self.all else 0.0
+
+
+def readable(mutant: str) -> str:
+    """`rockref.model.contact.x_norm__mutmut_9` is "model.contact.norm 9"; a method has its class before it."""
+    function, number = mutant.removeprefix("rockref.").split("__mutmut_")
+    folder, _, name = function.rpartition(".")
+    name = name.removeprefix("x").removeprefix("_") if "ǁ" not in name else name.removeprefix("xǁ").replace("ǁ", ".")
+    return f"{folder}.{name} {number}"
+
+
+def score(verdicts: dict[str, int | None]) -> Score:
+    """The score of mutants with their exit codes."""
+    names = {readable(mutant): code for mutant, code in verdicts.items()}
+    killed = [name for name, code in names.items() if code in KILLED | TIMEOUT]
+    return Score(
+        all=len(names),
+        killed=len(killed),
+        timeouts=sum(names[name] in TIMEOUT for name in killed),
+        survivors=[name for name, code in names.items() if code in SURVIVED],
+        undecided=[name for name, code in names.items() if code not in KILLED | TIMEOUT | SURVIVED],
+    )
+
+
+def found(mutants: Path) -> dict[str, dict[str, int | None]]:
+    """Exit codes of the mutants of every file, from the folder that mutmut works in."""
+    files = sorted(mutants.rglob("*.py.meta"))
+    codes = {str(f.relative_to(mutants))[: -len(".meta")]: json.loads(f.read_text("utf-8")) for f in files}
+    return {name: meta["exit_code_by_key"] for name, meta in codes.items() if meta["exit_code_by_key"]}
+
+
+def listed(page: str) -> set[str]:
+    """The survivors in the first column of the page's tables: "`model.contact.norm` 9, 29" are two."""
+    rows = re.findall(r"^\| `([\w.]+)` ([\d, ]+)\|", page, flags=re.MULTILINE)
+    return {f"{function} {number}" for function, numbers in rows for number in re.findall(r"\d+", numbers)}
+
+
+def floor_of(page: str) -> float:
+    """The floor [%], which stands on the page: "The floor is 97.00 %"."""
+    stated = re.search(r"The floor is (\d+\.\d+) %", page)
+    if stated is None:
+        raise LookupError("docs/mutation.md does not state the floor")
+    return float(stated[1])
+
+
+def report(by_file: dict[str, dict[str, int | None]], page: str) -> tuple[str, bool]:
+    """What to print, and whether the floor of the page holds."""
+    lines = [f"{'file':40} {'mutants':>8} {'killed':>8} {'timeouts':>8} {'survived':>8}"]
+    for name, verdicts in by_file.items():
+        s = score(verdicts)
+        lines.append(f"{name:40} {s.all:8} {s.killed:8} {s.timeouts:8} {len(s.survivors):8}")
+    total = score({mutant: code for verdicts in by_file.values() for mutant, code in verdicts.items()})
+    known, floor = listed(page), floor_of(page)
+    lines += [f"survived, and not in docs/mutation.md: {name}" for name in total.survivors if name not in known]
+    lines += [f"in docs/mutation.md, and no survivor: {name}" for name in sorted(known - set(total.survivors))]
+    lines += [f"without a verdict: {name}" for name in total.undecided]
+    lines.append(f"{total.killed} of {total.all} mutants killed: {total.percent:.2f} %, the floor is {floor:.2f} %")
+    return "\n".join(lines), total.percent >= floor and not total.undecided
+
+
+def main() -> int:
+    text, holds = report(found(ROOT / "mutants"), (ROOT / "docs" / "mutation.md").read_text("utf-8"))
+    print(text)
+    return 0 if holds else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

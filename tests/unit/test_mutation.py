@@ -1,0 +1,58 @@
+"""The judge of the mutants: what counts as killed, what is a survivor, when the floor holds."""
+
+import json
+
+import pytest
+
+from tests import mutation
+
+NORM, PICK = "rockref.model.contact.x_norm__mutmut_", "rockref.model.response.xǁResponseǁcontacts__mutmut_"
+VERDICTS = {f"{NORM}1": 1, f"{NORM}2": 36, f"{NORM}9": 0, f"{PICK}23": 0}
+PAGE = "The floor is 50.00 %.\n\n| mutant | reason |\n| --- | --- |\n| `model.contact.norm` 9, 29 | as before |\n"
+
+
+def test_names_are_those_of_the_code():
+    assert mutation.readable(f"{NORM}9") == "model.contact.norm 9"
+    assert mutation.readable(f"{PICK}23") == "model.response.Response.contacts 23"
+    assert mutation.readable("rockref.model.problem.x__stack__mutmut_3") == "model.problem._stack 3"
+
+
+def test_a_run_without_end_is_killed_and_one_without_verdict_is_open():
+    s = mutation.score({**VERDICTS, f"{NORM}3": None, f"{NORM}4": -11})
+    assert (s.all, s.killed, s.timeouts) == (6, 2, 1)
+    assert s.survivors == ["model.contact.norm 9", "model.response.Response.contacts 23"]
+    assert s.undecided == ["model.contact.norm 3", "model.contact.norm 4"]
+    assert s.percent == pytest.approx(200 / 6)
+    assert mutation.score({}).percent == 0
+
+
+def test_what_no_test_reaches_survives():
+    assert mutation.score({f"{NORM}1": 33}).survivors == ["model.contact.norm 1"]
+
+
+def test_survivors_that_are_not_on_the_page_are_named():
+    text, _ = mutation.report({"contact.py": VERDICTS}, PAGE)
+    assert "not in docs/mutation.md: model.response.Response.contacts 23\n" in text
+    assert "not in docs/mutation.md: model.contact.norm 9" not in text
+    assert "in docs/mutation.md, and no survivor: model.contact.norm 29\n" in text
+    assert text.endswith("2 of 4 mutants killed: 50.00 %, the floor is 50.00 %")
+
+
+@pytest.mark.parametrize("floor, more, holds", [(50.0, {}, True), (50.1, {}, False), (10.0, {f"{NORM}3": None}, False)])
+def test_the_floor(floor, more, holds):
+    page = PAGE.replace("50.00", f"{floor:.2f}")
+    assert mutation.report({"contact.py": {**VERDICTS, **more}}, page)[1] is holds
+
+
+def test_the_page_states_its_floor_and_what_survives():
+    page = (mutation.ROOT / "docs" / "mutation.md").read_text("utf-8")
+    assert 0 < mutation.floor_of(page) <= 100
+    with pytest.raises(LookupError):
+        mutation.floor_of("There is none.")
+
+
+def test_verdicts_are_read_file_by_file(tmp_path):
+    (tmp_path / "rockref").mkdir()
+    (tmp_path / "rockref" / "a.py.meta").write_text(json.dumps({"exit_code_by_key": VERDICTS}))
+    (tmp_path / "rockref" / "empty.py.meta").write_text(json.dumps({"exit_code_by_key": {}}))
+    assert mutation.found(tmp_path) == {"rockref/a.py": VERDICTS}
