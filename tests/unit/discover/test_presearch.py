@@ -26,3 +26,11 @@ def test_a_wire_that_holds_on_is_found_at_the_release():
 def test_nothing_is_suspected_of_a_release_that_the_baseline_explains():
     _, sets, seen = suspects(setup_of())
     assert sets == [()] and seen["loss"] < 1.1
+
+
+def test_a_block_that_is_thrown_back_first_has_its_release_to_itself():
+    """At 0.05 rad/s the wrong way it stops, turns, and falls: what stops it there is no impact."""
+    setup = setup_of("release_velocity:x=0.05")
+    fit, point = release_fit(setup, ("release_velocity",))
+    assert min(fit.series.length) > 0.3 * fit.series.rate
+    assert 2 * point.loss.sum() / fit.series.count.sum() < 1.1
