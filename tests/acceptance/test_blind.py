@@ -58,10 +58,8 @@ def test_sixty_cases_are_no_worse_than_the_documentation_says(tmp_path):
     assert all(found["sealed"].values())
     rows = {row["score"]: row["value"] for row in found["scores"]}
     print("\n".join(found["failures"]))
-    # Goals that were met when they were last measured; those that were not stand in the documentation.
+    # The worse ends of the intervals that the documentation states (docs/explanation/blind_test.md).
     assert rows["controls: false alarms"] == 0
-    assert rows["gap closed on held-out runs, median"] > 0.95
-    # One wrong name in sixty cases may be luck; three are not.
-    assert rows["all: wrong name"] <= 2 / 60
-    # Two thirds of the way from the simplest rival's share to the goal (decided).
-    assert rows["single: truth in a class of at most three"] > 0.75
+    assert rows["gap closed on held-out runs, median"] > 0.93
+    assert rows["all: wrong name"] < 0.15
+    assert rows["single: truth first"] > 0.50
