@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from rockref.discover.candidates import SHAPES
+from rockref.discover.candidates import SELDOM, SHAPES
 from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.windows import STATES
 
@@ -72,10 +72,10 @@ def lines(fit: Fit) -> Iterator[tuple[Callable, Callable[[np.ndarray], np.ndarra
 
 
 def switches(names: list[str], heights: list[int]) -> list[int]:
-    """Indices of what brings the effects in, common to all runs."""
+    """Indices of what brings the effects in, common to all runs; not what is typically none."""
     return [
         i for i, name in enumerate(names)
-        if "." in name and "[" not in name and tuple(name.split(".")) not in SHAPES and i not in heights
+        if "." in name and "[" not in name and tuple(name.split(".")) not in SHAPES | SELDOM and i not in heights
     ]  # fmt: skip
 
 
