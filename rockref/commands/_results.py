@@ -1,4 +1,4 @@
-"""What a diagnosis leaves behind beside what it prints: the record, the model, and a line for every file."""
+"""What a command leaves behind beside what it prints: the record, the model, and a line for every file."""
 
 from collections.abc import Iterable
 from pathlib import Path

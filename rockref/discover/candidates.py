@@ -40,7 +40,7 @@ FACTORS = {
 #: Effects that are absent at infinity: found as the inverse of their parameter.
 INVERSE = ("gyro_bandwidth", "gyro_saturation")
 #: Parameters that are typically none, and what counts as their typical size (decided: half a kilogram more at one
-#: corner makes products of inertia of 0.02 with the long axis; data sheets state cross-axis sensitivities of 1 %).
+#: corner makes products of inertia of 0.02 with the long axis; axes half a degree from square).
 SELDOM = {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
 SELDOM |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}
 #: Their prior standard deviation in such sizes: what the runs cannot tell from the rest of the effect stays none, and

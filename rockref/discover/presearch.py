@@ -78,7 +78,8 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
     fit, point = release_fit(setup)
     seen: dict = {"loss": float(np.mean(2 * point.loss / fit.series.count)), "z": point.z}
     sets: list[tuple[str, ...]] = [()]
-    if (limit := flat_tops(setup.experiment, setup.runs)) is not None:
+    had = {e.id for e in setup.base.active_effects()}
+    if "gyro_saturation" not in had and (limit := flat_tops(setup.experiment, setup.runs)) is not None:
         seen["flat_top"] = limit
         sets.append(("gyro_saturation",))
         (own,) = setup.parameters(("gyro_saturation",))[len(seen["z"]) :]
@@ -87,7 +88,6 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
     if seen["loss"] > STRONG:
         whole = excess(fit, point)
         ranked = []
-        had = {e.id for e in setup.base.active_effects()}
         for id in (id for id in (*MISLEADING[:5], *HOLDING) if id not in had):
             other, trial = release_fit(setup, (id,))
             share = 1 - excess(other, trial) / max(whole, 1e-9)

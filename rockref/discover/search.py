@@ -11,9 +11,10 @@ from rockref.api import Model
 from rockref.discover.approach import along_ridge, approached, placed
 from rockref.discover.candidates import parameters_of
 from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters, roll_parameters
-from rockref.discover.windows import Cut, Series, first_impact, gyro_of, sensor_of, series
+from rockref.discover.windows import Cut, Series, gyro_of, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
+from rockref.measure.impacts import main_impacts
 
 #: Stages: window lengths [s] and most iterations; decided: short windows pull the parameters near, longer ones weigh
 #: what accumulates (drag, cable, eccentricity).
@@ -60,7 +61,7 @@ def release_windows(setup: Setup) -> Series:
     """One window a run, from release to shortly before the first impact: nothing is restarted, nothing is chaotic."""
     cuts = []
     for run in setup.runs:
-        impact = first_impact(setup.experiment, run)
+        impact = float(main_impacts(run.t, run.crv).times[0])
         cuts.append(Cut(np.array([0]), np.array([int((impact - 0.03) * gyro_of(setup.experiment).sample_rate)])))
     return Series(setup.experiment, setup.runs, cuts, workers=setup.workers)
 

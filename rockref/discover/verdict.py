@@ -30,7 +30,7 @@ LEAST_SIZE = 0.2
 RIVAL, CLOSE = 0.97, 30.0
 #: A winner that ends above the noise has not arrived, and what is left to gain may be a rival's: rivals are told apart
 #: by more than that, up to this many units (decided: half a typical drag, stopped in a side valley, was left 110 behind
-#: a cable by which 200 remained; right names in eleven experiments were left up to some 300).
+#: a cable by which 200 remained; of thirteen single effects that left no window structured eleven ended below 300).
 UNFINISHED = 300.0
 #: Rivals above this share of the best gain are fitted again from short windows on before the verdict.
 RIVAL_BEFORE_DUEL = 0.55

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.clipped import flat_tops, unclipped
+from rockref.discover.clipped import unclipped
 from rockref.discover.reconstruct import (
     attitudes,
     corner_starts,
@@ -27,7 +27,6 @@ from rockref.discover.record import filter_coefficients, records
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
-from rockref.measure.checks import rocking_time
 from rockref.measure.experiment import Experiment, Gyro
 from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError
@@ -37,8 +36,6 @@ from rockref.model.rotation import exponential
 #: Step inside windows [s]; decided: 16 steps a millisecond; halving it changes the residual by less than a hundredth
 #: of the noise (the gate measures it again on every experiment).
 STEP = 1e-3 / 16
-#: Share of the fall from rest before which there is no impact (decided: at a typical velocity of release it is 0.8).
-EARLIEST = 0.3
 #: Samples after a restart that do not count: the filter of the gyroscope settles (300 Hz: 0.75 ms).
 SETTLE = 4
 #: Corrections of a window's start: tilt, roll [rad], three rates [rad/s].
@@ -185,8 +182,7 @@ class Series:
         for b in range(self.B):
             self.measured[b, : self.length[b]] = self.runs[self.run_of[b]].crv[self.start[b] : self.stop[b]]
         self._weight = self.valid[:, :, None] / self.sigma
-        limit = flat_tops(experiment, self.runs)
-        self._unclipped = [unclipped(experiment, run, limit) for run in self.runs]
+        self._unclipped = unclipped(experiment, self.runs)
         self._rates: dict = {}
         self._rows = np.empty((0, col.STATE))
         self._prepared: tuple | None = None
@@ -319,25 +315,14 @@ class Series:
         return r
 
 
-def first_impact(experiment: Experiment, run) -> float:
-    """Instant of the first main impact of a release [s].
-
-    A block that is let go with a velocity may turn back before it falls: no impact is earlier than EARLIEST of the
-    time that the fall takes from rest.
-    """
-    times = main_impacts(run.t, run.crv).times
-    falls = rocking_time(run.release_tilt, experiment.width, experiment.height)
-    return float(next((time for time in times if time > EARLIEST * falls), times[0]))
-
-
 def series(
     experiment: Experiment, runs, shortest: float, longest: float, end: float, sensor: Sensor | None = None, **options
 ) -> Series:
     """Cut the runs into windows of `shortest` to `longest` s up to `end` s; the first ends 45 ms after the impact."""
-    cuts, limit = [], flat_tops(experiment, runs)
-    for run in runs:
+    cuts = []
+    for run, whole in zip(runs, unclipped(experiment, runs), strict=True):
         gyro = gyro_of(experiment)
-        w = true_rates(unclipped(experiment, run, limit), run.t, gyro.sample_rate, gyro.bandwidth, sensor or Sensor())
-        until = first_impact(experiment, run) + 0.045
+        w = true_rates(whole, run.t, gyro.sample_rate, gyro.bandwidth, sensor or Sensor())
+        until = float(main_impacts(run.t, run.crv).times[0]) + 0.045
         cuts.append(cut(w, gyro.sample_rate, shortest, longest, until, end))
     return Series(experiment, tuple(runs), tuple(cuts), **options)

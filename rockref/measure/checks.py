@@ -13,11 +13,11 @@ from rockref.measure.notice import Notice
 from rockref.measure.running import half_width, running_mean, sample_step
 from rockref.measure.table import Table
 from rockref.model.errors import InputError
+from rockref.model.problem import GRAVITY
 
 if TYPE_CHECKING:
     from rockref.measure.experiment import Experiment, Run
 
-GRAVITY = 9.81
 # decided: a gyroscope that saturates early shows a tenth of the rate, nothing thrice of it; a unit is off by 57.
 RATE_MARGIN = (0.1, 3.0)
 # decided: a loose mass or a slow wire delays the first impact by a fifth; more is another release.
@@ -49,8 +49,25 @@ def rocking_time(tilt: float, width: float, height: float) -> float:
 
     width and height in m; linear in the angle (Housner 1963), which is enough for a slender block.
     """
-    radius, alpha = 0.5 * math.hypot(width, height), math.atan2(width, height)
-    return math.acosh(alpha / (alpha - tilt)) / math.sqrt(0.75 * GRAVITY / radius)
+    alpha = math.atan2(width, height)
+    return math.acosh(alpha / (alpha - tilt)) / growth_rate(width, height)
+
+
+def growth_rate(width: float, height: float) -> float:
+    """Return p, 1/s, of a slender block on its edge: arcs grow as cosh(p t), p^2 = 3g/(4R) (Housner 1963).
+
+    width and height in m; doi:10.1785/BSSA0530020403.
+    """
+    return math.sqrt(0.75 * GRAVITY / (0.5 * math.hypot(width, height)))
+
+
+def tilts(t: np.ndarray, wx: np.ndarray, run: Run) -> np.ndarray:
+    """Return the tilt, rad, after each sample of a release with rates wx (N,) rad/s: the release's less their integral.
+
+    Positive on the side of the release, turned block or not.
+    """
+    assert run.release_tilt is not None
+    return run.release_tilt - _sign(run) * np.cumsum(wx) * sample_step(t)
 
 
 def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, experiment: Experiment) -> list[Notice]:
@@ -89,11 +106,13 @@ def samples_before_a_fall(t: np.ndarray, crv: np.ndarray, run: Run, experiment: 
     assert run.release_tilt is not None
     alpha = math.atan2(experiment.width, experiment.height)
     duration = rocking_time(run.release_tilt, experiment.width, experiment.height)
-    tilt = np.abs(run.release_tilt - _sign(run) * np.cumsum(crv[:, 0]) * sample_step(t))
-    fallen = int(np.argmax(tilt > FALLEN * alpha)) if np.any(tilt > FALLEN * alpha) else len(t)
-    inside = np.flatnonzero(tilt[:fallen] <= alpha)
-    last = int(inside[-1]) + 1 if fallen < len(t) and len(inside) else len(t)
-    return last if last < len(t) and t[last] > duration * (1.0 + TIME_MARGIN) else len(t)
+    tilt = np.abs(tilts(t, crv[:, 0], run))
+    beyond = np.flatnonzero(tilt > FALLEN * alpha)
+    if not len(beyond):
+        return len(t)
+    inside = np.flatnonzero(tilt[: beyond[0]] <= alpha)
+    last = int(inside[-1]) + 1 if len(inside) else 0
+    return last if t[last] > duration * (1.0 + TIME_MARGIN) else len(t)
 
 
 def _sign(run: Run) -> int:

@@ -118,6 +118,9 @@ def _impact(
     step = sample_step(t)
     coarse = first + int(np.argmax(smooth[first:last]))
     reach = max(2, round(SEARCH / step))
+    # A rate that only falls since the record began is a block thrown back at its release: nothing grew to a cusp.
+    if coarse < reach:
+        return None
     # A peak at the end of the record is where the record was cut, not where the block fell.
     if coarse + reach >= len(t):
         return None

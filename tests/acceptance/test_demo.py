@@ -26,7 +26,7 @@ def demo(tmp_path_factory):
 def test_the_lines_that_matter_and_the_place_of_the_page(demo):
     out, printed = demo
     lines = [line for line in printed.splitlines() if line.startswith("- ")]
-    # Three numbers about runs, three experiments, and the story of one of them with the six numbers of its effect.
+    # Two lines about the model, four about each of two experiments; of one the verdict, six numbers, two errors.
     assert len(lines) == 19
     assert "main impacts at 0.5104" in lines[0]
     for name in EXPERIMENTS:

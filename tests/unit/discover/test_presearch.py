@@ -20,11 +20,12 @@ def test_a_wire_that_holds_on_is_found_at_the_release():
     assert ("lingering_wire_pull",) in sets
     fit, point = release_fit(setup, ("lingering_wire_pull",))
     force = dict(zip([p.name for p in fit.parameters], point.z, strict=True))["lingering_wire_pull.force"]
-    assert abs(force - 2.0) < 0.2  # typical: 3 N
+    assert abs(force - 2.0) < 0.2  # in typical sizes, of 3 N; the tilts of the runs take up a part
 
 
 def test_nothing_is_suspected_of_a_release_that_the_baseline_explains():
     _, sets, seen = suspects(setup_of())
+    # Noise is 1 by definition; some hundred samples of it stay within a tenth.
     assert sets == [()] and seen["loss"] < 1.1
 
 
@@ -32,5 +33,5 @@ def test_a_block_that_is_thrown_back_first_has_its_release_to_itself():
     """At 0.05 rad/s the wrong way it stops, turns, and falls: what stops it there is no impact."""
     setup = setup_of("release_velocity:x=0.05")
     fit, point = release_fit(setup, ("release_velocity",))
-    assert min(fit.series.length) > 0.3 * fit.series.rate
+    assert min(fit.series.length) > 0.3 * fit.series.rate  # a fall from rest takes 0.51 s, so thrown on 0.43 s
     assert 2 * point.loss.sum() / fit.series.count.sum() < 1.1

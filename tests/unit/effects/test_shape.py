@@ -68,7 +68,7 @@ def test_products_of_inertia_are_those_of_the_axes_that_a_part_turns():
     p = wanted / np.outer(size, size)
     effect = InertiaDeviation(*scale, xy=p[0, 1], xz=p[0, 2], yz=p[1, 2])
     block, _ = Model.table_3_1().replace(effects=(effect,)).body()
-    assert block.inertia == pytest.approx(wanted, rel=1e-12)
+    assert block.inertia == pytest.approx(wanted, rel=1e-12)  # rounding of roots and products
     assert np.array_equal(block.inertia, block.inertia.T)
 
 
