@@ -104,8 +104,12 @@ def _processes(n: int) -> ProcessPoolExecutor:
 
 
 def _as_a_worker() -> None:
-    """Begin as a worker: Ctrl-C, which a terminal sends to all, ends it without a word (the parent has the word)."""
-    signal.signal(signal.SIGINT, lambda number, frame: os._exit(130))
+    """Begin as a worker: Ctrl-C, which a terminal sends to all, ends it without a word (the parent has the word).
+
+    Where a shell has it ignored, as in the background, parent and workers go on.
+    """
+    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+        signal.signal(signal.SIGINT, lambda number, frame: os._exit(130))
     _end_with_parent()
 
 

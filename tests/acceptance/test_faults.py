@@ -129,11 +129,16 @@ def test_two_at_once_in_one_folder_both_end_well(tmp_path, whole):
     assert files(tmp_path) == whole("compare")[0]
 
 
+def as_in_a_terminal():
+    """A shell has its background jobs ignore Ctrl-C, these tests perhaps among them, and children inherit that."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def test_ctrl_c_leaves_a_resumable_search_and_says_so(tmp_path):
     words = ("identify", EXPERIMENT, "-o", "found", "--generations", "2000", "--population", "8", "--workers", "2")
     process = subprocess.Popen(
         (*ROCKREF, *words), cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        start_new_session=True,
+        start_new_session=True, preexec_fn=as_in_a_terminal,
     )  # fmt: skip
     deadline = time.monotonic() + 300
     while not list(tmp_path.glob("found/**/*.json")):
