@@ -18,7 +18,8 @@ from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_o
 from rockref.discover.fitting import started_family, usable
 from rockref.discover.information import covariance, information
 from rockref.discover.presearch import MISLEADING, release_fit, tone
-from rockref.discover.search import Setup, baseline, screen
+from rockref.discover.screen import screen
+from rockref.discover.search import Setup, baseline
 from rockref.discover.stretches import AXES
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, Experiment, load_experiment

@@ -12,6 +12,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover import verdict as rules
+from rockref.discover.beside import side_by_side
 from rockref.discover.clipped import flat_tops
 from rockref.discover.evidence import HeldOut, held_out, rms_deg_s
 from rockref.discover.families import (
@@ -139,13 +140,15 @@ def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Fa
 
     Where the releases are far from the baseline and a suspect explains them, the baseline gets few iterations at first.
     """
-    families = []
-    for effects in sets:
+
+    def begun(own: Setup, effects: tuple[str, ...]) -> Family:
         hopeless = not effects and bool(seen.get("starts")) and seen["loss"] > STRONG
         z = np.zeros(len(setup.parameters(effects)))
         known = np.clip(seen.get("starts", {}).get(effects, seen["z"]), -3, 3)
         z[: len(known)] = 0 if hopeless else known
-        families.append(Family(effects, *baseline(setup, effects, z, iterations=(2, 1) if hopeless else FRESH)))
+        return Family(effects, *baseline(own, effects, z, iterations=(2, 1) if hopeless else FRESH))
+
+    families = side_by_side(setup, begun, sets)
     null, start = families[0], min(families, key=mean_loss)
     if "flat_top" in seen:
         # Nobody has to infer this: it is in the records.

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from rockref.discover import verdict as rules
+from rockref.discover.beside import side_by_side
 from rockref.discover.candidates import SHAPES, value_of
 from rockref.discover.evidence import clipped_gain
-from rockref.discover.fit import Fit, Point
+from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.search import Setup, baseline, nominal
 
 
@@ -27,6 +29,17 @@ def refit(family: Family, iterations: int, seed: int, relative: float = 0.0) -> 
     """Go on from where a family stands; the baseline and every candidate get the same iterations."""
     rng = np.random.default_rng(seed)
     return Family(family.effects, family.fit, family.fit.run(family.point, iterations, rng, relative=relative))
+
+
+def refit_all(
+    setup: Setup, families: Sequence[Family], iterations: int, seed: int, relative: float = 0.0
+) -> list[Family]:
+    """The same for several families, side by side."""
+
+    def one(own: Setup, family: Family) -> Family:
+        return refit(replace(family, fit=family.fit.twin(own.log)), iterations, seed, relative)
+
+    return side_by_side(setup, one, families)
 
 
 def afresh(setup: Setup, family: Family) -> Family:
@@ -116,13 +129,25 @@ def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
         part = 1 / p.spread if p.log else point.z[i]
         if p.name == "base_vibration.frequency":
             part = 0.0  # counted over seconds: no parameter of the law shifts it
-        half = float(np.hypot(half, rules.SYSTEMATIC * part))
+        half = float(np.linalg.norm([half, rules.SYSTEMATIC * part, rules.LEAKS * largest_beside(fit, point, p)]))
         ends = sorted((value_of(p, point.z[i] - half), value_of(p, point.z[i] + half)))
         found[p.name] = {
             "value": value_of(p, point.z[i]), "low": ends[0], "high": ends[1], "unit": p.unit,
             "in_typical_sizes": float(point.z[i]),
         }  # fmt: skip
     return found | vibration_amplitude(found)
+
+
+def largest_beside(fit: Fit, point: Point, parameter: Parameter) -> float:
+    """The largest number of the same effect and unit, as a z of `parameter`; 0 for factors."""
+    if parameter.log or parameter.run is not None:
+        return 0.0
+    effect = parameter.name.split(".")[0] + "."
+    return max(
+        abs(z) * p.spread / parameter.spread
+        for p, z in zip(fit.parameters, point.z, strict=True)
+        if p.name.startswith(effect) and p.unit == parameter.unit and not p.log and p.run is None
+    )
 
 
 def vibration_amplitude(found: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:

@@ -8,19 +8,21 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.discover.approach import approached, approached_beside
-from rockref.discover.families import Family, mean_loss, refit
+from rockref.discover.beside import side_by_side
+from rockref.discover.families import Family, gain_between, mean_loss, refit_all
 from rockref.discover.fit import Fit
+from rockref.discover.screen import Trial, screen
 from rockref.discover.search import (
     FIRST_STAGE,
     FRESH,
     LITTLE,
     SHORT,
     Setup,
-    Trial,
     baseline,
     early,
+    late,
     nominal,
-    screen,
+    onward,
     windows,
 )
 from rockref.effects import catalogue
@@ -28,12 +30,17 @@ from rockref.effects import catalogue
 #: Candidates of the screen, and of the first looks, that are fitted to the short windows, with so many iterations; and
 #: how many are then fitted in full.
 LOOKED_AT, LOOKS, FITTED = 4, 3, 3
-#: Most iterations of a fit that is begun where another one ended.
-SWAPPED = 6
+#: Most iterations of a fit that is begun where another one ended; after the first of them it is left where it is, if
+#: it does not reach this share of the other's gain (decided: of three true effects, begun where drag, a cable and
+#: viscous friction had ended, each was past the wrong one after one iteration).
+SWAPPED, TRIED_FIRST, LEFT_BEHIND = 6, 2, 0.5
 #: Share of the way from the best loss to the middle one within which a candidate is fitted in full (decided: in the
 #: runs of a spinning foot, of 28 candidates only the right one was there); and the share of the best loss that short
 #: windows do not tell apart (drag, a cable and rolling ended at 1.02, 1.02 and 1.03).
 AHEAD, ALIKE = 0.4, 1.02
+#: Mean loss of a first look up to which its start needs no second search (decided: 1 is noise; where friction fell
+#: with speed, the right look ended at 1.04, wrong ones at 1.55 and more).
+NEAR = 1.1
 
 
 def from_far(setup: Setup, trials: list[Trial], kept: Family, say: Callable[[str], None]) -> list[Family]:
@@ -56,18 +63,28 @@ def fitted_anew(
 
     sure : the set that is fitted in full wherever it stands.
     """
-    looked = []
-    for effects, own in begun.items():
-        z = np.concatenate([nominal(kept.fit.parameters, kept.point.z), own])
-        looked.append(Family(effects, *early(setup, effects, z, LOOKS)))
-        say(f"  from nominal: {effects[-1]} {mean_loss(looked[-1]):.2f}")
-    looked.sort(key=mean_loss)
+
+    def look(own: Setup, effects: tuple[str, ...]) -> Family:
+        z = np.concatenate([nominal(kept.fit.parameters, kept.point.z), begun[effects]])
+        family = Family(effects, *early(own, effects, z, LOOKS))
+        say(f"  from nominal: {effects[-1]} {mean_loss(family):.2f}")
+        return family
+
+    looked = sorted(side_by_side(setup, look, begun), key=mean_loss)
     best, middle = mean_loss(looked[0]), mean_loss(looked[len(looked) // 2])
     most = max(best + AHEAD * (middle - best), ALIKE * best)
     ahead = [f for f in looked if mean_loss(f) <= most][:FITTED]
     ahead += [f for f in looked if f.effects == sure and all(f is not other for other in ahead)]
+    return side_by_side(setup, in_full, ahead)
+
+
+def in_full(setup: Setup, looked: Family) -> Family:
+    """A first look fitted through both stages: on from where it is, if it is near its valley, else begun once more."""
     rest = (FRESH[0] - LOOKS, FRESH[1])
-    return [Family(f.effects, *baseline(setup, f.effects, f.point.z, iterations=rest)) for f in ahead]
+    if mean_loss(looked) > NEAR:
+        return Family(looked.effects, *baseline(setup, looked.effects, looked.point.z, iterations=rest))
+    point = onward(setup, looked.fit, looked.point, rest[0])
+    return Family(looked.effects, *late(setup, looked.effects, point.z, rest[1]))
 
 
 def kin(id: str) -> list[str]:
@@ -77,18 +94,24 @@ def kin(id: str) -> list[str]:
     return [k for k in dict.fromkeys(near) if k and k != id]
 
 
-def in_the_valley_of(setup: Setup, winner: Family, others: Iterable[tuple[str, ...]]) -> list[Family]:
+def in_the_valley_of(setup: Setup, winner: Family, others: Iterable[tuple[str, ...]], kept: Family) -> list[Family]:
     """Other sets of effects, begun where the winner ended, less its effect: by one step of everything, then fitted.
 
     A fit that stopped in a side valley lies some hundred units too high; in one valley, and on the winner's windows,
-    effects are compared, not valleys.
+    effects are compared, not valleys. kept : the family over which all of them gain.
     """
     effects = winner.effects[:-1]
     plain = setup.fit(winner.fit.series, effects)
     point, _ = plain.point(winner.point.z[: len(plain.parameters)], winner.point.corrections)
     trials = screen(plain, point, [catalogue.find(other[-1]) for other in others], setup, effects)
     begun = [Family(t.effects, t.fit, t.point) for t in trials]
-    return [refit(f, SWAPPED, setup.seed, relative=LITTLE / 5) for f in begun]
+    tried = refit_all(setup, begun, TRIED_FIRST, setup.seed)
+    gain = gain_between(kept, winner)
+    near: list[Family] = []
+    behind: list[Family] = []
+    for f in tried:
+        (near if gain_between(kept, f) > LEFT_BEHIND * gain else behind).append(f)
+    return [*refit_all(setup, near, SWAPPED - TRIED_FIRST, setup.seed, relative=LITTLE / 5), *behind]
 
 
 def own_z(setup: Setup, effects: tuple[str, ...]) -> np.ndarray:
@@ -101,9 +124,10 @@ def first_looks(setup: Setup, trials: Iterable[Trial], kept: Family) -> list[Fam
     short = windows(replace(setup, end=min(setup.end, FIRST_STAGE)), SHORT, kept.fit.models(kept.point.z)[0][0])
     plain = Fit(short, setup.base, setup.parameters(kept.effects))
     start = approached(plain, nominal(kept.fit.parameters, kept.point.z)).z
-    found = []
-    for trial in trials:
-        fit = Fit(short, setup.base, setup.parameters(trial.effects), log=setup.log)
+
+    def look(own: Setup, trial: Trial) -> Family:
+        fit = own.fit(short.twin(), trial.effects)
         z = np.concatenate([start, np.zeros(len(fit.parameters) - len(start))])
-        found.append(Family(trial.effects, fit, approached_beside(fit, z, len(start))))
-    return found
+        return Family(trial.effects, fit, approached_beside(fit, z, len(start)))
+
+    return side_by_side(setup, look, trials)

@@ -64,7 +64,7 @@ class Parameter:
     def value(self, z: float) -> float:
         """The number at z."""
         v = self.centre * np.exp(self.spread * z) if self.log else self.centre + self.spread * z
-        return float(np.clip(v, self.low, self.high))
+        return float(min(max(v, self.low), self.high))
 
 
 @dataclass
@@ -99,6 +99,15 @@ class Fit:
         self.prior = np.array([p.prior for p in self.parameters])
         self.stated = np.array([r.release_tilt for r in s.runs])
         self._last: tuple | None = None
+
+    @property
+    def name(self) -> str:
+        """The effects that are fitted, or "baseline"."""
+        return " + ".join(dict.fromkeys(p.name.split(".")[0] for p in self.parameters if "." in p.name)) or "baseline"
+
+    def twin(self, log: Callable[[str], None]) -> Fit:
+        """The same fit for another thread: what is kept from call to call is its own."""
+        return replace(self, series=self.series.twin(), log=log)
 
     def models(self, z: np.ndarray) -> tuple[list[Model], np.ndarray]:
         """One model a run, and the release tilts [rad]; the last ones are kept."""
@@ -327,8 +336,8 @@ class Fit:
             point, lam = self.step(point, lam)
             mean = 2 * point.loss / self.series.count
             self.log(
-                f"  {i}: objective {point.objective:.0f} median {np.median(mean):.3f} bad {np.mean(mean > 1.5):.3f} "
-                f"lam {lam:.1e}"
+                f"  {self.name} {i}: objective {point.objective:.0f} median {np.median(mean):.3f} "
+                f"bad {np.mean(mean > 1.5):.3f} lam {lam:.1e}"
             )
             little = little + 1 if before - point.objective < relative * before else 0
             if before - point.objective < tolerance or lam > 1e4 or little == 2:
@@ -377,19 +386,8 @@ def baseline_parameters(model: Model, runs: int, tilt_uncertainty: float) -> tup
     p = model.parameters
     names = ["K_N", "K_T", "beta_ext", "mu_ext"]
     if model.points == "eight_points":
-        names = [
-            "K_N",
-            "K_T",
-            "beta_int",
-            "beta_ext",
-            "mu_int",
-            "mu_ext",
-            "delta_long_1",
-            "delta_long_2",
-            "delta_long_3",
-            "delta_long_4",
-            "delta_diag",
-        ]
+        heights = [f"delta_long_{i}" for i in (1, 2, 3, 4)]
+        names = ["K_N", "K_T", "beta_int", "beta_ext", "mu_int", "mu_ext", *heights, "delta_diag"]
     centre = {n: getattr(p, n) for n in names if not n.startswith("delta_long_")}
     centre |= {f"delta_long_{i + 1}": p.delta_long[i] for i in range(4)}
     shared = [Parameter(n, set_parameter(n), centre[n], 0.08 if n == "delta_diag" else 0.15, log=True) for n in names]

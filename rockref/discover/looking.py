@@ -11,13 +11,15 @@ from rockref.discover.families import (
     gain_between,
     gain_over,
     refit,
+    refit_all,
     same_windows,
     size_of,
     structured,
 )
 from rockref.discover.far import fitted_anew, from_far, in_the_valley_of, kin, own_z
 from rockref.discover.plan import LEFT_OUT
-from rockref.discover.search import Setup, screen
+from rockref.discover.screen import screen
+from rockref.discover.search import Setup
 from rockref.effects.base import Effect
 
 #: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
@@ -66,7 +68,7 @@ def look_further(setup: Setup, start: Family, seed: int, say) -> Look:
     refitted: list[Family] = []
     if structured(kept) <= FAR:
         worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
-        refitted = race([Family(t.effects, t.fit, t.point) for t in worth], start, seed)
+        refitted = race(setup, [Family(t.effects, t.fit, t.point) for t in worth], start, seed)
     look = ranked(kept, refitted, say)
     best = min(structured(f) for f in (kept, *refitted))
     nowhere = best > NOWHERE * structured(kept) or not there(look, bool(start.effects))
@@ -92,12 +94,12 @@ def there(look: Look, second: bool) -> bool:
     return bool(look.order) and rules.is_detected(look.gains[look.order[0].effects[-1]], size_of(look.order[0]), second)
 
 
-def race(families: list[Family], start: Family, seed: int) -> list[Family]:
+def race(setup: Setup, families: list[Family], start: Family, seed: int) -> list[Family]:
     """Refit families an iteration at a time; one that has fallen far behind the leader stays where it is."""
     alive = set(range(len(families)))
     for i in range(ITERATIONS):
-        for k in alive:
-            families[k] = refit(families[k], 1, seed + 1 + i)
+        further = dict(zip(alive, refit_all(setup, [families[k] for k in alive], 1, seed + 1 + i), strict=True))
+        families = [further.get(k, f) for k, f in enumerate(families)]
         gains = {k: gain_over(start, families[k]) for k in alive}
         leader = max(gains.values(), default=0.0)
         if leader < WORTH_A_REFIT / 2 and i:
@@ -141,6 +143,6 @@ def duel(setup: Setup, look: Look, say) -> Family:
     mended = ranked(look.kept, fought, say)
     if mended.gains[mended.order[0].effects[-1]] < PLAIN:
         others = [effects for effects in begun if effects != mended.order[0].effects]
-        mended = ranked(look.kept, [*fought, *in_the_valley_of(setup, mended.order[0], others)], say)
+        mended = ranked(look.kept, [*fought, *in_the_valley_of(setup, mended.order[0], others, look.kept)], say)
     look.order, look.gains = mended.order, look.gains | {id: max(g, 0.0) for id, g in mended.gains.items()}
     return look.order[0]

@@ -22,7 +22,8 @@ from rockref.discover import verdict as rules
 from rockref.discover.candidates import SHAPES, kinds, parameters_of, value_of
 from rockref.discover.fit import Fit, Parameter, baseline_parameters
 from rockref.discover.information import eliminated, information, own_parameters
-from rockref.discover.search import MIDDLE, PROBE
+from rockref.discover.screen import PROBE
+from rockref.discover.search import MIDDLE
 from rockref.discover.windows import Cut, Series, series
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import measured

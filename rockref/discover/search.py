@@ -9,6 +9,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.approach import along_ridge, approached, placed
+from rockref.discover.beside import side_by_side
 from rockref.discover.candidates import parameters_of
 from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters, roll_parameters
 from rockref.discover.windows import Cut, Series, gyro_of, sensor_of, series
@@ -81,8 +82,7 @@ def staged(setup: Setup, effects: tuple[str, ...], z: np.ndarray, lengths: tuple
     """A fit of the baseline with effects on windows of these lengths, cut with the sensor of z undone."""
     start = Fit(release_windows(setup), setup.base, setup.parameters(effects))
     fit = setup.fit(windows(setup, lengths, start.models(z)[0][0]), effects)
-    name = " + ".join(effects) or "baseline"
-    setup.log(f"{name}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s")
+    setup.log(f"{fit.name}: {fit.series.B} windows of {lengths[0]}-{lengths[1]} s")
     return fit
 
 
@@ -93,23 +93,35 @@ def early(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int
     little. Which of them finds the valley is luck, on controls too.
     """
     fit = staged(replace(setup, end=min(setup.end, FIRST_STAGE)), effects, z, SHORT)
-    begun = [approached(fit, z)]
+    first, starts = min(TRIED, iterations), [z]
     if np.any(nominal(fit.parameters, z) != z):
-        begun.append(approached(fit, nominal(fit.parameters, z)))
-    rng, first = np.random.default_rng(setup.seed), min(TRIED, iterations)
-    tried = [fit.run(point, first, rng) for point in begun]
-    best = min(tried, key=lambda p: p.objective)
-    best = fit.run(best, iterations - first, rng, lam=1e-3, relative=LITTLE)
-    return fit, jumped(fit, best, rng) if iterations > first else best
+        starts.append(nominal(fit.parameters, z))
+
+    def tried(own: Setup, start: np.ndarray) -> Point:
+        twin = fit.twin(own.log)
+        return twin.run(approached(twin, start), first, np.random.default_rng(setup.seed))
+
+    best = min(side_by_side(setup, tried, starts), key=lambda p: p.objective)
+    return fit, onward(setup, fit, best, iterations - first) if iterations > first else best
 
 
-def jumped(fit: Fit, point: Point, rng: np.random.Generator) -> Point:
+def onward(setup: Setup, fit: Fit, point: Point, iterations: int) -> Point:
+    """The rest of the first stage: on from a start that was chosen until it gains little, then jumps."""
+    rng = np.random.default_rng(setup.seed + 1)
+    return jumped(setup, fit, fit.run(point, iterations, rng, lam=1e-3, relative=LITTLE), rng)
+
+
+def jumped(setup: Setup, fit: Fit, point: Point, rng: np.random.Generator) -> Point:
     """From a fit that has stopped beside its valley, jumps along the ridge of the feet, as long as they help."""
+
+    def tried(own: Setup, z: np.ndarray) -> Point:
+        twin = fit.twin(own.log)
+        return twin.run(placed(twin, z), TRIED, np.random.default_rng(setup.seed), lam=1e-3)
+
     for _ in range(MOST_JUMPS):
         if 2 * point.loss.sum() < ARRIVED * fit.series.count.sum():
             break
-        tried = [fit.run(placed(fit, point.z + move), TRIED, rng, lam=1e-3) for move in along_ridge(fit)]
-        best = min([point, *tried], key=lambda p: p.objective)
+        best = min([point, *side_by_side(setup, tried, point.z + along_ridge(fit))], key=lambda p: p.objective)
         if best is point:
             break
         point = fit.run(best, 2 * TRIED, rng, lam=1e-3, relative=LITTLE)
@@ -127,67 +139,3 @@ def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None =
     z = np.zeros(len(setup.parameters(effects))) if z is None else z
     _, point = early(setup, effects, z, iterations[0])
     return late(setup, effects, point.z, iterations[1])
-
-
-#: Size, in typical sizes, at which a candidate's derivative is taken: large enough for laws that do not show at zero.
-PROBE = 0.2
-#: Gain that a candidate must promise by itself for its step to be tried (decided: a sixth of what is called an effect).
-PROMISING = 60.0
-
-
-@dataclass
-class Trial:
-    """One candidate tried from the baseline: predicted gain of one Gauss-Newton step, the gain found, the point."""
-
-    effects: tuple[str, ...]
-    predicted: float
-    gain: float
-    fit: Fit
-    point: Point
-
-
-def promise(fit: Fit, point: Point, r, Js, Jg, w) -> float:
-    """What one Gauss-Newton step without any candidate promises to gain."""
-    H, g, _ = fit.reduced(r, Js, Jg, w, point.corrections, point.z)
-    H = H + np.diag(1 / fit.prior**2) + 1e-4 * np.diag(np.diag(H))
-    g = g + point.z / fit.prior**2
-    return float(g @ np.linalg.solve(H, g) / 2)
-
-
-def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...] = ()) -> list[Trial]:
-    """Every candidate by one Gauss-Newton step of everything (nuisances, corrections, candidate) from a fit's point."""
-    z, c = point.z, point.corrections
-    r = fit.residual(z, c)
-    Js, Jg, w = fit.state_jacobian(z, c, r), fit.parameter_jacobian(z, c, r), fit.weights(r)
-    promised = promise(fit, point, r, Js, Jg, w)
-    trials = []
-    for kind in kinds:
-        if kind.id in effects:
-            continue
-        wide = setup.fit(fit.series, (*effects, kind.id))
-        G, own = len(z), len(wide.parameters) - len(z)
-        wide.parameters = tuple(
-            replace(p, step=PROBE) if p.name.startswith(kind.id + ".") else p for p in wide.parameters
-        )
-        wide.forget()
-        z0 = np.concatenate([z, np.zeros(own)])
-        Jc = wide.parameter_jacobian(z0, c, r, only=range(G, G + own))
-        H, g, (H_ss, H_sg, g_s, _) = wide.reduced(r, Js, np.concatenate([Jg, Jc], axis=1), w, c, z0)
-        H = H + np.diag(1 / wide.prior**2) + 1e-4 * np.diag(np.diag(H))
-        g = g + z0 / wide.prior**2
-        dz = np.clip(-np.linalg.solve(H, g), -3, 3)
-        absent = Point(z0, c.copy(), point.loss.copy(), point.penalty)
-        best = Trial((*effects, kind.id), float(-(g @ dz) / 2), 0.0, wide, absent)
-        for share in (1.0, 0.4) if best.predicted > promised + PROMISING else ():
-            dc = -np.linalg.solve(H_ss, (g_s + H_sg @ (share * dz))[..., None])[..., 0]
-            dc = np.clip(dc, -4 * wide.state_prior, 4 * wide.state_prior)
-            dc[fit.series.first] = 0
-            trial, _ = wide.point(z0 + share * dz, c + dc)
-            kept, _ = wide.point(z0 + share * dz, c)
-            swap = kept.loss < trial.loss
-            trial.corrections[swap], trial.loss[swap] = kept.corrections[swap], kept.loss[swap]
-            gain = point.objective - trial.objective
-            if gain > best.gain:
-                best = replace(best, gain=gain, point=trial)
-        trials.append(best)
-    return sorted(trials, key=lambda t: -t.gain)

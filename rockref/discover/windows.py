@@ -7,6 +7,7 @@ gyroscope implies, with five small corrections of its own; and the pieces, joine
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -187,6 +188,13 @@ class Series:
         self._rows = np.empty((0, col.STATE))
         self._prepared: tuple | None = None
         self._carried = np.zeros((self.B, 2))
+
+    def twin(self) -> Series:
+        """The same windows for another thread: what is kept from call to call is its own."""
+        other = copy.copy(self)
+        other._rates, other._prepared = dict(self._rates), None
+        other._rows, other._carried = np.empty((0, col.STATE)), self._carried.copy()
+        return other
 
     def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
         """True rates of run i and the smoothed ones; kept for the sensors that were seen last."""

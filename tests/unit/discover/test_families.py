@@ -1,10 +1,13 @@
 """Gains of fitted families, on bowls in place of fits."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from rockref.discover.evidence import CLIP
-from rockref.discover.families import by_sample, gain_between
+from rockref.discover.families import Family, amplitudes, by_sample, gain_between
+from rockref.discover.fit import Parameter, Point
 from tests.unit.discover.bowls import SAMPLES, WINDOWS, Bowl, family, series
 
 
@@ -22,3 +25,20 @@ def test_the_loss_by_sample_sums_to_the_loss():
     one = family((), Bowl(np.array([0.0]), floor=1.3, series=series(5)), [0.2])
     assert by_sample(one).sum() == pytest.approx(one.point.loss.sum())
     assert len(by_sample(one)) == WINDOWS * SAMPLES
+
+
+def test_what_leaks_from_one_number_into_another_is_in_its_interval():
+    """A turned gyroscope, so sure of itself that only the systematic parts of the intervals are left."""
+    turn = Parameter("gyro_misalignment.x", None, 0.0, 0.03, unit="rad")
+    skew = Parameter("gyro_misalignment.xy", None, 0.0, 0.005, unit="rad")
+    other = Parameter("gyro_scale.x", None, 1.0, 0.02, unit="-")
+    parameters, z = (Parameter("K_N", None, 1.0, 0.15, log=True), turn, skew, other), np.array([0.4, 1.5, 0.1, 2.0])
+    fit = SimpleNamespace(
+        parameters=parameters, prior=np.ones(4), normal_equations=lambda point: (1e12 * np.eye(4), None, None)
+    )
+    found = amplitudes(Family(("gyro_misalignment",), fit, Point(z, None, np.ones(1))))
+    half = {name: (row["high"] - row["low"]) / 2 for name, row in found.items()}
+    assert half["gyro_misalignment.x"] == pytest.approx(np.hypot(0.15 * 0.045, 0.03 * 0.045), rel=1e-4)
+    # Three per cent of 45 mrad: no skew is claimed where the interval holds none.
+    assert half["gyro_misalignment.xy"] == pytest.approx(np.hypot(0.15 * 0.0005, 0.03 * 0.045), rel=1e-4)
+    assert half["gyro_scale.x"] == pytest.approx(np.hypot(0.15 * 0.04, 0.03 * 0.04), rel=1e-4)

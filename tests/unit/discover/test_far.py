@@ -1,17 +1,21 @@
 """Where candidates begin when the baseline is far from the runs."""
 
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from rockref import Model
 from rockref.discover import far, search
-from rockref.discover.families import Family
+from rockref.discover.families import Family, same_windows
 from rockref.discover.far import first_looks, in_the_valley_of, kin
 from rockref.discover.fit import Parameter, Point
-from rockref.discover.search import SHORT, Setup, Trial, nominal, windows
+from rockref.discover.screen import Trial
+from rockref.discover.search import SHORT, Setup, nominal, windows
 from rockref.effects import catalogue
 from rockref.effects.catalogue import parse
+from tests.unit.discover.bowls import ALONE
 from tests.unit.discover.synthetic import experiment
 
 
@@ -53,48 +57,81 @@ def test_kin_are_those_that_are_easily_taken_for_an_effect():
     assert "clock_error" in kin("gyro_scale") and "rolling_resistance" in kin("cable_restraint")
 
 
-def test_who_comes_nearest_on_the_short_windows_is_fitted_in_full(monkeypatch):
-    """Four sets of effects with known losses; one alone is ahead, and one that is like it goes along."""
-    losses = {"adhesion": 0.98, "spin_friction": 0.99, "clock_error": 1.02, "gyro_scale": 2.2, "plate_tilt": 2.4}
-    in_full = []
+@dataclass
+class Stages:
+    """The stages of a fit, each ending at a loss that is known beforehand; what was asked of which."""
 
-    def early(setup, effects, z, iterations):
+    losses: dict[str, float]
+    asked: list[tuple] = field(default_factory=list)
+
+    def fitted(self, effects, z):
         count = np.full(3, 100.0)
-        fit = SimpleNamespace(series=SimpleNamespace(count=count))
-        return fit, Point(z, None, losses[effects[-1]] * count / 2)
+        return SimpleNamespace(series=SimpleNamespace(count=count)), Point(
+            z, None, self.losses[effects[-1]] * count / 2
+        )
 
-    def baseline(setup, effects, z, iterations):
-        in_full.append((effects, tuple(z), iterations))
-        return early(setup, effects, z, 0)
+    def early(self, setup, effects, z, iterations):
+        return self.fitted(effects, z)
 
-    monkeypatch.setattr(far, "early", early)
-    monkeypatch.setattr(far, "baseline", baseline)
+    def baseline(self, setup, effects, z, iterations):
+        self.asked.append(("begun once more", effects, tuple(z), iterations))
+        return self.fitted(effects, z)
+
+    def onward(self, setup, fit, point, iterations):
+        self.asked.append(("on", iterations))
+        return replace(point, z=point.z + 1)
+
+    def late(self, setup, effects, z, iterations):
+        self.asked.append(("late", effects, tuple(z), iterations))
+        return self.fitted(effects, z)
+
+
+@pytest.fixture
+def stages(monkeypatch):
+    def put(losses):
+        stages = Stages(losses)
+        for stage in ("early", "baseline", "onward", "late"):
+            monkeypatch.setattr(far, stage, getattr(stages, stage))
+        return stages
+
+    return put
+
+
+def test_who_comes_nearest_on_the_short_windows_is_fitted_in_full(stages):
+    """Five sets of effects with known losses; one is ahead, one is like it, and both are near their valleys."""
+    asked = stages(
+        {"adhesion": 0.98, "spin_friction": 0.99, "clock_error": 1.02, "gyro_scale": 2.2, "plate_tilt": 2.4}
+    ).asked
     parameters = (Parameter("K_N", None, 1.0, 0.1), Parameter("gyro_drift.bias_x", None, 0.0, 1.0))
     kept = Family(
         ("gyro_drift",), SimpleNamespace(parameters=parameters), Point(np.array([0.7, 0.3]), None, np.ones(3))
     )
-    begun = {("gyro_drift", id): np.array([0.5]) for id in losses}
-    found = far.fitted_anew(None, begun, kept, lambda line: None)
+    ids = ("adhesion", "spin_friction", "clock_error", "gyro_scale", "plate_tilt")
+    found = far.fitted_anew(ALONE, {("gyro_drift", id): np.array([0.5]) for id in ids}, kept, lambda line: None)
     assert [f.effects[-1] for f in found] == ["adhesion", "spin_friction"]
-    # The baseline begins at its nominal parameters, the effects where they are.
-    assert in_full[0][1] == (0.0, 0.3, 0.5)
-    assert in_full[0][2] == (search.FRESH[0] - far.LOOKS, search.FRESH[1])
+    # The baseline began at its nominal parameters, the effects where they were; from there it goes on.
+    first = (
+        ("on", search.FRESH[0] - far.LOOKS),
+        ("late", ("gyro_drift", "adhesion"), (1.0, 1.3, 1.5), search.FRESH[1]),
+    )
+    assert tuple(asked[:2]) == first and len(asked) == 4
 
 
-def test_the_winner_is_fitted_in_full_wherever_it_stands(monkeypatch):
-    losses = {"adhesion": 1.0, "spin_friction": 1.5, "clock_error": 1.6}
-
-    def fitted(setup, effects, z, iterations):
-        count = np.full(3, 100.0)
-        return SimpleNamespace(series=SimpleNamespace(count=count)), Point(z, None, losses[effects[-1]] * count / 2)
-
-    monkeypatch.setattr(far, "early", fitted)
-    monkeypatch.setattr(far, "baseline", fitted)
+def test_who_is_far_from_any_valley_is_begun_once_more(stages):
+    asked = stages({"adhesion": 1.4, "spin_friction": 1.9}).asked
     kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
-    begun = {(id,): np.zeros(1) for id in losses}
-    found = far.fitted_anew(None, begun, kept, lambda line: None, sure=("clock_error",))
+    begun = {("adhesion",): np.array([0.5]), ("spin_friction",): np.array([0.5])}
+    far.fitted_anew(ALONE, begun, kept, lambda line: None)
+    assert asked == [("begun once more", ("adhesion",), (0.5,), (search.FRESH[0] - far.LOOKS, search.FRESH[1]))]
+
+
+def test_the_winner_is_fitted_in_full_wherever_it_stands(stages):
+    stages({"adhesion": 1.0, "spin_friction": 1.5, "clock_error": 1.6})
+    kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
+    begun = {(id,): np.zeros(1) for id in ("adhesion", "spin_friction", "clock_error")}
+    found = far.fitted_anew(ALONE, begun, kept, lambda line: None, sure=("clock_error",))
     assert [f.effects for f in found] == [("adhesion",), ("clock_error",)]
-    again = far.fitted_anew(None, begun, kept, lambda line: None, sure=("adhesion",))
+    again = far.fitted_anew(ALONE, begun, kept, lambda line: None, sure=("adhesion",))
     assert [f.effects for f in again] == [("adhesion",)]
 
 
@@ -102,8 +139,8 @@ def test_rivals_begun_where_the_winner_ended_are_compared_in_its_valley():
     setup, kept = far_from("quadratic_drag:c=0.8")
     wide = setup.fit(kept.fit.series, ("cable_restraint",))
     winner = Family(("cable_restraint",), wide, wide.run(wide.begin(), 3, np.random.default_rng(0)))
-    found = {f.effects: f for f in in_the_valley_of(setup, winner, [("quadratic_drag",), ("gyro_scale",)])}
+    found = {f.effects: f for f in in_the_valley_of(setup, winner, [("quadratic_drag",), ("gyro_scale",)], kept)}
     assert set(found) == {("quadratic_drag",), ("gyro_scale",)}
-    assert all(f.fit.series is winner.fit.series for f in found.values())
+    assert all(same_windows(f, winner) for f in found.values())
     truth, scale = found[("quadratic_drag",)], found[("gyro_scale",)]
     assert truth.point.objective < min(winner.point.objective, scale.point.objective)

@@ -6,14 +6,14 @@ import pytest
 from rockref.discover import looking
 from rockref.discover.families import gain_over
 from rockref.discover.looking import Look, challenge, race, ranked, there
-from tests.unit.discover.bowls import Bowl, family, series
+from tests.unit.discover.bowls import ALONE, Bowl, family, series
 
 
 def test_who_falls_far_behind_the_leader_stays_where_it_is():
     start = family((), Bowl(np.array([0.0]), floor=1.2), [0.0])
     good = Bowl(np.array([0.0, 0.2]), floor=1.0)
     bad = Bowl(np.array([0.0, 0.2]), floor=1.19)
-    found = race([family(("a",), good, [0.0, 0.0]), family(("b",), bad, [0.0, 0.0])], start, seed=0)
+    found = race(ALONE, [family(("a",), good, [0.0, 0.0]), family(("b",), bad, [0.0, 0.0])], start, seed=0)
     assert good.iterations == looking.ITERATIONS and bad.iterations == 1
     assert gain_over(start, found[0]) > gain_over(start, found[1])
 
@@ -21,7 +21,7 @@ def test_who_falls_far_behind_the_leader_stays_where_it_is():
 def test_a_race_that_nobody_leads_ends_early():
     start = family((), Bowl(np.array([0.0])), [0.0])
     bowls = [Bowl(np.array([0.0, 0.001])) for _ in range(3)]
-    race([family(("a",), b, [0.0, 0.0]) for b in bowls], start, seed=0)
+    race(ALONE, [family(("a",), b, [0.0, 0.0]) for b in bowls], start, seed=0)
     assert all(b.iterations == 2 for b in bowls)
 
 

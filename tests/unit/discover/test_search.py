@@ -10,6 +10,7 @@ from rockref import Model
 from rockref.discover.approach import JUMPS, along_ridge
 from rockref.discover.fit import Parameter, Point, baseline_parameters
 from rockref.discover.search import jumped
+from tests.unit.discover.bowls import ALONE
 
 WINDOWS = 20
 PARAMETERS = baseline_parameters(Model.table_3_1(), 0, 0.0014)
@@ -31,6 +32,9 @@ class TwoValleys:
         s = float(np.mean(np.asarray(z)[RIDGE])) if RIDGE else 0.0
         mean = min(0.95 + (s - self.deep) ** 2, 1.10 + s**2)
         return Point(np.array(z, float), corrections, 0.5 * mean * self.series.count, 0.0), None
+
+    def twin(self, log):
+        return self
 
     def run(self, point, iterations, rng, lam=0.0, relative=0.0):
         self.asked += 1
@@ -56,7 +60,7 @@ def test_four_points_have_no_ridge():
 def test_a_fit_that_stopped_beside_its_valley_jumps_into_it(deep):
     fit = TwoValleys(deep)
     start, _ = fit.point(np.zeros(len(NAMES)), np.zeros((WINDOWS, 5)))
-    end = jumped(fit, start, np.random.default_rng(0))
+    end = jumped(ALONE, fit, start, np.random.default_rng(0))
     assert np.mean(end.z[RIDGE]) == pytest.approx(deep)
     assert end.objective < start.objective
 
@@ -64,12 +68,12 @@ def test_a_fit_that_stopped_beside_its_valley_jumps_into_it(deep):
 def test_a_fit_that_has_arrived_stays():
     fit = TwoValleys(0.0)
     start, _ = fit.point(np.zeros(len(NAMES)), np.zeros((WINDOWS, 5)))
-    assert jumped(fit, start, np.random.default_rng(0)) is start
+    assert jumped(ALONE, fit, start, np.random.default_rng(0)) is start
     assert fit.asked == 0
 
 
 def test_jumps_that_do_not_help_are_not_kept():
     fit = TwoValleys(5.0)
     start, _ = fit.point(np.zeros(len(NAMES)), np.zeros((WINDOWS, 5)))
-    assert jumped(fit, start, np.random.default_rng(0)) is start
+    assert jumped(ALONE, fit, start, np.random.default_rng(0)) is start
     assert fit.asked == len(JUMPS)
