@@ -128,6 +128,8 @@ def first_looks(setup: Setup, trials: Iterable[Trial], kept: Family) -> list[Fam
     def look(own: Setup, trial: Trial) -> Family:
         fit = own.fit(short.twin(), trial.effects)
         z = np.concatenate([start, np.zeros(len(fit.parameters) - len(start))])
-        return Family(trial.effects, fit, approached_beside(fit, z, len(start)))
+        point = approached_beside(fit, z, len(start))
+        fit.series = short  # what the twin has kept is not needed any more
+        return Family(trial.effects, fit, point)
 
     return side_by_side(setup, look, trials)

@@ -34,7 +34,7 @@ def undo_low_pass(crv: np.ndarray, rate: float, bandwidths: tuple[float, ...]) -
     return np.fft.irfft(np.fft.rfft(whole, axis=0) * G[:, None], len(whole), axis=0)[pad : pad + n]
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def attitudes(Lambda_0, W, dt):
     """Rotation at every sample, (N, 3, 3), by integrating the rates W (N, 3) [rad/s] from Lambda_0 at the first one.
 
@@ -77,7 +77,7 @@ def roughness(crv: np.ndarray) -> np.ndarray:
     return np.sqrt(uniform_filter1d(rest, 2 * HALF_WIDTH + 1, mode="nearest"))
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def yaw_since_touch(Lambda, W, P, starts, dt, most):
     """Turn about the vertical on the carrying point since it touched, (w,) [rad], at the samples `starts` (w,).
 
@@ -102,7 +102,7 @@ def yaw_since_touch(Lambda, W, P, starts, dt, most):
     return out
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def plate_motion(Lambda, W, P, dt, mass, plate_mass, stiffness, damping):
     """Sinking q [m] and its rate [m/s] of a plate on a spring under the block, (N, 2), at every sample of a record.
 
@@ -133,7 +133,7 @@ def plate_motion(Lambda, W, P, dt, mass, plate_mass, stiffness, damping):
     return out
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _solve3(A, b):
     d = (
         A[0, 0] * (A[1, 1] * A[2, 2] - A[1, 2] * A[2, 1])
@@ -152,12 +152,12 @@ def _solve3(A, b):
     return out
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def _skew(r):
     return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
 
 
-@numba.njit(cache=True)
+@numba.njit(cache=True, nogil=True)
 def corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, loads):
     """Start states of B windows on the corner that carries the block, quasi-statically.
 

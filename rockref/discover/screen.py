@@ -44,7 +44,9 @@ def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...]
 
     def tried(own: Setup, id: str) -> Trial:
         wide = own.fit(fit.series.twin(), (*effects, id))
-        return stepped(wide, point, (*effects, id), (r, Js, Jg, w), promised + PROMISING)
+        trial = stepped(wide, point, (*effects, id), (r, Js, Jg, w), promised + PROMISING)
+        wide.series = fit.series  # what the twin has kept is not needed any more
+        return trial
 
     trials = side_by_side(setup, tried, [kind.id for kind in kinds if kind.id not in effects])
     return sorted(trials, key=lambda t: -t.gain)
