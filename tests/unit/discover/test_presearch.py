@@ -1,7 +1,7 @@
 """What the releases tell before anything is cut into windows."""
 
 from rockref import Model
-from rockref.discover.presearch import release_fit, suspects
+from rockref.discover.presearch import STRONG, release_fit, suspects
 from rockref.discover.search import Setup
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
@@ -35,3 +35,11 @@ def test_a_block_that_is_thrown_back_first_has_its_release_to_itself():
     fit, point = release_fit(setup, ("release_velocity",))
     assert min(fit.series.length) > 0.3 * fit.series.rate  # a fall from rest takes 0.51 s, so thrown on 0.43 s
     assert 2 * point.loss.sum() / fit.series.count.sum() < 1.1
+
+
+def test_a_release_that_is_a_little_off_is_left_to_the_windows():
+    """Feet that settle look like a small velocity of release, and like a tilted plate; neither is there."""
+    setup = setup_of("release_velocity:y=-0.01")
+    _, sets, seen = suspects(setup)
+    assert seen["loss"] > STRONG
+    assert sets == [()]
