@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -43,8 +43,12 @@ AHEAD, ALIKE = 0.4, 1.02
 NEAR = 1.1
 
 
-def from_far(setup: Setup, trials: list[Trial], kept: Family, say: Callable[[str], None]) -> list[Family]:
+def from_far(
+    setup: Setup, trials: list[Trial], kept: Family, say: Callable[[str], None], leaders: Sequence[Family] = ()
+) -> list[Family]:
     """The candidates of a screen (best first) and of a first look fitted anew; those that come nearest, in full.
+
+    leaders : who led so far; the first of them is fitted in full wherever it stands.
 
     Where most windows are out of step, a small step along an effect changes little, and the parameters of the family
     `kept` have bent so far that an effect added to them cannot unbend them.
@@ -52,8 +56,12 @@ def from_far(setup: Setup, trials: list[Trial], kept: Family, say: Callable[[str
     n = len(kept.point.z)
     looks = sorted(first_looks(setup, trials, kept), key=lambda f: f.point.objective)
     begun = {f.effects: f.point.z[n:] for f in looks}
-    chosen = dict.fromkeys([*(t.effects for t in trials[:LOOKED_AT]), *(f.effects for f in looks[:LOOKED_AT])])
-    return fitted_anew(setup, {effects: begun[effects] for effects in chosen}, kept, say)
+    begun |= {f.effects: f.point.z[n:] for f in leaders}
+    chosen = dict.fromkeys(
+        [*(t.effects for t in trials[:LOOKED_AT]), *(f.effects for f in (*looks[:LOOKED_AT], *leaders[:1]))]
+    )
+    sure = leaders[0].effects if leaders else ()
+    return fitted_anew(setup, {effects: begun[effects] for effects in chosen}, kept, say, sure)
 
 
 def fitted_anew(

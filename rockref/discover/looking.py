@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from rockref.discover import verdict as rules
 from rockref.discover.candidates import kinds
 from rockref.discover.families import (
     Family,
     gain_between,
     gain_over,
+    mean_loss,
     refit,
     refit_all,
     same_windows,
@@ -73,17 +76,23 @@ def look_further(setup: Setup, start: Family, seed: int, say) -> Look:
     best = min(structured(f) for f in (kept, *refitted))
     nowhere = best > NOWHERE * structured(kept) or not there(look, bool(start.effects))
     if nowhere and structured(kept) > FEW_STRUCTURED:
-        look = ranked(kept, [*refitted, *from_far(setup, trials, kept, say)], say, in_full=True)
+        look = ranked(kept, [*refitted, *from_far(setup, trials, kept, say, look.order)], say, in_full=True)
     return look
 
 
 def ranked(kept: Family, families: list[Family], say, in_full: bool = False) -> Look:
-    """Families by their gain over the one that was kept, the better one of each name."""
-    order: list[Family] = []
-    for f in sorted(families, key=lambda f: -gain_between(kept, f)):
-        if f.effects not in [better.effects for better in order]:
-            order.append(f)
-    gains = {f.effects[-1]: gain_between(kept, f) for f in order}
+    """Names by the most that one of their families gains over the one that was kept; of each the family that fits best.
+
+    A gain hears little of the windows that are out of step; of two fits of one family the one that has fewer of them
+    goes on, though the other may gain more.
+    """
+    gains: dict[str, float] = {}
+    best: dict[str, Family] = {}
+    for f in families:
+        id = f.effects[-1]
+        gains[id] = max(gains.get(id, -np.inf), gain_between(kept, f))
+        best[id] = min(best.get(id, f), f, key=mean_loss)
+    order = sorted(best.values(), key=lambda f: -gains[f.effects[-1]])
     for f in order:
         say(f"  {f.effects[-1]}: gain {gains[f.effects[-1]]:.0f}, size {size_of(f):.2f}")
     return Look(kept, order, gains, in_full)

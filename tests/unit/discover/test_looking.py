@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rockref.discover import looking
-from rockref.discover.families import gain_over
+from rockref.discover.families import gain_over, mean_loss
 from rockref.discover.looking import Look, challenge, race, ranked, there
 from tests.unit.discover.bowls import ALONE, Bowl, family, series
 
@@ -71,3 +71,17 @@ def test_a_gain_without_a_size_is_no_effect(size, found):
     wider = family(("rolling_resistance",), Bowl(np.array([0.0, size])), [0.0, size])
     assert there(ranked(kept, [wider], lambda line: None), second=False) is found
     assert not there(Look(kept, [], {}), second=False)
+
+
+def test_of_two_fits_of_one_name_the_one_with_fewer_windows_out_of_step_goes_on():
+    """A gain is clipped window by window: it hears that half of the windows are nearer, not that they have arrived."""
+    kept = family((), Bowl(np.array([0.0]), floor=1.1), [0.0])
+    nearer = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.0), [0.0, 1.0])
+    kept.point.loss[::2] *= 4.0
+    nearer.point.loss[::2] *= 3.0
+    arrived = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.02), [0.0, 1.0])
+    assert gain_over(kept, nearer) > gain_over(kept, arrived) and mean_loss(nearer) > mean_loss(arrived)
+    for families in ([nearer, arrived], [arrived, nearer]):
+        look = ranked(kept, families, lambda line: None)
+        assert look.order == [arrived]
+        assert look.gains["rolling_resistance"] == gain_over(kept, nearer)
