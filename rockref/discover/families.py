@@ -10,7 +10,7 @@ import numpy as np
 
 from rockref.discover import verdict as rules
 from rockref.discover.beside import side_by_side
-from rockref.discover.candidates import SHAPES, value_of
+from rockref.discover.candidates import SELDOM, SHAPES, value_of
 from rockref.discover.evidence import clipped_gain
 from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.search import Setup, baseline, nominal
@@ -139,14 +139,14 @@ def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
 
 
 def largest_beside(fit: Fit, point: Point, parameter: Parameter) -> float:
-    """The largest number of the same effect and unit, as a z of `parameter`; 0 for factors."""
-    if parameter.log or parameter.run is not None:
+    """For what is typically none the largest number of the same effect and unit, as a z of `parameter`; else 0."""
+    effect, key = parameter.name.split(".")
+    if (effect, key) not in SELDOM:
         return 0.0
-    effect = parameter.name.split(".")[0] + "."
     return max(
         abs(z) * p.spread / parameter.spread
         for p, z in zip(fit.parameters, point.z, strict=True)
-        if p.name.startswith(effect) and p.unit == parameter.unit and not p.log and p.run is None
+        if p.name.startswith(effect + ".") and p.unit == parameter.unit
     )
 
 

@@ -52,8 +52,8 @@ INTERVAL = 2.0
 #: law that windows cannot see (common foot height, step inside the windows) shift it, and fits end short of the best
 #: place; decided: with 0.10 intervals held 27 of 40 numbers of the blind test, with twice that 30.
 SYSTEMATIC = 0.15
-#: The same for what another number of the effect leaks into it, as part of the largest of them (decided: a gyroscope
-#: turned by 45 mrad, with axes that are square, was found 0.8 mrad off square).
+#: The same for what the other numbers of an effect leak into one that is typically none, as part of the largest of
+#: them (decided: a gyroscope turned by 45 mrad, with axes that are square, was found 0.8 mrad off square).
 LEAKS = 0.03
 #: Mean loss of a window that is loud, and how many loud windows among the fitted and the held-out runs say that
 #: something happens now and then which nothing in the catalogue does (on a control that had come down to the noise the
