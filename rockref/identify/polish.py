@@ -34,8 +34,9 @@ SHIFTS, PLACES, SHORT, MOVES = (-0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4), 4
 #: How far beyond the first main impact the first descents look [s]. Decided: the impact itself, a tooth of the saw,
 #: two, four, eight; each window is then some standard errors from the end of the one before, not some hundred.
 WINDOWS = (0.0, 0.06, 0.15, 0.35, 0.6)
-#: Within a window: long moves while the mean square is above this and each gains, at most so many. Decided: 1 is the
-#: noise; in the first windows moves are cheap, in the later ones a place is taken over that fits already.
+#: Long moves while the mean square is above this and each gains; within a window at most so many. Decided: 1 is the
+#: noise, and a twin that was left at 1.08 ended at 1.02 so; in the first windows moves are cheap, in the later ones a
+#: place is taken over that fits already.
 NEARLY, WINDOW_MOVES, CHEAP_WINDOW = 1.05, 3, 0.1
 #: A fit is at the noise floor below this mean square of the residual over the noise. Decided: 1 is the floor of white
 #: noise; the step of 1e-5 s adds some hundredths to it, a wrong order of landings some units.
@@ -183,7 +184,7 @@ def polish(
         at = descent.descend(at, change)
     for _ in range(effort.moves):
         before = at.chi2
-        if before < FLOOR:
+        if before < NEARLY:
             break
         at = descent.descend(descent.long_moves(at), CHANGES[2])
         if at.chi2 > (1 - LEAST_ROUND_GAIN) * before:

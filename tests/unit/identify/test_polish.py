@@ -7,7 +7,7 @@ import pytest
 
 from rockref.identify.genes import chromosome, model_of, space_12
 from rockref.identify.identifiability import identifiability, profile
-from rockref.identify.polish import Effort, narrowed, polish, with_genes
+from rockref.identify.polish import NEARLY, Effort, narrowed, polish, with_genes
 from rockref.identify.runs import run_error
 from rockref.identify.target import target
 from rockref.identify.unknowns import Unknowns, residuals, signal_costs
@@ -51,7 +51,8 @@ def test_from_half_a_digit_off_the_long_moves_lead_back(space, truth, noisy_twin
         space, [noisy_twin], space.units(space.values(truth) + 0.5 * PRECISION * signs), effort=Effort(windows=())
     )
     off = np.abs(space.values(far.u) - space.values(truth)) / PRECISION
-    assert far.chi2 < 1.03 and np.delete(off, 4).max() < 1.0
+    # Moves end below this; a dent beside the place where they end is at 1.08.
+    assert far.chi2 < NEARLY and np.delete(off, 4).max() < 1.0
     assert not identifiability(space, [noisy_twin], far).determined()["mu_int"]
 
 
