@@ -60,6 +60,6 @@ def test_sixty_cases_are_no_worse_than_the_documentation_says(tmp_path):
     print("\n".join(found["failures"]))
     # The worse ends of the intervals that the documentation states (docs/explanation/blind_test.md).
     assert rows["controls: false alarms"] == 0
-    assert rows["gap closed on held-out runs, median"] > 0.93
-    assert rows["all: wrong name"] < 0.15
-    assert rows["single: truth first"] > 0.50
+    assert rows["gap closed on held-out runs, median"] > 0.92
+    assert rows["all: wrong name"] < 0.12
+    assert rows["single: truth first"] > 0.55
