@@ -10,9 +10,10 @@ import numpy as np
 
 from rockref.discover import verdict as rules
 from rockref.discover.beside import side_by_side
-from rockref.discover.candidates import SELDOM, SHAPES, value_of
+from rockref.discover.candidates import SHAPES, value_of
 from rockref.discover.evidence import clipped_gain
-from rockref.discover.fit import Fit, Parameter, Point
+from rockref.discover.fit import Fit, Point
+from rockref.discover.intervals import NINETY, half_widths
 from rockref.discover.search import Setup, baseline, nominal
 
 
@@ -121,33 +122,16 @@ def amplitudes(family: Family) -> dict[str, dict[str, Any]]:
     fit, point = family.fit, family.point
     H, _, _ = fit.normal_equations(point)
     covariance = np.linalg.inv(H + np.diag(1 / fit.prior**2))
-    found = {}
+    half, found = half_widths(fit, point, covariance), {}
     for i, p in enumerate(fit.parameters):
         if "." not in p.name:
             continue
-        half = 1.645 * rules.INTERVAL * float(np.sqrt(max(covariance[i, i], 0.0)))
-        part = 1 / p.spread if p.log else point.z[i]
-        if p.name == "base_vibration.frequency":
-            part = 0.0  # counted over seconds: no parameter of the law shifts it
-        half = float(np.linalg.norm([half, rules.SYSTEMATIC * part, rules.LEAKS * largest_beside(fit, point, p)]))
-        ends = sorted((value_of(p, point.z[i] - half), value_of(p, point.z[i] + half)))
+        ends = sorted((value_of(p, point.z[i] - half[i]), value_of(p, point.z[i] + half[i])))
         found[p.name] = {
             "value": value_of(p, point.z[i]), "low": ends[0], "high": ends[1], "unit": p.unit,
             "in_typical_sizes": float(point.z[i]),
         }  # fmt: skip
     return found | vibration_amplitude(found)
-
-
-def largest_beside(fit: Fit, point: Point, parameter: Parameter) -> float:
-    """For what is typically none the largest number of the same effect and unit, as a z of `parameter`; else 0."""
-    effect, key = parameter.name.split(".")
-    if (effect, key) not in SELDOM:
-        return 0.0
-    return max(
-        abs(z) * p.spread / parameter.spread
-        for p, z in zip(fit.parameters, point.z, strict=True)
-        if p.name.startswith(effect + ".") and p.unit == parameter.unit
-    )
 
 
 def vibration_amplitude(found: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
@@ -158,6 +142,6 @@ def vibration_amplitude(found: dict[str, dict[str, Any]]) -> dict[str, dict[str,
     sizes = np.hypot(*np.array(parts))
     value, half = (
         float(sizes.mean()),
-        float(1.645 * sizes.std() / np.sqrt(len(sizes)) + rules.SYSTEMATIC * sizes.mean()),
+        float(NINETY * sizes.std() / np.sqrt(len(sizes)) + rules.SYSTEMATIC * sizes.mean()),
     )
     return {"base_vibration.amplitude": {"value": value, "low": value - half, "high": value + half, "unit": "m/s2"}}

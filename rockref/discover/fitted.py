@@ -8,15 +8,13 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover import verdict as rules
 from rockref.discover.candidates import value_of
 from rockref.discover.fit import Fit, Parameter, Point
+from rockref.discover.intervals import half_widths
 from rockref.discover.provenance import versions
 from rockref.effects.base import Effect
 from rockref.measure.experiment import Experiment
 
-#: Half width of a 90 % interval in standard deviations of a normal law.
-NINETY = 1.645
 #: What is a note about one release, not a property of the block.
 OF_ONE_RELEASE = "tilt_offset"
 
@@ -47,11 +45,8 @@ UNITS = {"K_N": "N/m", "K_T": "N/m", "delta_diag": "m", **{f"delta_long_{k}": "m
 
 def estimates(fit: Fit, point: Point, covariance: np.ndarray) -> list[Estimate]:
     """All parameters of a fit with 90 % intervals; covariance (G, G) of z, widened as calibrated."""
-    half = NINETY * rules.INTERVAL * np.sqrt(np.maximum(np.diag(covariance), 0.0))
-    found = []
+    half, found = half_widths(fit, point, covariance), []
     for k, p in enumerate(fit.parameters):
-        if "." in p.name:
-            half[k] = np.hypot(half[k], rules.SYSTEMATIC * point.z[k])
         ends = sorted((value_of(p, point.z[k] - half[k]), value_of(p, point.z[k] + half[k])))
         found.append(
             Estimate(

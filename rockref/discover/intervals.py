@@ -1,0 +1,38 @@
+"""How sure a fit is of its numbers: 90 % intervals, statistical and systematic."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rockref.discover import verdict as rules
+from rockref.discover.candidates import SELDOM
+from rockref.discover.fit import Fit, Parameter, Point
+
+#: Half width of a 90 % interval in standard deviations of a normal law.
+NINETY = 1.645
+
+
+def half_widths(fit: Fit, point: Point, covariance: np.ndarray) -> np.ndarray:
+    """Half widths of the 90 % intervals of all parameters, (G,), in z; covariance (G, G) of z.
+
+    The numbers of effects have systematic parts beside the statistical one, which is widened as calibrated (`verdict`).
+    """
+    half = NINETY * rules.INTERVAL * np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    for k, p in enumerate(fit.parameters):
+        # A vibration's frequency is counted over seconds: no parameter of the law shifts it.
+        if "." in p.name and p.name != "base_vibration.frequency":
+            part = 1 / p.spread if p.log else point.z[k]
+            half[k] = np.linalg.norm([half[k], rules.SYSTEMATIC * part, rules.LEAKS * largest_beside(fit, point, p)])
+    return half
+
+
+def largest_beside(fit: Fit, point: Point, parameter: Parameter) -> float:
+    """For what is typically none the largest number of the same effect and unit, as a z of `parameter`; else 0."""
+    effect, key = parameter.name.split(".")
+    if (effect, key) not in SELDOM:
+        return 0.0
+    return max(
+        abs(z) * p.spread / parameter.spread
+        for p, z in zip(fit.parameters, point.z, strict=True)
+        if p.name.startswith(effect + ".") and p.unit == parameter.unit
+    )
