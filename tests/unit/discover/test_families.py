@@ -8,6 +8,7 @@ import pytest
 from rockref.discover.evidence import CLIP
 from rockref.discover.families import Family, amplitudes, by_sample, gain_between
 from rockref.discover.fit import Parameter, Point
+from rockref.discover.fitted import estimates
 from tests.unit.discover.bowls import SAMPLES, WINDOWS, Bowl, family, series
 
 
@@ -42,3 +43,8 @@ def test_what_leaks_into_a_number_that_is_typically_none_is_in_its_interval():
     # Three per cent of 45 mrad: no skew is claimed where the interval holds none.
     assert half["gyro_misalignment.xy"] == pytest.approx(np.hypot(0.15 * 0.0005, 0.03 * 0.045), rel=1e-4)
     assert half["gyro_scale.x"] == pytest.approx(0.15 * 0.04, rel=1e-4)
+    # `rockref add` reads the same rule.
+    again = estimates(fit, Point(z, None, np.ones(1)), np.linalg.inv(1e12 * np.eye(4) + np.eye(4)))
+    assert {e.name: (e.low, e.high) for e in again if e.of_effect} == {
+        name: (row["low"], row["high"]) for name, row in found.items()
+    }
