@@ -11,15 +11,16 @@ from rockref.effects.base import Effect, Quantity
 class RoundedFeet(Effect):
     """Every contact point becomes a sphere of this radius, centred above the point on the body axis.
 
-    It replaces the radius that the model may give. The contact is at the sphere's lowest point; the tangential spring
-    follows the material velocity there, as in discrete-element codes, so that a foot can roll without friction.
+    It replaces the radius that the model may give. The contact is at the sphere's lowest point: below the point while
+    the block stands upright, rho sin(tilt) further out while it leans. The tangential spring follows the material
+    velocity there, as in discrete-element codes, so that a foot can roll without friction.
     """
 
     id = "rounded_feet"
     question = "shape"
     quantities = {"radius": Quantity("m", 0.0, 2e-4, 1e-2, 2e-3, "+", "radius of every foot", 0.0)}
     sentence = (
-        "An edge is round: the contact wanders inward as the block rises, which shortens the lever of its weight."
+        "A round foot rolls: its contact moves outward as the block leans, the weight's lever grows, arcs are shorter."
     )
     equation = r"r = \Lambda(P + \rho\,e_Z) - \rho\,e_z"
     source = (
@@ -27,7 +28,7 @@ class RoundedFeet(Effect):
     )
     confounder = "gyro_scale"
     experiment = (
-        "Releases of different tilt: the wandering shows in the arc time as the tilt grows, a scale error does not."
+        "Releases of different tilt: the rolling shows in the arc time as the tilt grows, a scale error does not."
     )
 
     radius: float = 0.0

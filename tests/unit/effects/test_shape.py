@@ -14,6 +14,7 @@ from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.shape.rounded_feet import RoundedFeet
 from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
 from rockref.engines import run
+from rockref.model.contact import point_kinematics
 from rockref.model.release import tipping_angle
 from tests.unit.effects.bodies import H, last, puck
 
@@ -133,3 +134,22 @@ def test_rounded_feet_give_every_point_the_radius():
     assert np.array_equal(points.radius, np.full(8, 2e-3))
     _, same = Model.table_3_1().replace(foot_radius=2e-3).body()
     assert np.array_equal(same.radius, points.radius)
+
+
+@pytest.mark.parametrize("radius", [2e-3, 1e-2])
+def test_a_round_foot_rolls_outward_and_shortens_the_arc(radius):
+    """The lever of the weight at release grows by rho sin(tilt), and the block comes back the sooner."""
+    sharp, tilt = Model.table_3_1(), Model.table_3_1().parameters.theta_0
+    round_ = sharp.replace(effects=(RoundedFeet(radius),))
+    levers, impacts = [], []
+    for model in (sharp, round_):
+        problem = model.problem(duration=0.52)
+        start, points = problem.start, problem.points
+        k = point_kinematics(start.x, start.Lambda, start.v, start.W, points.P, points.radius)
+        levers.append(k.r[np.argmax(k.xi), 1])
+        impacts.append(run(problem, engine="auto").main_impacts()[0])
+    # At release the points stand where the sharp ones do, but for rounding.
+    assert levers[1] - levers[0] == pytest.approx(radius * np.sin(tilt), rel=1e-6)
+    assert "lever grows" in RoundedFeet.sentence and "arcs are shorter" in RoundedFeet.sentence
+    # Two millimetres bring the impact 3.9 ms earlier, ten 18.5 ms.
+    assert impacts[0] - impacts[1] == pytest.approx({2e-3: 3.9e-3, 1e-2: 18.5e-3}[radius], rel=0.02)
