@@ -16,8 +16,19 @@ _options: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
 
 #: A function whose text is put in place of its call.
 inlined = numba.njit(inline="always", error_model="numpy")
-#: A function that compiled code calls.
+#: A function that compiled code calls. Where each variant has its own, it is `marked` by the variant first.
 called = numba.njit(**_options)
+
+
+def marked(function: Any, *marks: Any) -> Any:
+    """The function with these marks in its name, and so in the symbols of its machine code.
+
+    Loops that were compiled in different processes and kept on disk may come together in one. Symbols of one name are
+    then one function, the first that came (seen: the first force evaluation of another variant, with forces off by
+    tens of newtons, without a word): https://github.com/numba/numba/issues/10486 tells of the same.
+    """
+    function.__qualname__ = "_".join([function.__qualname__, *map(str, marks)])
+    return function
 
 
 def entered(function: Callable, **variant: Any) -> Any:
@@ -34,5 +45,4 @@ def entered(function: Callable, **variant: Any) -> Any:
     """
     text: Any = FunctionType(function.__code__, {**function.__globals__, **variant}, closure=function.__closure__)
     held = [cell.cell_contents for cell in function.__closure__ or ()]
-    text.__qualname__ = "_".join([function.__qualname__, *(str(value) for value in held)])
-    return numba.njit(nogil=True, cache=True, **_options)(text)
+    return numba.njit(nogil=True, cache=True, **_options)(marked(text, *held))

@@ -14,7 +14,7 @@ from typing import Any
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.evaluation import make_evaluation
-from rockref.engines.compiled.jit import called, entered, inlined
+from rockref.engines.compiled.jit import called, entered, inlined, marked
 from rockref.engines.compiled.loads import advance_support, of_time
 from rockref.engines.compiled.sources import FINGERPRINT
 
@@ -75,10 +75,9 @@ def _switches(e):
     )  # fmt: skip
 
 
-def _make_begin(evaluate):
-    """The first force evaluation of a run."""
+def _make_begin(groups: int, evaluate):
+    """The first force evaluation of a run with these groups of effects."""
 
-    @called
     def begin(body, centres, props, memory, forces, e, s):
         """a and T (6) at the start; forces and memories are written."""
         forces[:, :] = 0.0
@@ -94,7 +93,7 @@ def _make_begin(evaluate):
                     memory[i, j] = 0.0
         return a0, a1, a2, T0, T1, T2
 
-    return begin
+    return called(marked(begin, groups))
 
 
 #: What the loop calls by these names: each variant gets its own (`rockref.engines.compiled.jit.entered`).
@@ -200,7 +199,7 @@ def _make_loop(groups: int, source: int):
 
 def _make_variant(groups: int):
     evaluate = make_evaluation(groups)
-    return entered(_make_loop(groups, FINGERPRINT), evaluate=evaluate, begin=_make_begin(evaluate))
+    return entered(_make_loop(groups, FINGERPRINT), evaluate=evaluate, begin=_make_begin(groups, evaluate))
 
 
 #: The compiled loops by their groups of effects.

@@ -1,5 +1,9 @@
 """Variants of one compiled text have files of their own on disk."""
 
+import os
+import subprocess
+import sys
+
 import pytest
 
 pytest.importorskip("numba")
@@ -18,3 +22,36 @@ def test_each_variant_calls_functions_of_its_own():
     called = [loop.py_func.__globals__["evaluate"] for loop in kernel.LOOPS.values()]
     assert len(set(map(id, called))) == len(called)
     assert kernel.evaluate is None, "the text of the loop itself belongs to no variant"
+
+
+def test_what_each_variant_calls_has_a_name_of_its_own():
+    """The name is part of the symbol in the machine code; two of one name are one function where both are loaded."""
+    names = [loop.py_func.__globals__["begin"].py_func.__qualname__ for loop in kernel.LOOPS.values()]
+    assert len(set(names)) == len(slots.VARIANTS)
+
+
+#: The first force evaluation of the law, or of a run with one effect, compiled against the law in NumPy.
+FIRST_FORCES = """
+import sys
+from dataclasses import replace
+import numpy as np
+import rockref
+from rockref.effects.catalogue import EFFECTS
+from rockref.engines.compiled.engine import simulate
+from rockref.model.simulate import simulate as law
+
+plain = rockref.Model.table_3_1().problem(2e-5, output_rate=1e5)
+for id in sys.argv[1:]:
+    start = replace(plain.start, v=np.array([0.3, 0.1, -0.2]), W=np.array([3.0, 0.4, 1.0]))
+    problem = plain.replace(start=start, effects=(EFFECTS[id].typical(),))
+    assert np.array_equal(law(problem).F, simulate(problem).F), id
+"""
+
+
+def test_variants_that_were_compiled_in_different_processes_live_in_one(tmp_path):
+    """Each process numbers what it compiles from the beginning: the first thing that each compiles has one number."""
+    kept = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+    one, other = "quadratic_drag", "hunt_crossley_contact"
+    for ids in ([one], [other], [one, other]):
+        done = subprocess.run([sys.executable, "-c", FIRST_FORCES, *ids], env=kept, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr[-1000:]
