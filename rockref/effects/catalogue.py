@@ -98,11 +98,10 @@ __all__ = [
 
 def find(id: str, where: str = "effect") -> type[Effect]:
     """The effect of this id. Raises InputError (E-EFFECT) that suggests the nearest name."""
-    if id in EFFECTS:
-        return EFFECTS[id]
-    if id in OF_TOSSES:
-        return OF_TOSSES[id]
-    near = difflib.get_close_matches(id.lower(), EFFECTS, 1)
+    known = EFFECTS | OF_TOSSES
+    if id in known:
+        return known[id]
+    near = difflib.get_close_matches(id.lower(), known, 1)
     cure = f"Did you mean {near[0]!r}?" if near else "`rockref effects` lists them."
     raise InputError("E-EFFECT", where, f"there is no effect {id!r}", cure)
 
@@ -120,10 +119,22 @@ def make(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
     return effect
 
 
+def brought_in(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
+    """An effect that somebody asks for by words or in a file.
+
+    Where he gives none of the parameters that bring it in, these are typical: who names an effect wants it there. To
+    have it absent he writes the value at which it is. Raises InputError (E-KEY, E-TYPE, E-RANGE).
+    """
+    switches = kind.quantities if kind.switches is None else kind.switches
+    if any(name in given for name in switches):
+        return make(kind, given, where)
+    return make(kind, kind.typical().values() | given, where)
+
+
 def parse(text: str, where: str = "--effect") -> Effect:
     """An effect from words: "quadratic_drag:c=0.4", "gyro_scale:x=1.02,y=0.98", "my_effect.py:Class:a=1".
 
-    Without parameters it has its typical size.
+    Without a parameter that brings it in, it has its typical size.
 
     Raises
     ------
@@ -137,23 +148,29 @@ def parse(text: str, where: str = "--effect") -> Effect:
     else:
         name, _, words = text.partition(":")
         kind = find(name.strip(), where)
-    given = {}
+    return brought_in(kind, numbers_of(words, name, f"{where} {text}"), f"{where} {text}")
+
+
+def numbers_of(words: str, name: str, where: str) -> dict[str, float]:
+    """Parameters from "key=value,key=value". Raises InputError (E-KEY for one that is given twice, E-TYPE)."""
+    given: dict[str, float] = {}
     for word in filter(None, (w.strip() for w in words.split(","))):
-        key, equals, value = word.partition("=")
+        key, equals, value = (part.strip() for part in word.partition("="))
+        if key in given:
+            raise InputError("E-KEY", where, f"{key!r} is given twice", "Give each parameter once.")
         try:
-            given[key.strip()] = float(value)
+            given[key] = float(value)
         except ValueError as e:
-            what = f"{word!r} is no parameter" if not equals else f"{value.strip()!r} is no number"
-            raise InputError(
-                "E-TYPE", f"{where} {text}", what, f"Write {name}:{'name'}=number, with commas between."
-            ) from e
-    return make(kind, given, f"{where} {text}") if given else kind.typical()
+            what = f"{word!r} is no parameter" if not equals else f"{value!r} is no number"
+            raise InputError("E-TYPE", where, what, f"Write {name}:{'name'}=number, with commas between.") from e
+    return given
 
 
 def from_table(where: str, table: Any) -> tuple[Effect, ...]:
     """Effects from the [effects] table of a model file: a sub-table of parameters for each id.
 
-    A user's own effect has `file = "my_effect.py:Class"` in its sub-table, relative to the current folder.
+    A sub-table without a parameter that brings the effect in means its typical size, as on the command line. A user's
+    own effect has `file = "my_effect.py:Class"` in its sub-table, relative to the current folder.
 
     Raises
     ------
@@ -174,7 +191,7 @@ def from_table(where: str, table: Any) -> tuple[Effect, ...]:
             raise InputError(
                 "E-EFFECT", place, f"but the effect in {file} is {kind.id!r}", f"Write [effects.{kind.id}]."
             )
-        effects.append(make(kind, given, place))
+        effects.append(brought_in(kind, given, place))
     return in_step_order(effects)
 
 

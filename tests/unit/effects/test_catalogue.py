@@ -111,6 +111,9 @@ def test_parse_reads_words():
         ("quadratic_drag:c=much", "E-TYPE", "'much' is no number"),
         ("quadratic_drag:0.4", "E-TYPE", "'0.4' is no parameter"),
         ("", "E-EFFECT", "there is no effect ''"),
+        ("quadratic_drag:c=0.4,c=5", "E-KEY", "'c' is given twice"),
+        ("quadratic_drag:c=0.4, c =0.4", "E-KEY", "'c' is given twice"),
+        ("tag_fram", "E-EFFECT", "Did you mean 'tag_frame'"),
     ],
 )
 def test_parse_says_what_is_wrong(text, code, said):
@@ -118,6 +121,28 @@ def test_parse_says_what_is_wrong(text, code, said):
         catalogue.parse(text)
     assert found.value.code == code
     assert said in str(found.value)
+
+
+@pytest.mark.parametrize(
+    "id, shape, brought_in",
+    [
+        ("cable_restraint", {"height": 0.1}, {"k": 5.0, "c": 0.3, "height": 0.1}),
+        ("lingering_wire_pull", {"tau": 0.2}, {"force": 3.0, "tau": 0.2}),
+        ("quadratic_drag", {}, {"c": 0.4, "c_v": 1.0}),
+    ],
+)
+def test_an_effect_that_is_named_is_there(id, shape, brought_in):
+    """By words and in a file alike: what brings it in is typical where only its shape, or nothing, is given."""
+    words = ",".join(f"{key}={value}" for key, value in shape.items())
+    assert catalogue.parse(f"{id}:{words}").values() == brought_in
+    (effect,) = catalogue.from_table("model.toml", {id: shape})
+    assert effect.values() == brought_in
+
+
+def test_an_effect_at_its_absent_value_is_absent():
+    """Who writes the value gets it: a model that is saved with an absent effect comes back as it was."""
+    assert catalogue.parse("cable_restraint:k=0").is_absent()
+    assert catalogue.from_table("model.toml", {"cable_restraint": {"k": 0.0, "c": 0.0}})[0].is_absent()
 
 
 @pytest.mark.parametrize(
