@@ -18,6 +18,7 @@ from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_o
 from rockref.discover.fitting import started_family, usable
 from rockref.discover.information import covariance, information
 from rockref.discover.presearch import MISLEADING, release_fit, tone
+from rockref.discover.resized import resized
 from rockref.discover.screen import screen
 from rockref.discover.search import Setup, baseline
 from rockref.discover.stretches import AXES
@@ -206,7 +207,8 @@ def with_one_more(setup: Setup, before: Family, effect: str, seed: int) -> Famil
         found = Family(effects, *baseline(plain, effects, z, iterations=START))
         found = min(found, afresh(plain, found), key=mean_loss)
         fit, point = found.fit, found.point
-    return Family(effects, fit, fit.run(point, ITERATIONS, np.random.default_rng(seed + 1)))
+    found = Family(effects, fit, fit.run(point, ITERATIONS, np.random.default_rng(seed + 1)))
+    return resized(plain, found, seed)
 
 
 def state_of(setup: Setup, family: Family) -> State:

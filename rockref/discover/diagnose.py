@@ -34,6 +34,7 @@ from rockref.discover.looking import PLAIN, POLISH, Look, challenge, duel, look_
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.plan import switches_of
 from rockref.discover.presearch import STRONG, suspects
+from rockref.discover.resized import resized
 from rockref.discover.search import FRESH, LITTLE, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
@@ -179,6 +180,7 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         if not rules.is_detected(look.gains[wider.effects[-1]], size_of(wider), second):
             break
         wider = refit(wider, 3 * POLISH, seed, relative=LITTLE / 5)
+        wider = resized(setup, wider, seed)
         say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
         if start.effects and not rules.settles(structured(start), structured(wider)):
             break
