@@ -131,7 +131,7 @@ def load(cls, path: str | os.PathLike):
         values["properties"] = _properties(f"{where}: [properties]", given, 8)
     if "custom_points" in tables:
         values["custom_points"] = _custom_points(where, tables)
-    values["effects"] = catalogue.from_table(where, tables.get("effects", {}))
+    values["effects"] = catalogue.from_table(where, tables.get("effects", {}), Path(path).parent)
     values["uncertainty"], values["origin"] = (
         table(where, tables, "uncertainty", None),
         table(where, tables, "origin", None),
@@ -195,7 +195,7 @@ def save(model, path: str | os.PathLike) -> None:
         if c.radius is not None:
             tables["custom_points"]["radius_m"] = c.radius
     # In the order of the step, in which they are read back: a model has one text.
-    tables["effects"] = catalogue.to_table(catalogue.in_step_order(model.effects))
+    tables["effects"] = catalogue.to_table(catalogue.in_step_order(model.effects), Path(path).parent)
     tables |= {"uncertainty": model.uncertainty, "origin": model.origin}
     for key, value in tables.items():
         if isinstance(value, dict):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import difflib
+import os
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -76,6 +78,9 @@ OF_TOSSES: dict[str, type[Effect]] = {
     effect.id: effect for effect in (RoundedCorners, GravityDeviation, TagFrame, PlatePose)
 }
 
+#: Effects of the user's own that this process was told of, by id; the file that was read last holds.
+OWN: dict[str, type[Effect]] = {}
+
 #: The answer "none" to each question, in the order of the questions.
 NONE: dict[str, type[Effect]] = {
     effect.question: effect
@@ -91,19 +96,36 @@ QUESTIONS: dict[str, tuple[type[Effect], ...]] = {
 }
 
 __all__ = [
-    "EFFECTS", "IN_STEP_ORDER", "NONE", "OF_TOSSES", "QUESTIONS", "find", "from_table", "in_step_order", "load_user",
-    "measured", "parse", "to_table",
+    "EFFECTS", "IN_STEP_ORDER", "NONE", "OF_TOSSES", "OWN", "QUESTIONS", "find", "from_table", "in_step_order",
+    "load_user", "measured", "own_effect", "parse", "to_table",
 ]  # fmt: skip
 
 
 def find(id: str, where: str = "effect") -> type[Effect]:
-    """The effect of this id. Raises InputError (E-EFFECT) that suggests the nearest name."""
-    known = EFFECTS | OF_TOSSES
+    """The effect of this id, or the user's own that "path/to/file.py:Class" names.
+
+    A user's own is known by its id from then on, in this process.
+
+    Raises
+    ------
+    InputError
+        E-EFFECT, E-FILE: nobody knows it (with the nearest name), or the class cannot be used.
+    """
+    if id.strip().endswith(".py") or ".py:" in id:
+        return own_effect(id.strip())
+    known = EFFECTS | OF_TOSSES | OWN
     if id in known:
         return known[id]
     near = difflib.get_close_matches(id.lower(), known, 1)
     cure = f"Did you mean {near[0]!r}?" if near else "`rockref effects` lists them."
     raise InputError("E-EFFECT", where, f"there is no effect {id!r}", cure)
+
+
+def own_effect(spec: str) -> type[Effect]:
+    """Load a user's own effect, "path/to/file.py:Class", and know it by its id. Raises InputError as `load_user`."""
+    kind = load_user(spec, taken=EFFECTS | OF_TOSSES)
+    OWN[kind.id] = kind
+    return kind
 
 
 def make(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
@@ -142,12 +164,8 @@ def parse(text: str, where: str = "--effect") -> Effect:
         E-EFFECT, E-KEY, E-TYPE, E-RANGE: what cannot be read, with the nearest name or the range.
     """
     head, marker, rest = text.partition(".py:")
-    if marker:
-        name, _, words = rest.partition(":")
-        kind = load_user(f"{head}.py:{name}", taken=EFFECTS)
-    else:
-        name, _, words = text.partition(":")
-        kind = find(name.strip(), where)
+    name, _, words = rest.partition(":") if marker else text.partition(":")
+    kind = find(f"{head}.py:{name}" if marker else name.strip(), where)
     return brought_in(kind, numbers_of(words, name, f"{where} {text}"), f"{where} {text}")
 
 
@@ -166,16 +184,17 @@ def numbers_of(words: str, name: str, where: str) -> dict[str, float]:
     return given
 
 
-def from_table(where: str, table: Any) -> tuple[Effect, ...]:
+def from_table(where: str, table: Any, beside: Path | None = None) -> tuple[Effect, ...]:
     """Effects from the [effects] table of a model file: a sub-table of parameters for each id.
 
     A sub-table without a parameter that brings the effect in means its typical size, as on the command line. A user's
-    own effect has `file = "my_effect.py:Class"` in its sub-table, relative to the current folder.
+    own effect has `file = "my_effect.py:Class"` in its sub-table, looked for in the folder `beside`, which is that of
+    the model file, and then in the current one.
 
     Raises
     ------
     InputError
-        E-EFFECT, E-KEY, E-TYPE, E-RANGE: which entry, what is wrong, the nearest name or the range.
+        E-EFFECT, E-FILE, E-KEY, E-TYPE, E-RANGE: which entry, what is wrong, the nearest name or the range.
     """
     if not isinstance(table, dict):
         raise InputError("E-TYPE", f"{where}: effects", "is not a table", "Write [effects.quadratic_drag] and c = 0.4.")
@@ -186,7 +205,7 @@ def from_table(where: str, table: Any) -> tuple[Effect, ...]:
             raise InputError("E-TYPE", place, f"is {given!r}"[:80], f"Write [effects.{id}] and its parameters below.")
         given = dict(given)
         file = given.pop("file", None)
-        kind = find(id, place) if file is None else load_user(file, taken=EFFECTS)
+        kind = find(id, place) if file is None else own_effect(found_file(file, beside, place))
         if kind.id != id:
             raise InputError(
                 "E-EFFECT", place, f"but the effect in {file} is {kind.id!r}", f"Write [effects.{kind.id}]."
@@ -195,13 +214,35 @@ def from_table(where: str, table: Any) -> tuple[Effect, ...]:
     return in_step_order(effects)
 
 
-def to_table(effects: Iterable[Effect]) -> dict[str, dict[str, Any]]:
-    """The [effects] table of a model file: what `from_table` reads back to the same effects."""
+def found_file(file: Any, beside: Path | None, place: str) -> str:
+    """A model file's "file.py:Class", as it is found from the current folder. Raises InputError (E-TYPE)."""
+    if not isinstance(file, str):
+        raise InputError("E-TYPE", f"{place} file", f"is {file!r}"[:80], 'Write file = "path/to/file.py:Class".')
+    path, _, name = file.rpartition(":")
+    if beside is None or not path or (Path(path).is_file() and not (beside / path).is_file()):
+        return file
+    return f"{beside / path}:{name}"
+
+
+def to_table(effects: Iterable[Effect], beside: Path | None = None) -> dict[str, dict[str, Any]]:
+    """The [effects] table of a model file in the folder `beside`: `from_table` reads it back to the same effects."""
     table = {}
     for effect in effects:
         values = {name: value for name, value in effect.values().items() if value is not None}
-        table[effect.id] = ({"file": effect.file} if effect.file else {}) | values
+        table[effect.id] = ({"file": file_beside(effect.file, beside)} if effect.file else {}) | values
     return table
+
+
+def file_beside(file: str, beside: Path | None) -> str:
+    """A "file.py:Class" of the current folder as it is written in a file in the folder `beside`."""
+    path, _, name = file.rpartition(":")
+    if beside is None or Path(path).is_absolute():
+        return file
+    try:
+        path = Path(os.path.relpath(os.path.realpath(path), os.path.realpath(beside))).as_posix()
+    except ValueError:  # on another drive
+        path = os.path.realpath(path)
+    return f"{path}:{name}"
 
 
 def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:

@@ -13,14 +13,16 @@ from pathlib import Path
 from types import ModuleType
 
 from rockref.effects.base import HOOKS, Effect, Quantity
+from rockref.effects.guard import guard, line_in
 from rockref.effects.probe import probe
 from rockref.model.errors import InputError
 
 HELP = "See examples/my_effect.py."
+QUANTITY = 'Quantity("N s/m", absent=0.0, low=..., high=..., typical=...)'
 
 
 def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
-    """The effect class that "path/to/file.py:Class" names, looked over and tried once.
+    """The effect class that "path/to/file.py:Class" names, looked over and tried once; its hooks are guarded.
 
     taken : ids that it must not have.
 
@@ -31,6 +33,8 @@ def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
         wrong and what to write.
     """
     path, _, name = spec.rpartition(":")
+    if spec.endswith(".py"):
+        raise InputError("E-EFFECT", spec, "names a file, but no class in it", f"Write {spec}:Class.")
     if not path.endswith(".py") or not name.isidentifier():
         raise InputError("E-EFFECT", spec, "names no class in a file", "Write path/to/file.py:Class.")
     module = run_file(Path(path))
@@ -48,6 +52,7 @@ def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
     check_class(kind, spec)
     if kind.id in taken:
         raise InputError("E-EFFECT", spec, f"the id {kind.id!r} is that of a built-in effect", "Choose another id.")
+    guard(kind, spec)
     probe(kind.typical(), spec)
     return kind
 
@@ -60,8 +65,10 @@ def run_file(path: Path) -> ModuleType:
         raise InputError("E-FILE", str(path), f"cannot be read ({e})", "Check the path.") from e
     try:
         ast.parse(source)
-    except SyntaxError as e:
-        raise InputError("E-FILE", f"{path}, line {e.lineno}", f"is not valid Python: {e.msg}", "Mend the line.") from e
+    except (SyntaxError, ValueError) as e:
+        line = f", line {e.lineno}" if isinstance(e, SyntaxError) and e.lineno else ""
+        what = f"is not valid Python: {e.msg if isinstance(e, SyntaxError) else e}"
+        raise InputError("E-FILE", f"{path}{line}", what, "Mend the line.") from e
     name = f"rockref_user_effect_{path.stem}"
     module_spec = importlib.util.spec_from_file_location(name, path)
     assert module_spec is not None and module_spec.loader is not None
@@ -69,12 +76,14 @@ def run_file(path: Path) -> ModuleType:
     sys.modules[name] = module  # dataclasses look their module up there
     try:
         module_spec.loader.exec_module(module)
+    except SystemExit as e:
+        cure = "A file of effects only defines classes: take the exit away."
+        raise InputError("E-FILE", f"{path}{line_in(e, path)}", "ends the program when it is run", cure) from e
     except Exception as e:
-        line = e.__traceback__
-        while line is not None and line.tb_next is not None:
-            line = line.tb_next
-        where = f"{path}, line {line.tb_lineno}" if line is not None else str(path)
-        raise InputError("E-FILE", where, f"fails when it is run: {type(e).__name__}: {e}", "Mend the line.") from e
+        no_quantity = isinstance(e, TypeError) and "Quantity." in str(e)
+        cure = f"Write {QUANTITY}, the unit first." if no_quantity else "Mend the line."
+        what = f"fails when it is run: {type(e).__name__}: {e}"
+        raise InputError("E-FILE", f"{path}{line_in(e, path)}", what, cure) from e
     return module
 
 
@@ -86,31 +95,52 @@ def check_class(kind: type[Effect], spec: str) -> None:
 
     if not is_dataclass(kind) or "__dataclass_params__" not in vars(kind):
         raise refuse("is not a dataclass", "Write @dataclass(frozen=True) above the class.")
-    if not kind.id.isidentifier() or kind.id == "none":
+    if not isinstance(kind.id, str) or not kind.id.isidentifier() or kind.id == "none":
         raise refuse(f"has the id {kind.id!r}", 'Write id = "my_effect", a name of letters, digits and underscores.')
-    names = [f.name for f in fields(kind)]
-    for name in names:
-        if hasattr(Effect, name):
-            raise refuse(f"parameter {name!r} hides what every effect has under that name", "Choose another name.")
-        if name not in kind.quantities:
-            cure = f'Write quantities = {{"{name}": Quantity("N", absent=0.0, low=..., high=..., typical=...)}}.'
-            raise refuse(f"parameter {name!r} has no quantity", cure)
-    for name, quantity in kind.quantities.items():
-        if name not in names:
-            raise refuse(f"quantity {name!r} belongs to no parameter", f"Write {name}: float = ... in the class.")
-        if not isinstance(quantity, Quantity):
-            raise refuse(f"quantity {name!r} is {quantity!r}", 'Write Quantity("N", 0.0, 0.1, 10.0, 1.0).')
-        if not isinstance(quantity.unit, str) or not quantity.unit.strip():
-            raise refuse(f"parameter {name!r} has no unit", 'Give one, for example "N s/m", or "1" for a plain number.')
+    check_quantities(kind, refuse)
     try:
         absent = kind()
     except TypeError as e:
         raise refuse(
             f"cannot be made without parameters ({e})", "Give every parameter its absent value as default."
         ) from e
-    if names and not absent.is_absent():
+    if not absent.is_absent():
         raise refuse("is not absent by default", "Make the default of each parameter the absent value of its quantity.")
+    kind.typical().check(spec)
+    if kind.typical().is_absent():
+        raise refuse("is absent at its typical size", "Give a typical value at which something changes.")
     check_hooks(kind, refuse)
+
+
+def check_quantities(kind: type[Effect], refuse) -> None:
+    """Refuse parameters without a quantity, and quantities that say too little."""
+    names = [f.name for f in fields(kind)]
+    if not names or not isinstance(kind.quantities, dict):
+        what = "has no parameter: it would always be absent" if not names else "has quantities that are no dict"
+        raise refuse(what, f'Write quantities = {{"c": {QUANTITY}}} and c: float = 0.0.')
+    for name in names:
+        if hasattr(Effect, name):
+            raise refuse(f"parameter {name!r} hides what every effect has under that name", "Choose another name.")
+        if name not in kind.quantities:
+            raise refuse(f"parameter {name!r} has no quantity", f'Write quantities = {{"{name}": {QUANTITY}}}.')
+    for name, quantity in kind.quantities.items():
+        if name not in names:
+            raise refuse(f"quantity {name!r} belongs to no parameter", f"Write {name}: float = ... in the class.")
+        check_quantity(name, quantity, refuse)
+    for name in kind.switches or ():
+        if name not in names:
+            raise refuse(f"switch {name!r} is no parameter", f"It has {', '.join(names)}.")
+
+
+def check_quantity(name: str, quantity: Quantity, refuse) -> None:
+    """Refuse a quantity without a unit or a range."""
+    if not isinstance(quantity, Quantity):
+        raise refuse(f"quantity {name!r} is {quantity!r}", f"Write {QUANTITY}.")
+    if not isinstance(quantity.unit, str) or not quantity.unit.strip():
+        raise refuse(f"parameter {name!r} has no unit", 'Give one, for example "N s/m", or "1" for a plain number.')
+    for key in ("low", "high"):
+        if not isinstance(getattr(quantity, key), (int, float)):
+            raise refuse(f"parameter {name!r} has {key} = {getattr(quantity, key)!r}", "Give a number.")
 
 
 def check_hooks(kind: type[Effect], refuse) -> None:
@@ -126,8 +156,10 @@ def check_hooks(kind: type[Effect], refuse) -> None:
     if not hooks:
         raise refuse("changes nothing", f"Write one of the methods {', '.join(HOOKS)}.")
     for name in hooks:
-        wanted = len(HOOKS[name])
+        wanted = HOOKS[name]
         given = list(inspect.signature(own[name]).parameters)[1:]
-        if len(given) != wanted:
-            what = f"{name} takes ({', '.join(given)})"
-            raise refuse(what, f"Write def {name}(self, {', '.join(HOOKS[name])}).")
+        # A hook is called by place: other names are the author's own, the hook's names must stand where they belong.
+        swapped = [a for a, b in zip(given, wanted, strict=False) if a.lstrip("_") in wanted and a.lstrip("_") != b]
+        if len(given) != len(wanted) or swapped:
+            what = f"{name} takes ({', '.join(given)})" + (f": {swapped[0]} is not in its place" if swapped else "")
+            raise refuse(what, f"Write def {name}(self, {', '.join(wanted)}).")

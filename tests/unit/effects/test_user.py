@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rockref import InputError, Model, simulate
+from rockref import InputError, Model, cli, simulate
 from rockref.effects import catalogue
 from rockref.effects.user import load_user
 
@@ -21,6 +21,7 @@ class Mine(Effect):
     quantities = {"c": Quantity("N", 0.0, 0.1, 10.0, 1.0)}
     c: float = 0.0
 """
+HOOK = "    def sensor(self, t, crv):\n        return crv + self.c\n"
 
 
 def written(tmp_path, text, head=HEAD):
@@ -45,6 +46,38 @@ def test_the_example_goes_through_a_model_file(tmp_path):
     Model.table_3_1().replace(effects=(effect,)).save(tmp_path / "model.toml")
     (back,) = Model.load(tmp_path / "model.toml").effects
     assert back.values() == effect.values() and back.id == "eddy_brake"
+
+
+def test_a_model_file_names_it_from_where_it_lies(tmp_path, monkeypatch):
+    """Beside the model file first, then in the current folder; it is written as it is found from the file's folder."""
+    (tmp_path / "a/b").mkdir(parents=True)
+    (tmp_path / "mine.py").write_text(HEAD + HOOK, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    Model.table_3_1().replace(effects=(catalogue.parse("mine.py:Mine:c=2"),)).save("a/b/model.toml")
+    text = Path("a/b/model.toml").read_text(encoding="utf-8")
+    assert 'file = "../../mine.py:Mine"' in text
+    monkeypatch.chdir(tmp_path / "a")
+    model = Model.load("b/model.toml")
+    assert model.effects[0].values() == {"c": 2.0}
+    model.save("b/again.toml")
+    assert Path("b/again.toml").read_text(encoding="utf-8") == text
+    Path("b/model.toml").write_text('[effects.mine]\nfile = "../mine.py:Mine"\n', encoding="utf-8")
+    assert Model.load("b/model.toml").effects[0].values() == {"c": 1.0}
+
+
+@pytest.mark.parametrize(
+    "value, said",
+    [
+        ("3", "file: is 3. Write file = "),
+        ('"mine.py"', "names a file, but no class in it"),
+        ('"nobody.py:Mine"', "nobody.py: cannot be read"),
+    ],
+)
+def test_a_model_file_that_names_no_file_is_explained(tmp_path, value, said):
+    (tmp_path / "model.toml").write_text(f"[effects.mine]\nfile = {value}\n", encoding="utf-8")
+    with pytest.raises(InputError) as found:
+        Model.load(tmp_path / "model.toml")
+    assert said in str(found.value)
 
 
 MISTAKES = {
@@ -77,6 +110,18 @@ MISTAKES = {
     "too few arguments": (
         "    def body_wrench(self, x, v):\n        return x, x\n",
         "Write def body_wrench(self, problem",
+    ),
+    "arguments in another order": (
+        "    def body_wrench(self, problem, c, v, x, Lambda, W, m):\n        return -self.c * v, np.zeros_like(x)\n",
+        "v is not in its place. Write def body_wrench(self, problem, c, x, Lambda, v, W, m)",
+    ),
+    "a word for a force": (
+        "    def body_wrench(self, problem, c, x, Lambda, v, W, m):\n        return 'strong', np.zeros_like(x)\n",
+        "force is str",
+    ),
+    "ends the program": (
+        "    def sensor(self, t, crv):\n        raise SystemExit(3)\n",
+        "SystemExit: 3",
     ),
     "no hook": ("", "changes nothing"),
     "wrong normal force": (
@@ -114,7 +159,6 @@ def test_mistakes_in_hooks_are_explained(tmp_path, mistake):
     assert "mine.py" in str(found.value)
 
 
-HOOK = "    def sensor(self, t, crv):\n        return crv + self.c\n"
 HEADS = {
     "no unit": (HEAD.replace('"N", 0.0', '"", 0.0'), "parameter 'c' has no unit"),
     "no quantity": (HEAD.replace('"c": Quantity', '"k": Quantity'), "parameter 'c' has no quantity"),
@@ -133,6 +177,16 @@ HEADS = {
     ),
     "no Effect": (HEAD.replace("class Mine(Effect)", "class Mine"), "is not an Effect"),
     "other class": (HEAD.replace("class Mine", "class Yours"), "It has Yours"),
+    "id of tosses taken": (HEAD.replace('"mine"', '"tag_frame"'), "that of a built-in effect"),
+    "id no text": (HEAD.replace('"mine"', "3"), "has the id 3"),
+    "no parameter": (
+        HEAD.replace('{"c": Quantity("N", 0.0, 0.1, 10.0, 1.0)}', "{}").replace("    c: float = 0.0\n", ""),
+        "has no parameter",
+    ),
+    "quantities no dict": (HEAD.replace('{"c": Quantity("N", 0.0, 0.1, 10.0, 1.0)}', "[]"), "that are no dict"),
+    "no range": (HEAD.replace("0.1, 10.0", "None, 10.0"), "parameter 'c' has low = None"),
+    "typical is nothing": (HEAD.replace("10.0, 1.0", "10.0, 0.0"), "is absent at its typical size"),
+    "switch unknown": (HEAD.replace('    id = "mine"', '    id = "mine"\n    switches = ("d",)'), "switch 'd' is no"),
     "id taken": (HEAD.replace('"mine"', '"plate_tilt"'), "that of a built-in effect"),
 }
 
@@ -141,7 +195,7 @@ HEADS = {
 def test_mistakes_in_the_class_are_explained(tmp_path, mistake):
     head, said = HEADS[mistake]
     with pytest.raises(InputError) as found:
-        load_user(written(tmp_path, HOOK, head), taken=catalogue.EFFECTS)
+        load_user(written(tmp_path, HOOK, head), taken=catalogue.EFFECTS | catalogue.OF_TOSSES)
     assert found.value.code == "E-EFFECT"
     assert said in str(found.value)
 
@@ -152,6 +206,10 @@ def test_mistakes_in_the_class_are_explained(tmp_path, mistake):
         ("this is no python", "line 1"),
         (HEAD.replace("(frozen=True)", ""), "non-frozen"),
         ("import numpy\n1/0", "line 2: fails when it is run: ZeroDivisionError"),
+        ("import sys\n\nsys.exit(0)", "line 3: ends the program when it is run"),
+        (HEAD.replace('"N", 0.0, 0.1, 10.0, 1.0', '"N", 0.0'), "line 9: fails when it is run: TypeError"),
+        (HEAD.replace('"N", 0.0, 0.1, 10.0, 1.0', "absent=0.0, low=0.1, high=10.0, typical=1.0"), "the unit first"),
+        (HEAD.replace("c: float = 0.0", "c: list = []"), "line 6: fails when it is run: ValueError: mutable default"),
     ],
 )
 def test_a_file_that_does_not_run_is_explained(tmp_path, text, said):
@@ -166,9 +224,48 @@ def test_a_file_that_is_not_there(tmp_path):
         load_user(f"{tmp_path}/nobody.py:Mine")
     with pytest.raises(InputError, match="names no class in a file"):
         load_user("mine.txt:Mine")
+    for words in (f"{EXAMPLE}", "mine.py"):
+        with pytest.raises(InputError, match=r"Write .*\.py:Class"):
+            catalogue.parse(words)
+
+
+LATER = {
+    "fails": ("        if c.t > 2e-4:\n            raise KeyError('speed')\n", r", line 14: fails: KeyError: 'speed'"),
+    "not finite": (
+        "        if c.t > 2e-4:\n            force = force / 0\n",
+        "force holds a number that is not finite",
+    ),
+    "another shape": (
+        "        if c.t > 2e-4:\n            force = force[:2]\n",
+        "force has shape (2,), the law's has (3,)",
+    ),
+    "nothing": ("        if c.t > 2e-4:\n            return force\n", "gives back ndarray"),
+}
+
+
+@pytest.mark.parametrize("mistake", LATER)
+def test_mistakes_that_show_in_the_run_name_the_hook(tmp_path, capsys, mistake):
+    """What is right when it is tried, and wrong later: exit code 2, file, class and hook, and no traceback."""
+    lines, said = LATER[mistake]
+    begin = "    def body_wrench(self, problem, c, x, Lambda, v, W, m):\n        force = -self.c * (v + 1.0)\n"
+    spec = written(tmp_path, begin + lines + "        return force, np.zeros_like(x)\n")
+    with pytest.raises(SystemExit) as end:
+        cli.main(["simulate", "--duration", "0.001", "--effect", spec])
+    err = capsys.readouterr().err
+    assert end.value.code == 2
+    assert f"{spec}.body_wrench" in err and said in err and "Traceback" not in err
+
+
+def test_hooks_of_a_class_between_are_guarded(tmp_path):
+    """A class that inherits its hook from another one of the author's."""
+    between = HOOK.replace("crv + self.c", "crv[:1] if len(t) == 7 else crv + self.c")
+    text = between + "\n@dataclass(frozen=True)\nclass Yours(Mine):\n    id = 'yours'\n"
+    kind = load_user(written(tmp_path, text).replace(":Mine", ":Yours"))
+    with pytest.raises(InputError, match=r"mine\.py:Yours\.sensor: crv has shape \(1, 3\)"):
+        kind(1.0).sensor(np.arange(7.0), np.zeros((7, 3)))
 
 
 def test_a_good_one_passes(tmp_path):
-    kind = load_user(written(tmp_path, HOOK), taken=catalogue.EFFECTS)
+    kind = load_user(written(tmp_path, HOOK), taken=catalogue.EFFECTS | catalogue.OF_TOSSES)
     assert kind.typical().values() == {"c": 1.0}
     assert np.all(catalogue.measured([kind(0.5)], np.arange(3.0), np.zeros((3, 3))) == 0.5)
