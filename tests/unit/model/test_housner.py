@@ -115,3 +115,29 @@ def test_a_tilt_that_overturns_is_refused(theta_0):
     with pytest.raises(InputError) as refused:
         run(theta_0)
     assert (refused.value.code, refused.value.where) == ("E-TILT", "theta_0")
+
+
+@pytest.mark.parametrize(("height", "duration"), [(0.688, 60.0), (0.4, 5.0), (0.1, 5.0), (0.06, 5.0)])
+def test_impacts_that_pile_up_end_in_rest(height, duration):
+    """Arcs shrink by the ratio of the rates: infinitely many fit into a finite time, after which the block stands."""
+    J_G, alpha, radius = MASS / 12 * (B * B + height * height), np.arctan2(B, height), np.hypot(B, height) / 2
+    r = housner.housner(MASS, B, height, J_G, G, 0.117, duration, 200.0, 1e-3)
+    assert len(r.t) == 200 * duration + 1
+    after = r.t > r.impacts[-1]
+    assert after.sum() > 100
+    assert not np.any(r.theta[after])
+    assert not np.any(r.rate[after])
+    # The rates shrink by the ratio from the first impact on; the last arc would have lasted less than the limit.
+    ratio = housner.velocity_ratio(MASS, J_G, radius, alpha)
+    p2 = housner.frequency_parameter(MASS, J_G, radius, G) ** 2
+    first = np.sqrt(2 * p2 * (np.cos(alpha - 0.117) - np.cos(alpha)))
+    rest = np.log(housner.SHORTEST_ARC / 2 * p2 * np.sin(alpha) / first) / np.log(ratio) if ratio > 0 else 1
+    assert len(r.impacts) == np.ceil(rest)
+
+
+def test_a_squat_block_stops_at_its_first_impact():
+    """Below a velocity ratio of zero (3/2 sin^2 alpha > 1) the impact does not lift the block on the other side."""
+    J_G = MASS / 12 * (0.1**2 + 0.06**2)
+    r = housner.housner(MASS, 0.1, 0.06, J_G, G, 0.117, 1.0, 200.0)
+    assert housner.velocity_ratio(MASS, J_G, np.hypot(0.1, 0.06) / 2, np.arctan2(0.1, 0.06)) < 0
+    assert len(r.impacts) == 1
