@@ -8,7 +8,7 @@ import numpy as np
 
 from rockref.model import simulate as law
 from rockref.model.errors import InputError
-from rockref.model.problem import Problem
+from rockref.model.problem import Problem, precision
 from rockref.model.response import Response
 
 ENGINES = ("numpy", "numba", "auto")
@@ -25,11 +25,12 @@ def chosen(problem: Problem, engine: str, dtype=None) -> str:
     Raises
     ------
     InputError
-        E-ENGINE, for an unknown name or where numba is asked for and not installed.
+        E-ENGINE, for an unknown name or where numba is asked for and not installed; E-TYPE, for another dtype than
+        float32, float64 and longdouble.
     """
     if engine not in ENGINES:
         raise InputError("E-ENGINE", "engine", f"is {engine!r}", f"Use one of {', '.join(ENGINES)}.")
-    double = np.dtype(dtype or problem.start.x.dtype) == np.float64
+    double = precision(problem, dtype) == np.float64
     if engine == "numba":
         if not has_numba():
             raise InputError(

@@ -39,7 +39,7 @@ def first_impact(theta_0: float, alpha: float, p: float) -> float:
 
 #: Where rocking ends. Decided: an arc that lasts less than this is rest. Impacts take a fixed share of the rate, so the
 #: arcs between them shorten in geometric progression, and infinitely many fit into a finite time. Of the block of
-#: Table 3.1 what is left then is a rate of 0.008 deg/s and a tilt of 4 nrad, below any gyroscope, and the rest of the
+#: Table 3.1 what is left then is a rate of 0.009 deg/s and a tilt of 4 nrad, below any gyroscope, and the rest of the
 #: progression, 3 ms.
 SHORTEST_ARC = 1e-4  # s
 

@@ -132,6 +132,9 @@ class Problem:
         return self.start.x.shape[:-1]
 
 
+#: What the law can be computed in.
+PRECISIONS = tuple(np.dtype(real) for real in (np.float32, np.float64, np.longdouble))
+
 ARRAYS_OF_BLOCK = {"mass": 0, "inertia": 2, "g": 0}
 ARRAYS_OF_POINTS = {"P": 2, "K_N": 1, "K_T": 1, "C_N": 1, "C_T": 1, "mu_0": 1, "mu": 1, "radius": 1}
 ARRAYS_OF_STATE = {"x": 1, "v": 1, "Lambda": 2, "W": 1, "s": 2, "anchored": 1, "sliding": 1, "a": 1, "T": 1, "F": 2}
@@ -153,12 +156,30 @@ def _convert(thing, axes: dict[str, int], batch, dtype):
     )
 
 
+def precision(problem: Problem, dtype=None) -> np.dtype:
+    """In what a problem is computed: `dtype`, or that of the start's positions.
+
+    Raises
+    ------
+    InputError
+        E-TYPE, where it is not float32, float64 or longdouble.
+    """
+    try:
+        found = np.dtype(problem.start.x.dtype if dtype is None else dtype)
+    except TypeError:
+        found = None
+    if found is None or found not in PRECISIONS:  # NumPy takes None for float64
+        what = f"is {dtype if found is None else found.name!s}"
+        raise InputError("E-TYPE", "dtype", what, "Use float32, float64 or longdouble.")
+    return found
+
+
 def as_arrays(problem: Problem, dtype=None) -> Problem:
     """The same problem with every array of one dtype (float32, float64 or longdouble) and of the batch's shape.
 
-    Without `dtype` the positions of the start decide.
+    Without `dtype` the positions of the start decide. Raises InputError (E-TYPE) for another one.
     """
-    dtype = np.dtype(dtype or problem.start.x.dtype)
+    dtype = precision(problem, dtype)
     batch = problem.batch
     return replace(
         problem,

@@ -53,10 +53,12 @@ def check(problem: Problem) -> None:
     Raises
     ------
     InputError
-        E-STEP, E-DURATION, E-RATE, E-RANGE: which value, why, and what to do.
+        E-STEP, E-DURATION, E-RATE, E-SIZE, E-RANGE, E-TYPE: which value, why, and what to do.
     """
     for key in ("step", "duration", "output_rate"):
         value = getattr(problem, key)
+        if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+            raise InputError("E-TYPE", key, f"is {value!r}"[:120], "Give one real number.")
         if not (np.isfinite(value) and value > 0):
             raise InputError("E-RANGE", key, f"is {value!r}", "Give a positive, finite number.")
     if problem.duration < problem.step:
@@ -70,6 +72,7 @@ def check(problem: Problem) -> None:
             f"{problem.output_rate:g} Hz asks for more than one row a step of {problem.step:g} s",
             f"Use at most {1 / problem.step:g} Hz or a smaller step.",
         )
+    check_size(problem)
     check_points(problem.points)
     check_body(problem)
     limit = largest_step(problem)
@@ -79,6 +82,37 @@ def check(problem: Problem) -> None:
             "step",
             f"{problem.step:g} s is too large for the stiffest contact",
             f"Use a step of at most {rounded_down(limit):.2g} s.",
+        )
+
+
+#: No run is longer. Decided: 1e10 steps take the compiled engine hours and the law a fortnight; a run of the source
+#: has 1e6. More is a slip of the keyboard.
+MOST_STEPS = 1e10
+
+#: No response is larger [bytes]. Decided: what a desk machine still holds; 10 s of one block at 2 kHz are 1e7.
+LARGEST_RESPONSE = 4e9
+
+
+def check_size(problem: Problem) -> None:
+    """Refuse a run of too many steps, or with a response that no memory holds, before anything is made (E-SIZE)."""
+    steps, rows = problem.duration / problem.step, problem.duration * problem.output_rate + 1
+    if steps > MOST_STEPS:
+        raise InputError(
+            "E-SIZE",
+            "duration",
+            f"{problem.duration:g} s in steps of {problem.step:g} s are {steps:.2g} steps, more than {MOST_STEPS:.0e}",
+            "Ask for a shorter run, or check the unit of duration and step: both are in seconds.",
+        )
+    # x, v, Lambda, W; a force, an anchor and two flags a point
+    numbers, flags = 18 + 5 * problem.points.n, 2 * problem.points.n
+    size = rows * float(np.prod(problem.batch)) * (numbers * np.dtype(float).itemsize + flags)
+    if size > LARGEST_RESPONSE:
+        raise InputError(
+            "E-SIZE",
+            "output_rate",
+            f"{rows:.2g} rows{' a block' if problem.batch else ''} would take {size / 1e9:.2g} GB, "
+            f"more than {LARGEST_RESPONSE / 1e9:g}",
+            "Ask for fewer rows a second, or a shorter run.",
         )
 
 
@@ -109,7 +143,11 @@ def check_body(problem: Problem) -> None:
 
 
 def check_points(points: ContactPoints) -> None:
-    """Refuse contact points with a negative or non-finite property (E-RANGE)."""
+    """Refuse contact points with a negative or non-finite property, or in no place (E-RANGE)."""
+    nowhere = ~np.all(np.isfinite(np.asarray(points.P)), axis=-1)
+    if np.any(nowhere):
+        i = int(np.argwhere(nowhere)[0][-1])
+        raise InputError("E-RANGE", f"P of point {points.names[i]}", "is not finite", "Give a place in metres.")
     for key in ("radius", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu"):
         values = getattr(points, key)
         if values is None:

@@ -52,6 +52,7 @@ NO_NUMBER = "Give one real number. [E-TYPE]"
 ONE_BLOCK = "was asked of a batch. Index the response first: response[i]. [E-BATCH]"
 ONE_BY_ONE = "differs between the problems of a batch. Run them one by one. [E-STACK]"
 MATRIX = "Give a symmetric, positive definite 3 x 3 matrix in kg m2. [E-RANGE]"
+REAL = "Use float32, float64 or longdouble. [E-TYPE]"
 FINITE = "Give a positive, finite number. [E-RANGE]"
 BODY = "Give a finite number, not negative; a mass is positive. [E-RANGE]"
 FEET = "Stiffness must be positive; damping, friction and radius must not be negative. [E-RANGE]"
@@ -145,6 +146,28 @@ REFUSALS = [
     ),
     # what cannot be simulated
     (lambda: run(FOOT.replace(step=-1.0)), f"step: is -1.0. {FINITE}"),
+    (lambda: run(FOOT.replace(duration="1")), f"duration: is '1'. {NO_NUMBER}"),
+    (lambda: run(FOOT.replace(step=True)), f"step: is True. {NO_NUMBER}"),
+    (
+        lambda: run(FOOT.replace(duration=2e5)),
+        "duration: 200000 s in steps of 1e-05 s are 2e+10 steps, more than 1e+10. "
+        "Ask for a shorter run, or check the unit of duration and step: both are in seconds. [E-SIZE]",
+    ),
+    (
+        # 18 numbers of the body and five of the foot, with two flags, are 186 bytes a row
+        lambda: run(FOOT.replace(duration=5e4, output_rate=1e3)),
+        "output_rate: 5e+07 rows would take 9.3 GB, more than 4. "
+        "Ask for fewer rows a second, or a shorter run. [E-SIZE]",
+    ),
+    (
+        lambda: run(problem.stack([FOOT.replace(duration=1e4, output_rate=1e3)] * 3)),
+        "output_rate: 1e+07 rows a block would take 5.6 GB, more than 4. "
+        "Ask for fewer rows a second, or a shorter run. [E-SIZE]",
+    ),
+    (lambda: simulate.simulate(FOOT, dtype=np.int32), f"dtype: is int32. {REAL}"),
+    (lambda: simulate.simulate(FOOT, dtype=np.float16), f"dtype: is float16. {REAL}"),
+    (lambda: simulate.simulate(FOOT, dtype="number"), f"dtype: is number. {REAL}"),
+    (lambda: run(start(x=np.array([0, 0, 1]))), f"dtype: is int64. {REAL}"),
     (lambda: run(FOOT.replace(output_rate=np.inf)), f"output_rate: is inf. {FINITE}"),
     (
         lambda: run(FOOT.replace(duration=5e-6)),
@@ -171,6 +194,10 @@ REFUSALS = [
         "start.Lambda: is no rotation. Give a matrix with orthonormal columns, or use from_quaternion. [E-START]",
     ),
     (lambda: run(feet(C_T=-1.0)), f"C_T of point 0: is -1.0. {FEET}"),
+    (
+        lambda: run(replace(FOOT, points=physics.points([0, np.nan, 0]))),
+        "P of point 0: is not finite. Give a place in metres. [E-RANGE]",
+    ),
     (lambda: run(feet(K_T=0.0)), f"K_T of point 0: is 0.0. {FEET}"),
     (
         lambda: run(feet(mu_0=0.2, mu=0.3)),
