@@ -8,10 +8,18 @@ import numpy as np
 
 from rockref.model.errors import InputError, NumericalError
 from rockref.model.geometry import check_inertia
-from rockref.model.integrator import Inertia, first_evaluation, prepared_inertia, step
+from rockref.model.integrator import (
+    Inertia,
+    angular_acceleration,
+    first_evaluation,
+    prepared_inertia,
+    rotation_increment,
+    step,
+    times,
+)
 from rockref.model.problem import ContactPoints, Problem, State, as_arrays
 from rockref.model.response import Response
-from rockref.model.rotation import hat, product, transposed
+from rockref.model.rotation import dot, hat, product, transposed
 
 RECORDED = ("x", "v", "Lambda", "W", "F", "s", "anchored", "sliding")
 
@@ -216,8 +224,11 @@ def simulate(
     with np.errstate(all="ignore"):
         for i, count in enumerate(wanted):
             good = state
-            for _ in range(done, count):
-                state = step(problem, state, inertia)
+            try:
+                for _ in range(done, count):
+                    state = step(problem, state, inertia)
+            except InputError as error:
+                raise (not_finite(problem, good, inertia) if error.code == "E-ANGLE" else error) from error
             done = int(count)
             t[i] = state.t
             for key, column in rows.items():
@@ -237,23 +248,58 @@ def time_before_core(problem: Problem, column: np.ndarray) -> np.ndarray:
 
 
 def not_finite(problem: Problem, good: State, inertia: Inertia) -> NumericalError:
-    """The error that names the step and the contact point at which the numbers were lost, found from a good state."""
+    """The error that names the step and the contact points at which the numbers were lost, found from a good state.
+
+    Raises InputError (E-ANGLE) itself where a step turns the block too far, by a finite angle: at which step.
+    """
     state = good
     while not np.any(body_lost(state)) and not np.any(forces_lost(state)):
-        state = step(problem, state, inertia)
+        try:
+            state = step(problem, state, inertia)
+        except InputError as error:
+            if error.code != "E-ANGLE":
+                raise
+            return turned_too_far(problem, state, inertia, error)
     lost = np.argwhere(body_lost(state) | np.any(forces_lost(state), axis=-1))[0]
-    # A lost body takes all its points along; only while it is still there, the points tell where it began.
+    # A step moves the block, then asks the points for their forces, then changes the velocities. While the block itself
+    # has a place, what its points lost began with them.
     bad = np.flatnonzero(forces_lost(state)[tuple(lost)])
-    where = (
-        problem.points.names[bad[0]] if len(bad) and not body_lost(state)[tuple(lost)] else "none of the contact points"
-    )
-    of_batch = f" of block {', '.join(map(str, lost))}" if problem.batch else ""
+    names = [problem.points.names[i] for i in bad] if not pose_lost(state)[tuple(lost)] else []
+    return lost_numbers(problem, state.count, state.t, lost, ", ".join(names) or "none of the contact points")
+
+
+def turned_too_far(problem: Problem, state: State, inertia: Inertia, refused: InputError) -> NumericalError:
+    """The error for a step, from `state`, whose angle is no number; raises `refused` (E-ANGLE) with the step's number
+    and time where it is one."""
+    JW = times(inertia.J, state.W)
+    A = angular_acceleration(state.T, state.W, JW, inertia.J_inverse)
+    Theta = rotation_increment(state.W, A, state.x.dtype.type(problem.step))
+    count, t = state.count + 1, state.origin + (state.count + 1) * problem.step
+    overflowed = ~np.isfinite(dot(Theta, Theta))
+    if not np.any(overflowed):
+        raise InputError(refused.code, step_name(count, t), refused.what, refused.cure) from refused
+    return lost_numbers(problem, count, t, np.argwhere(overflowed)[0], "none of the contact points, its turn overflows")
+
+
+def step_name(count: int, t: float) -> str:
+    """The place of a step in a run, for an error; t [s]."""
+    return f"step {count} (t = {t:.6g} s)"
+
+
+def lost_numbers(problem: Problem, count: int, t: float, block: np.ndarray, where: str) -> NumericalError:
+    """The error of a run without numbers from step `count`, time t [s], on; `block`, its place in the batch."""
+    of_batch = f" of block {', '.join(map(str, block))}" if problem.batch else ""
     return NumericalError(
         "E-NAN",
-        f"step {state.count} (t = {state.t:.6g} s)",
+        step_name(count, t),
         f"the motion{of_batch} is no longer made of finite numbers; it began at: {where}",
         "Check the start state and the parameters, or use a smaller step.",
     )
+
+
+def pose_lost(state: State) -> np.ndarray:
+    """Whether position or rotation is no longer finite, (...)."""
+    return ~np.all(np.isfinite(state.x) & np.all(np.isfinite(state.Lambda), axis=-1), axis=-1)
 
 
 def body_lost(state: State) -> np.ndarray:

@@ -55,7 +55,8 @@ def _one(problem: Problem, keep_going: bool) -> Response:
     written = int(done[0])
     if not np.isfinite(states[written - 1, :18]).all() and not keep_going:
         good = problem.start
-        if written > 1:
+        # What the start's forces have lost, its row does not show otherwise: the law evaluates them anew.
+        if written > 1 and np.isfinite(forces[written - 2]).all():
             good = pack.final_state(problem, states[written - 2], memories[written - 2], forces[written - 2])
         raise lost(problem, good)
     states[written:], forces[written:] = np.nan, np.nan

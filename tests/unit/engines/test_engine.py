@@ -103,7 +103,20 @@ def test_a_step_that_turns_too_far_is_refused_as_the_law_refuses_it():
     for run in (law, engine.simulate):
         with pytest.raises(InputError) as error:
             run(problem)
-        assert error.value.code == "E-ANGLE"
+        assert (error.value.code, error.value.where) == ("E-ANGLE", "step 1 (t = 1e-05 s)")
+
+
+def test_a_turn_that_overflows_is_lost_numbers_at_its_step():
+    """A rate whose square is beyond float64: no angle is told, but the step."""
+    problem = MODEL.problem(1e-3)
+    problem = problem.replace(start=replace(problem.start, W=np.array([1e160, 0.0, 0.0])))
+    texts = []
+    for run in (law, engine.simulate):
+        with pytest.raises(NumericalError) as error:
+            run(problem)
+        texts.append(str(error.value))
+    assert texts[0] == texts[1]
+    assert texts[0].startswith("step 1 (t = 1e-05 s): ") and texts[0].endswith("[E-NAN]")
 
 
 def test_random_problems_reach_every_branch():

@@ -234,9 +234,32 @@ class Twisted(physics.Pull):
         return np.zeros_like(x), np.full_like(x, np.nan if c.t > 0 else 0)
 
 
+class Broken(physics.Pull):
+    """Pressed in by 55 nm, feet on the +x side push with a force that is no number."""
+
+    def normal_force(self, F_N, k, points, m):
+        return np.where((k.u[..., 0] > 0) & (k.xi > 5.5e-8), np.nan, F_N)
+
+
+def settling():
+    """A bar on two feet, the second of which breaks while they go down together."""
+    points = physics.points([[-0.1, 0, 0], [0.1, 0, 0]])
+    state = problem.State.at_rest(np.zeros(3), np.eye(3), 2, v=np.array([0, 0, -1e-3]))
+    return replace(FOOT, points=points, start=state, effects=(Broken(),))
+
+
 @pytest.mark.parametrize(
     "lost, text",
     [
+        (
+            settling(),
+            f"step 5 (t = 5e-05 s): the motion is no longer made of finite numbers; it began at: 1. {CURE}",
+        ),
+        (
+            physics.flying((1, 2, 3), (1e160, 0, 1), 1e-5, 1e-3),
+            "step 1 (t = 1e-05 s): the motion is no longer made of finite numbers; "
+            f"it began at: none of the contact points, its turn overflows. {CURE}",
+        ),
         (
             lost_at_a_point(FOOT),
             f"step 0 (t = 0 s): the motion is no longer made of finite numbers; it began at: 0. {CURE}",
@@ -260,7 +283,7 @@ class Twisted(physics.Pull):
             f"step 0 (t = 0 s): the motion of block 1 is no longer made of finite numbers; it began at: 0. {CURE}",
         ),
     ],
-    ids=["point", "body", "turn", "plane of blocks", "batch"],
+    ids=["late point", "overflow", "point", "body", "turn", "plane of blocks", "batch"],
 )
 def test_a_run_that_loses_its_numbers_says_where(lost, text):
     with pytest.raises(NumericalError) as stopped:
