@@ -6,6 +6,9 @@ from typing import Any
 
 from rockref.conformance.vectors import Vector, problem_of
 
+#: What a backend may raise in place of answering: it is a stranger's, and may even ask to end the program.
+ANYTHING = (Exception, SystemExit)
+
 
 def as_mapping(answer: Any, piece: str) -> dict[str, Any]:
     """A piece's answer as a mapping: a dict, or an object with attributes."""

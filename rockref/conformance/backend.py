@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Protocol
 
+from rockref.conformance.asking import ANYTHING
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
 
@@ -62,7 +63,7 @@ def from_file(path: Path) -> ModuleType:
     sys.modules[spec.name] = module
     try:
         spec.loader.exec_module(module)
-    except Exception as e:
+    except ANYTHING as e:
         raise InputError("E-BACKEND", str(path), f"cannot be run ({type(e).__name__}: {e})", "Mend the file.") from e
     return module
 
@@ -71,9 +72,12 @@ def from_package(name: str) -> ModuleType:
     """An installed module. Raises InputError (E-BACKEND) where there is none."""
     try:
         return importlib.import_module(name)
-    except ImportError as e:
+    except ANYTHING as e:
         raise InputError(
-            "E-BACKEND", name, f"cannot be imported ({e})", "Install it, or give a file: path/to/file.py:Class."
+            "E-BACKEND",
+            name,
+            f"cannot be imported ({type(e).__name__}: {e})",
+            "Install it, or give a file: path/to/file.py:Class.",
         ) from e
 
 
@@ -81,8 +85,17 @@ def named(target: str) -> Any:
     """A backend registered in the entry-point group `rockref.backends`, made; None where there is none of that name."""
     for point in entry_points(group=GROUP):
         if point.name == target:
-            return made(point.load(), target)
+            return made(loaded(point), target)
     return None
+
+
+def loaded(point: Any) -> Any:
+    """What an entry point names. Raises InputError (E-BACKEND) where it cannot be imported."""
+    try:
+        return point.load()
+    except ANYTHING as e:
+        what = f"cannot be imported from {point.value} ({type(e).__name__}: {e})"
+        raise InputError("E-BACKEND", point.name, what, "Mend the package that registers it.") from e
 
 
 def made(thing: Any, target: str) -> Any:
@@ -91,7 +104,7 @@ def made(thing: Any, target: str) -> Any:
         return thing
     try:
         return thing()
-    except Exception as e:
+    except ANYTHING as e:
         what = f"cannot be made without arguments ({type(e).__name__}: {e})"
         raise InputError("E-BACKEND", target, what, "Give a class that can be called without arguments.") from e
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from rockref.conformance.fields import PARTS, RESULTS, Missing, result
 from rockref.conformance.rules import ORDER
-from rockref.conformance.vectors import Expected, Vector
+from rockref.conformance.vectors import Expected, Vector, problem_of
+from rockref.model.simulate import output_steps
 
 GRADES = ("bitwise", "inside", "look", "outside", "not shown", "not judged")
 #: A result within ten bars is inside "look": it passes, and is pointed out.
@@ -23,6 +24,7 @@ class Check:
 
     worst : deviation in bars where it is largest, at `index`; expected, bar, got : the numbers there
     follows : a decision in the same vector is wrong, so that this result says nothing about its own rule
+    weighed : whether there was an answer to weigh; one that is missing or of another shape speaks of no rule
     """
 
     vector: str
@@ -37,6 +39,7 @@ class Check:
     got: float | bool | None = None
     note: str = ""
     follows: bool = False
+    weighed: bool = True
 
     @property
     def failed(self) -> bool:
@@ -107,7 +110,7 @@ def compare_one(name: str, vector: Vector, out: dict[str, Any], profile: str) ->
     except Missing:
         return Check(**common, grade="not shown")
     except (TypeError, ValueError, IndexError) as e:
-        return Check(**common, grade="outside", worst=float("inf"), note=f"unusable answer: {e}")
+        return Check(**common, grade="outside", worst=float("inf"), note=f"unusable answer: {e}", weighed=False)
     flag = expected.value.dtype == bool
     bar = np.zeros(()) if flag and profile != "float32" else bar_of(expected, profile)
     if bar is None:
@@ -118,7 +121,7 @@ def compare_one(name: str, vector: Vector, out: dict[str, Any], profile: str) ->
             if got.shape != expected.value.shape
             else "is no number"
         )
-        return Check(**common, grade="outside", worst=float("inf"), note=note)
+        return Check(**common, grade="outside", worst=float("inf"), note=note, weighed=False)
     found = compare_flag(got, expected.value) if flag else compare_number(got, expected, bar)
     return Check(**common, **found)
 
@@ -127,6 +130,9 @@ def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> li
     """All expected results of a vector against one answer; an answer without a single result of its piece is none."""
     if all(out.get(name) is None for name in RESULTS[vector.piece]):
         return no_answer(vector, f"gives none of {', '.join(RESULTS[vector.piece])}")
+    said = wrong_shape(vector, out) if vector.piece == "simulate" else ""
+    if said:
+        return no_answer(vector, said)
     checks = [compare_one(name, vector, out, profile) for name in asked_for(vector, out)]
     if vector.piece == "simulate" and out.get("t") is not None:
         checks += rows_at_wrong_instants(vector, out["t"])
@@ -135,6 +141,22 @@ def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> li
         return checks
     dependent = ("F_T", "s", "F_stick", "F_slip", "s_stick", "s_slip")
     return [Check(**{**vars(c), "follows": True}) if c.failed and c.name in dependent else c for c in checks]
+
+
+def wrong_shape(vector: Vector, out: dict[str, Any]) -> str:
+    """What is wrong with the shape of the rows of a short run: N rows of 3 rates, 3 coordinates, a matrix 3 by 3, and
+    so on."""
+    rows, n = len(output_steps(problem_of(vector.inputs))), len(vector.inputs["P"])
+    right = {"W": (rows, 3), "x": (rows, 3), "Lambda": (rows, 3, 3), "F": (rows, n, 3), "anchored": (rows, n)}
+    for key, shape in right.items():
+        got: Any = out.get(key)
+        try:
+            found = shape if got is None else np.shape(got)
+        except ValueError:
+            return f"{key} has rows of different lengths"
+        if found != shape:
+            return f"{key} has shape {found}, not {shape}"
+    return ""
 
 
 def wrong_instants(got: Any, wanted: np.ndarray, step: float) -> str:
@@ -150,10 +172,9 @@ def wrong_instants(got: Any, wanted: np.ndarray, step: float) -> str:
 
 
 def rows_at_wrong_instants(vector: Vector, got: Any) -> list[Check]:
-    """A failure of S2 where the rows of a short run (one a step) are not at their instants."""
-    step = float(vector.inputs["step"])
-    wanted = step * np.arange(round(float(vector.inputs["duration"]) / step) + 1)
-    said = wrong_instants(got, wanted, step)
+    """A failure of S2 where the rows of a short run are not at their instants."""
+    problem = problem_of(vector.inputs)
+    said = wrong_instants(got, problem.step * output_steps(problem), problem.step)
     return [Check(vector.id, vector.layer, "S2", "t", "outside", float("inf"), note=said)] if said else []
 
 
@@ -169,7 +190,7 @@ def asked_for(vector: Vector, out: dict[str, Any]) -> list[str]:
 def no_answer(vector: Vector, note: str) -> list[Check]:
     """The checks of a vector to which there was no usable answer."""
     return [
-        Check(vector.id, vector.layer, e.rule, name, "outside", float("inf"), note=note)
+        Check(vector.id, vector.layer, e.rule, name, "outside", float("inf"), note=note, weighed=False)
         for name, e in vector.expect.items()
         if not e.instead_of
     ]

@@ -55,6 +55,7 @@ def rule_lines(v: Verdict) -> list[str]:
         "look": "pass (within ten bars)",
         "fail": "FAIL",
         "follows": "follows",
+        "no answer": "no usable answer",
         "not shown": "not shown",
     }
     return [
@@ -124,6 +125,8 @@ def run_lines(v: Verdict) -> list[str]:
 def neighbour_lines(v: Verdict) -> list[str]:
     """Similar mistakes of the zoo."""
     known = manifest()["mistakes"]
+    if v.alone:
+        return ["  no mistake of the zoo leaves similar traces"]
     return [
         f"  resembles {id_}, rule {known[id_]['rule']}: {known[id_]['says']} (cosine {cosine:.3f})"
         for id_, cosine in v.neighbours

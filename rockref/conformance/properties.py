@@ -179,7 +179,10 @@ def judge_one(
     @quiet
     @given(drawn)
     def holds(q: Any) -> None:
-        rule(backend, q)
+        try:
+            rule(backend, q)
+        except SystemExit as e:
+            raise RuntimeError(f"asked to end the program ({e})") from e
 
     sentence = (rule.__doc__ or rule.__name__).splitlines()[0]
     try:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.asking import as_mapping
+from rockref.conformance.asking import ANYTHING, as_mapping
 from rockref.conformance.compare import grade_of, in_bars, wrong_instants
 from rockref.conformance.vectors import Trajectory, trajectory, trajectory_names, window_names
 from rockref.model.problem import Problem
@@ -69,7 +69,10 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
         got = out.get(key)
         if got is None:
             continue
-        got = np.asarray(got)
+        try:
+            got = np.asarray(got)
+        except ValueError:
+            return replace(check, grade="outside", worst=np.inf, note=f"{key} has rows of different lengths")
         if got.dtype.kind not in "fiu" or got.shape != right.shape:
             return replace(check, grade="outside", worst=np.inf, note=f"{key} has shape {got.shape}, not {right.shape}")
         bar = bars[key].reshape((-1,) + (1,) * (right.ndim - 1))
@@ -144,13 +147,13 @@ def simulate(backend: Any, problems: list[Problem]) -> list[Any]:
     if hasattr(backend, "simulate_many") and len({alike(p) for p in problems}) == 1:
         try:
             return list(backend.simulate_many(problems))
-        except Exception:  # one of them spoils all: ask one by one
+        except ANYTHING:  # one of them spoils all: ask one by one
             pass
     answers: list[Any] = []
     for problem in problems:
         try:
             answers.append(backend.simulate(problem))
-        except Exception as e:
+        except ANYTHING as e:
             answers.append(e)
     return answers
 
@@ -176,7 +179,7 @@ def judge_runs(backend: Any, profile: str, report: Callable[[float], None] | Non
     for group in grouped([t.problem for t in asked]):
         answers = simulate(backend, [asked[i].problem for i in group])
         for i, answer in zip(group, answers, strict=True):
-            if isinstance(answer, Exception):
+            if isinstance(answer, ANYTHING):
                 note = f"{type(answer).__name__}: {answer}".splitlines()[0][:200]
                 found[i] = RunCheck(asked[i].id, asked[i].title, "outside", np.inf, note=note)
             else:

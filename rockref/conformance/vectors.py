@@ -41,7 +41,10 @@ class Expected:
 
 @dataclass(frozen=True)
 class Vector:
-    """One question put to one piece of a backend, with the answers."""
+    """One question put to one piece of a backend, with the answers.
+
+    place : of a short run: between which numbers it is judged, where that is not its own number
+    """
 
     id: str
     layer: str
@@ -55,6 +58,7 @@ class Vector:
     branch: dict[str, Any]
     margin: float | None = None
     resolving: dict[str, float] = field(default_factory=dict)
+    place: float | None = None
 
 
 @dataclass(frozen=True)
@@ -143,6 +147,7 @@ def vector_of(entry: dict[str, Any], sets: dict[str, Any]) -> Vector:
         entry["branch"],
         entry.get("margin"),
         entry.get("resolving", {}),
+        entry.get("place"),
     )
 
 

@@ -24,7 +24,8 @@ class Verdict:
     status : "PASS", "FAIL", or "NOTHING JUDGED"
     rule : the first wrong rule, None where it cannot be told; check : the vector that shows it
     run : the first run that diverges; rules : status of every rule; consequences : failed checks that come after
-    neighbours : mistakes of the zoo with a similar fingerprint, for a backend of which the pieces do not tell the rule
+    neighbours : mistakes of the zoo with a similar fingerprint, for a backend of which the pieces do not tell the rule;
+    alone : they were looked for, and there is none
     """
 
     status: str
@@ -36,6 +37,7 @@ class Verdict:
     rules: dict[str, str] = field(default_factory=dict)
     consequences: list[Check] = field(default_factory=list)
     neighbours: list[tuple[str, float]] = field(default_factory=list)
+    alone: bool = False
 
     @property
     def passed(self) -> bool:
@@ -44,14 +46,16 @@ class Verdict:
 
 
 def status_of_rules(checks: Sequence[Check]) -> dict[str, str]:
-    """By rule: fail, look, pass, or "not shown"."""
+    """By rule: fail, "no answer" (none that can be weighed), look, pass, or "not shown"."""
     found = {}
     for rule in RULES:
         own = [c for c in checks if c.rule == rule.id and c.grade not in ("not shown", "not judged")]
         if not own:
             found[rule.id] = "not shown"
-        elif any(c.failed for c in own):
+        elif any(c.failed and c.weighed for c in own):
             found[rule.id] = "fail"
+        elif any(c.failed for c in own):
+            found[rule.id] = "no answer"
         else:
             found[rule.id] = "look" if any(c.grade == "look" for c in own) else "pass"
     return found
@@ -116,9 +120,11 @@ def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None,
     return None, None, ""
 
 
-def answered(check: Check) -> bool:
-    """Whether there was a result to weigh."""
-    return check.expected is not None or check.grade in ("bitwise", "inside", "look")
+def unanswered(checks: Sequence[Check]) -> str:
+    """What is said where the first failure is no answer that can be weighed."""
+    if not any(c.weighed for c in checks if c.grade not in ("not shown", "not judged")):
+        return "No question was answered in a way that can be weighed: that speaks of no rule."
+    return "The first failure is an answer that is missing or of another shape: that speaks of no rule."
 
 
 def something_judged(findings: Findings) -> bool:
@@ -132,8 +138,8 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     """Weigh the findings. `backend` is asked once more for its fingerprint, where the pieces do not name the rule."""
     rules = status_of_rules(findings.checks)
     rule, check, says = suspect(findings.checks, findings.pieces)
-    if rule is not None and not any(answered(c) for c in findings.checks):
-        rule, says = None, "No question was answered in a way that can be weighed: that speaks of no rule."
+    if check is not None and not check.weighed:
+        rule, says = None, unanswered(findings.checks)
     bad_run = next((r for r in findings.runs if r.failed), None)
     bad_properties = [p for p in findings.properties if not p.holds] + [e for e in findings.effects if e.failed]
     status = (
@@ -151,16 +157,23 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
         and findings.profile != "scheme"
     ):
         found.rule, found.says = "S2", LOOP
-    if backend is not None and findings.profile == "float64" and "contact_law" not in findings.pieces:
+    silent = check is not None and not check.weighed
+    if backend is not None and findings.profile == "float64" and "contact_law" not in findings.pieces and not silent:
         resembling(found, backend)
     return found
 
 
 def resembling(found: Verdict, backend: Any) -> None:
-    """Add the nearest mistakes of the zoo; where one leaves the same deviations in all runs, its rule is named."""
+    """Add the nearest mistakes of the zoo, if there are similar ones.
+
+    Where one leaves the same deviations in all runs, its rule is named.
+    """
     from rockref.conformance.blackbox import SAME, fingerprint, neighbours
 
     found.neighbours = neighbours(fingerprint(backend), rule=found.rule)
+    if not found.neighbours:
+        found.alone = True
+        return
     nearest, cosine = found.neighbours[0]
     rule = manifest()["mistakes"][nearest]["rule"]
     if cosine >= SAME and rule != found.rule:

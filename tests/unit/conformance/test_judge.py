@@ -1,12 +1,14 @@
 """The judge: who is right passes, who is wrong is named, who misbehaves is told so."""
 
 import json
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from rockref import cli
 from rockref.conformance import in_files, in_words, vectors
 from rockref.conformance.backend import load
 from rockref.conformance.compare import compare, grade_of
@@ -169,7 +171,9 @@ class Broken:
         ),
         (lambda p: {"W": "soon"}, ""),
         (lambda p: None, ""),
-        (lambda p: {"W": np.zeros((7, 2))}, ""),
+        (lambda p: {"W": np.zeros((7, 2))}, "W has shape (7, 2), not"),
+        (lambda p: {"W": [[1, 2], [3]]}, "rows of different lengths"),
+        (lambda p: sys.exit(3), "SystemExit: 3"),
     ],
 )
 def test_unusable_answers_are_failures_not_errors(answer, said):
@@ -177,6 +181,40 @@ def test_unusable_answers_are_failures_not_errors(answer, said):
     assert not v.passed
     assert any(said in c.note for c in v.findings.failures)
     json.dumps(as_json(v), allow_nan=False)
+
+
+def turned(law, key):
+    """A backend whose rows lie along the last axis."""
+
+    def simulate(problem):
+        out = vars(law.simulate(problem))
+        return {k: out[k] for k in ("W", "x", "Lambda")} | {key: np.moveaxis(out[key], 0, -1)}
+
+    return Broken(simulate)
+
+
+@pytest.mark.parametrize("key", ["W", "x", "Lambda"])
+def test_rows_of_another_shape_speak_of_no_rule(key):
+    v = verdict(judge(turned(NumpyEngine(), key), ["L5s"]))
+    assert v.rule is None and f"{key} has shape" in v.check.note and "speaks of no rule" in v.says
+    assert set(v.rules.values()) <= {"no answer", "not shown", "pass", "fail"} and v.rules["S2"] == "no answer"
+
+
+def ended(words):
+    """The exit code of a command."""
+    with pytest.raises(SystemExit) as end:
+        cli.main(words)
+    return end.value.code
+
+
+def test_a_backend_that_asks_to_end_the_program_has_failed(tmp_path, capsys):
+    path = tmp_path / "exits.py"
+    path.write_text("import sys\nclass Backend:\n    def simulate(self, problem):\n        sys.exit(0)\n")
+    assert ended(["conform", f"{path}:Backend", "--layers", "L5s,L6"]) == 1
+    assert "SystemExit" in capsys.readouterr().out
+    path.write_text("import sys\nsys.exit(0)\n")
+    assert ended(["conform", f"{path}:Backend", "--quick"]) == 2
+    assert "SystemExit" in capsys.readouterr().err
 
 
 def test_a_backend_without_simulate_is_refused():

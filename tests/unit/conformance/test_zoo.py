@@ -4,12 +4,13 @@ import json
 
 import pytest
 
-from rockref.conformance import blackbox, vectors
+from rockref.conformance import blackbox, in_words, vectors
 from rockref.conformance.judge import judge
 from rockref.conformance.runs import judge_runs
 from rockref.conformance.verdict import verdict
+from rockref.conformance.zoo import run as zoo_run
 from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
-from rockref.conformance.zoo.run import case_of_control, case_of_mistake, in_markdown, in_words, run_zoo, summary
+from rockref.conformance.zoo.run import case_of_control, case_of_mistake, in_markdown, run_zoo, summary
 
 #: The share of mistakes that must be named by the planted rule, with pieces shown and as a black box (top two).
 WITH_PIECES, BLACK_BOX = 0.95, 0.80
@@ -55,7 +56,7 @@ def test_the_summary_counts_the_cases():
     assert set(found) == {*keys, "attributed_black_box_unknown", "cases"}
     assert [found[k] for k in keys] == [1, 1, 1, 1, 1, 0]
     json.dumps(found, allow_nan=False)
-    assert "detected 1/1" in in_words(found) and "| Z01 | N1 |" in in_markdown(found)
+    assert "detected 1/1" in zoo_run.in_words(found) and "| Z01 | N1 |" in in_markdown(found)
 
 
 @pytest.mark.parametrize("id_", ["Z02", "Z12", "Z25", "Z27", "Z81"])
@@ -65,8 +66,27 @@ def test_a_black_box_resembles_its_own_mistake(id_):
 
 
 def test_the_law_itself_resembles_nobody():
-    near = blackbox.neighbours(blackbox.fingerprint(CONTROLS[0].backend()))
-    assert near[0][1] == 0.0
+    assert blackbox.neighbours(blackbox.fingerprint(CONTROLS[0].backend())) == []
+
+
+def test_what_leaves_no_similar_traces_is_said_to_be_alone():
+    class Sleeper:
+        """All feet are soft, from the second step on: no mistake of the zoo."""
+
+        def simulate(self, problem):
+            out = vars(CONTROLS[0].backend().simulate(problem))
+            return {k: out[k] for k in ("t", "x", "Lambda")} | {"W": out["W"] + [1e-9, 0, 0]}
+
+    v = verdict(judge(Sleeper(), ["L5s"]), Sleeper())
+    assert v.status == "FAIL" and v.neighbours == [] and v.alone
+    assert "no mistake of the zoo leaves similar traces" in in_words.text(v)
+
+
+def test_similar_mistakes_are_told_in_order():
+    marks = blackbox.fingerprint(BY_ID["Z57"].backend())
+    for rule in (None, "T4", "T3", "A1"):
+        cosines = [cosine for _, cosine in blackbox.neighbours(marks, ("Z57",), rule=rule)]
+        assert cosines == sorted(cosines, reverse=True) and min(cosines) >= blackbox.SIMILAR
 
 
 @pytest.mark.slow
