@@ -4,8 +4,10 @@ failed."""
 from __future__ import annotations
 
 import json
+import os
 import queue
 import shlex
+import signal
 import subprocess
 import threading
 import time
@@ -20,6 +22,8 @@ from rockref.model.problem import Problem
 #: Seconds that a program may take to start, to answer a small question, and to finish a run; decided, to be changed on
 #: the command line.
 START, SMALL, LONG = 20.0, 10.0, 600.0
+#: Runs of so many steps at most are small questions: the short runs have a dozen, a window has two thousand.
+FEW_STEPS = 100
 #: A piece whose questions have ended so many times in a crash, in silence or in rubbish is not asked again.
 PATIENCE = 3
 #: So many lines that are no JSON object are passed over before an answer; decided.
@@ -79,7 +83,9 @@ class Executable:
 
     def simulate(self, problem: Problem) -> dict[str, Any]:
         """A run."""
-        return self._run(jsonlines.of_problem(self._new_id(), "simulate", problem), self.long)
+        few = problem.duration <= FEW_STEPS * problem.step
+        request = jsonlines.of_problem(self._new_id(), "simulate", problem)
+        return self._run(request, self.small if few else self.long)
 
     def _run(self, request: dict[str, Any], patience: float) -> Any:
         piece = request["piece"]
@@ -116,6 +122,8 @@ class Executable:
                 stderr=subprocess.PIPE,
                 text=True,
                 errors="replace",
+                # A group of its own: what the program starts (a shell, mpirun) is ended with it.
+                start_new_session=True,
             )
         except OSError as e:
             raise InputError(
@@ -170,19 +178,37 @@ class Executable:
         return f"ended (exit code {code})" + (f", saying {said!r}" if said else "")
 
     def close(self) -> None:
-        """End the program, if it runs."""
+        """End the program and what it has started, if it runs.
+
+        Its pipes are closed by the threads that read them: whoever still holds their other end must not hold us.
+        """
         if self.process is None:
             return
         process, self.process = self.process, None
-        if process.poll() is None:
-            process.kill()
-        process.wait()
-        for pipe in (process.stdin, process.stdout, process.stderr):
-            try:
-                if pipe is not None:
-                    pipe.close()
-            except OSError:
-                pass
+        _end_group(process)
+        try:
+            process.wait(timeout=5)
+        except subprocess.TimeoutExpired:
+            pass
+        threading.Thread(target=_close, args=(process.stdin,), daemon=True).start()
+
+
+def _end_group(process: subprocess.Popen[str]) -> None:
+    """End a program with all of its group; also where it has ended itself and left children behind."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except AttributeError:  # no groups on this system
+        process.kill()
+    except (ProcessLookupError, PermissionError):
+        pass
+
+
+def _close(pipe: Any) -> None:
+    """Close a pipe."""
+    try:
+        pipe.close()
+    except (OSError, ValueError):
+        pass
 
 
 def _and(rubbish: list[str]) -> str:
@@ -207,6 +233,7 @@ def _pump(pipe: Any, lines: queue.Queue[str | None]) -> None:
     except (OSError, ValueError):
         pass
     lines.put(None)
+    _close(pipe)
 
 
 def _keep(pipe: Any, complaints: list[str]) -> None:
@@ -217,3 +244,4 @@ def _keep(pipe: Any, complaints: list[str]) -> None:
             del complaints[:-20]
     except (OSError, ValueError):
         pass
+    _close(pipe)

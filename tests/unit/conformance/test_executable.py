@@ -2,13 +2,15 @@
 
 import sys
 import textwrap
+import time
 from pathlib import Path
 
 import pytest
 
-from rockref.conformance import in_words
+from rockref.conformance import in_words, vectors
 from rockref.conformance.executable import Executable, Misbehaved
 from rockref.conformance.judge import judge
+from rockref.conformance.vectors import problem_of
 from rockref.conformance.verdict import verdict
 from rockref.model.errors import InputError
 
@@ -41,14 +43,20 @@ def test_in_single_precision_it_passes_its_own_profile(compiled):
     assert not judged(path).passed
 
 
+ONLY_RUNS = '{"protocol":1,"name":"odd","capabilities":["simulate"]}'
 START = 'print(\'{"protocol":1,"name":"odd","capabilities":["contact_law"]}\', flush=True)'
+
+
+def program_text(body):
+    """Lines of a program that starts well; `body` is what it does with each further line (in `line`)."""
+    text = ["import json, sys, time", "first = sys.stdin.readline()", START, "for line in sys.stdin:"]
+    return [*text, textwrap.indent(textwrap.dedent(body), "    "), ""]
 
 
 def program(tmp_path, body):
     """A program that starts well; `body` is what it does with each further line (in `line`)."""
     path = tmp_path / "odd.py"
-    text = ["import json, sys, time", "first = sys.stdin.readline()", START, "for line in sys.stdin:"]
-    path.write_text("\n".join(text) + "\n" + textwrap.indent(textwrap.dedent(body), "    ") + "\n")
+    path.write_text("\n".join(program_text(body)))
     return [sys.executable, str(path)]
 
 
@@ -103,6 +111,54 @@ def test_who_is_silent_three_times_is_not_asked_again(tmp_path):
             backend._run({"cmd": "run", "id": str(i), "piece": "contact_law", "in": {}}, 0.2)
         notes.append(str(told.value))
     assert sum("no answer" in n for n in notes) == 3 and sum("not asked any more" in n for n in notes) == 2
+
+
+def test_what_a_program_has_started_is_ended_with_it(tmp_path):
+    # A shell that waits for a child, as around mpirun: the child holds the pipes.
+    path = tmp_path / "wrapper.sh"
+    lines = ["read l", f"echo '{ONLY_RUNS}'", "read l", "sleep 300 & echo $! > child", "wait"]
+    path.write_text("\n".join(lines))
+    begin = time.monotonic()
+    backend = Executable(["sh", "-c", f"cd {tmp_path} && . ./wrapper.sh"], small=0.5)
+    v = verdict(judge(backend, ["L5s"]), backend)
+    backend.close()
+    assert time.monotonic() - begin < 20
+    assert v.rule is None and "no answer within 0.5 s" in v.check.note and not v.neighbours
+    child = int((tmp_path / "child").read_text())
+    deadline = time.monotonic() + 5
+    while running(child) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not running(child)
+
+
+def running(pid):
+    """Whether a process is there and not only waits to be buried."""
+    stat = Path(f"/proc/{pid}/stat")
+    return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+def test_short_runs_are_given_the_time_of_small_questions(tmp_path):
+    backend = Executable(program(tmp_path, "time.sleep(60)"), small=0.3, long=60.0)
+    begin = time.monotonic()
+    with pytest.raises(Misbehaved, match="no answer within 0.3 s"):
+        backend.simulate(problem_of(vectors.layer("L5s")[0].inputs))
+    backend.close()
+    assert time.monotonic() - begin < 20
+
+
+def test_one_missing_answer_speaks_of_no_rule(tmp_path):
+    body = """
+        from rockref.conformance.jsonlines import answer, line as written
+        from rockref.conformance.law_backend import NumpyEngine
+        q = json.loads(line)
+        print(written(answer(NumpyEngine(), q) if q["id"] != "q1" else {"id": "?"}), end="", flush=True)
+    """
+    text = "\n".join(program_text(body)).replace('["contact_law"]', '["simulate"]')
+    (tmp_path / "odd.py").write_text(text)
+    backend = Executable([sys.executable, str(tmp_path / "odd.py")])
+    v = verdict(judge(backend, ["L5s"]))
+    backend.close()
+    assert v.status == "FAIL" and v.rule is None and "answer that is missing" in v.says
 
 
 @pytest.mark.parametrize("command", [["./no_such_program"], [sys.executable, "-c", "print('hello')"], ["true"]])
