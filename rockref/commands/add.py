@@ -13,7 +13,7 @@ def register(app: typer.Typer) -> None:
 
 
 def add(
-    effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`.")],
+    effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`, or file.py:Class.")],
     experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
     model: Annotated[
         str | None, typer.Option("--model", "-m", help="What it is added to, a model.toml. Default: the baseline.")

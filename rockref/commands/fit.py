@@ -16,7 +16,8 @@ def fit(
     experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
     output: Annotated[Path, typer.Option("--output", "-o", help="Where the model goes, a .toml.")] = Path("model.toml"),
     effect: Annotated[
-        list[str] | None, typer.Option("--effect", "-e", help="Id of an effect to fit along; may be repeated.")
+        list[str] | None,
+        typer.Option("--effect", "-e", help="An effect to fit along, id or file.py:Class; may be repeated."),
     ] = None,
     model: Annotated[str | None, typer.Option("--model", "-m", help="Start from this model.toml.")] = None,
     gates: Annotated[bool, typer.Option("--gates/--no-gates", help="Check the fit; costs as much again.")] = True,
@@ -35,6 +36,7 @@ def fit(
     Example:
       rockref fit data/experiments/mystery-08 -o model.toml
       rockref fit data/experiments/mystery-01 --effect quadratic_drag -o with_drag.toml
+      rockref fit data/experiments/mystery-08 --effect examples/my_effect.py:EddyBrake
       rockref fit data/experiments/mystery-08 --json > fit.json
 
     A folder of tosses is fitted too, with --effect, --model, -o, -v and --json; see `rockref compare`.

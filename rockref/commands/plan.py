@@ -18,7 +18,8 @@ def plan(
         str, typer.Option("--runs", help="Tilts in rad; x3 repeats, t turns the block: 0.117x3,0.098,0.117t.")
     ] = "0.117x3,0.098,0.117t",
     effect: Annotated[
-        list[str] | None, typer.Option("--effect", "-e", help="Candidate; may be repeated. Default: the catalogue.")
+        list[str] | None,
+        typer.Option("--effect", "-e", help="Candidate, id or file.py:Class; may be repeated. Default: the catalogue."),
     ] = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
     seed: Annotated[int, typer.Option(help="Seed of the simulated noise.")] = 0,

@@ -125,7 +125,8 @@ def add(
 
     Parameters
     ----------
-    effect : id; path : experiment folder; model : what it is added to (None: the baseline of the experiment)
+    effect : id or path/to/file.py:Class; path : experiment folder
+    model : what it is added to (None: the baseline of the experiment)
     seed, workers, end, progress : as in `rockref.discover.fitting.fit_experiment`.
 
     Raises
@@ -135,7 +136,7 @@ def add(
     """
     begun = time.perf_counter()
     say = progress or (lambda line: None)
-    catalogue.find(effect)
+    effect = catalogue.find(effect).id
     experiment = usable(load_experiment(path, uses=(FIT,)))
     base = baseline_model(experiment, model)
     own = tuple(e.id for e in base.active_effects())

@@ -37,7 +37,7 @@ FACTORS = {
     "uneven_foot_friction": 0.3,
     "stribeck_friction": 0.4,
 }
-#: Effects that are absent at infinity: found as the inverse of their parameter.
+#: Effects that are absent at infinity: found as the inverse of their parameter (as a user's own that are).
 INVERSE = ("gyro_bandwidth", "gyro_saturation")
 #: Parameters that are typically none, and what counts as their typical size (decided: half a kilogram more at one
 #: corner makes products of inertia of 0.02 with the long axis; axes half a degree from square).
@@ -58,8 +58,13 @@ def current(model: Model, kind: type[Effect]) -> Effect:
     for effect in model.effects:
         if effect.id == kind.id:
             return effect
-    shape = {k: q.typical for k, q in kind.quantities.items() if (kind.id, k) in SHAPES}
+    shape = {k: q.typical for k, q in kind.quantities.items() if (kind.id, k) in SHAPES or is_kept(kind, k)}
     return kind(**shape)
+
+
+def is_kept(kind: type[Effect], key: str) -> bool:
+    """Whether a parameter of a user's own effect does not bring it in: no fit moves it, it stays typical."""
+    return kind.file is not None and kind.switches is not None and key not in kind.switches
 
 
 def with_effect(model: Model, effect: Effect) -> Model:
@@ -85,7 +90,8 @@ def parameters_of(kind: type[Effect], runs: int, frequency: float | None = None)
     if kind.id == "base_vibration":
         return vibration_parameters(kind, runs, frequency)
     found = []
-    switches = [k for k in kind.quantities if (kind.id, k) not in SHAPES and (kind.id, k) not in FIXED]
+    still = [k for k in kind.quantities if (kind.id, k) in FIXED or is_kept(kind, k)]
+    switches = [k for k in kind.quantities if (kind.id, k) not in SHAPES and k not in still]
     shapes = [k for k in kind.quantities if (kind.id, k) in SHAPES]
     for key in [*switches, *shapes]:
         found.append(parameter_of(kind, key, kind.quantities[key]))
@@ -102,12 +108,21 @@ def parameter_of(kind: type[Effect], key: str, q: Quantity) -> Parameter:
         return make(setter(kind, key), 1.0, FACTORS[kind.id], log=True, prior=PRIOR)
     if kind.id == "compliant_support":
         return make(support_setter(kind), 0.0, 1.0, low=0.0, prior=PRIOR)
-    if kind.id in INVERSE:
+    if is_inverse(f"{kind.id}.{key}"):
         return make(inverse_setter(kind, key), 0.0, 1 / typical, low=0.0, prior=PRIOR)
     low = absent if q.sign == "+" else q.least
     if (kind.id, key) in SELDOM:
         return make(setter(kind, key), absent, SELDOM[kind.id, key], prior=SELDOM_PRIOR, low=low, high=q.most)
-    return make(setter(kind, key), absent, abs(typical - absent), prior=PRIOR, low=low, high=q.most)
+    # A user's own may have a parameter that is typically none: then a quarter of its plausible range.
+    size = abs(typical - absent) or (q.high - q.low) / 4
+    return make(setter(kind, key), absent, size, prior=PRIOR, low=low, high=q.most)
+
+
+def is_inverse(name: str) -> bool:
+    """Whether a parameter, by its name in a fit ("gyro_bandwidth.frequency"), is found as its inverse."""
+    id, _, key = name.partition(".")
+    q = catalogue.OWN[id].quantities.get(key) if id in catalogue.OWN else None
+    return id in INVERSE or (q is not None and q.absent == math.inf)
 
 
 def inverse_setter(kind: type[Effect], key: str):
@@ -165,7 +180,7 @@ def value_of(parameter: Parameter, z: float) -> float:
     if parameter.name == "compliant_support.frequency":
         typical = float(catalogue.EFFECTS["compliant_support"].quantities["frequency"].typical or 60.0)
         return typical / v**0.5 if v > 1e-3 else 0.0
-    if parameter.name.split(".")[0] in INVERSE:
+    if is_inverse(parameter.name):
         return 1 / v if v > 0 else float("inf")
     return v
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.candidates import value_of
+from rockref.discover.candidates import is_inverse, value_of
 from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.intervals import half_widths
 from rockref.discover.provenance import versions
@@ -128,6 +128,6 @@ def inner_value(effect: Effect, key: str, parameter: Parameter) -> float:
         typical = type(effect).quantities[key].typical
         assert typical is not None
         return (typical / value) ** 2 if value > 0 else 0.0
-    if effect.id in ("gyro_bandwidth", "gyro_saturation"):
+    if is_inverse(parameter.name):
         return 1 / value if np.isfinite(value) and value > 0 else 0.0
     return value

@@ -74,10 +74,12 @@ class Fitted:
         }
 
 
-def known_effects(ids: tuple[str, ...]) -> tuple[str, ...]:
-    """The ids, each once. Raises InputError (E-EFFECT) for one that nobody knows."""
-    for id in ids:
-        catalogue.find(id)
+def known_effects(effects: tuple[str, ...]) -> tuple[str, ...]:
+    """The ids of effects that are named by id or, a user's own, by path/to/file.py:Class.
+
+    Raises InputError (E-EFFECT, E-FILE) for one that nobody knows, cannot be used, or is given twice.
+    """
+    ids = tuple(catalogue.find(name).id for name in effects)
     if len(set(ids)) != len(ids):
         raise InputError("E-EFFECT", "--effect", f"{', '.join(ids)}: one is given twice", "Give each once.")
     return ids
@@ -98,7 +100,8 @@ def fit_experiment(
     Parameters
     ----------
     path : experiment folder; model : starts from it in place of the nominal baseline
-    effects : to be fitted along; None lets the release decide whether a sensor error or a shaking base comes along
+    effects : to be fitted along, ids or file.py:Class; None lets the release decide whether a sensor error or a shaking
+        base comes along
     seed : of the random restarts; workers : threads; end : seconds used of each run
     check : go through the gates (costs about as much as the fit); progress : called with a line at every stage.
 

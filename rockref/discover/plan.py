@@ -330,8 +330,9 @@ def plan(
 
     Parameters
     ----------
-    model : of the block; runs : planned releases; effects : ids of the candidates (None: the catalogue, without a
-    shaking base and a clipped record); gyro, tilt_uncertainty : of the campaign; duration : seconds used of each run.
+    model : of the block; runs : planned releases; effects : candidates by id or file.py:Class (None: the catalogue,
+    without a shaking base and a clipped record); gyro, tilt_uncertainty : of the campaign; duration : seconds used of
+    each run.
 
     Raises
     ------

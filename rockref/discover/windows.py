@@ -14,6 +14,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.clipped import unclipped
+from rockref.discover.own_windows import own_of, run_own
 from rockref.discover.reconstruct import (
     attitudes,
     corner_starts,
@@ -187,12 +188,13 @@ class Series:
         self._rates: dict = {}
         self._rows = np.empty((0, col.STATE))
         self._prepared: tuple | None = None
+        self._releases: list[Problem] = []
         self._carried = np.zeros((self.B, 2))
 
     def twin(self) -> Series:
         """The same windows for another thread: what is kept from call to call is its own."""
         other = copy.copy(self)
-        other._rates, other._prepared = dict(self._rates), None
+        other._rates, other._prepared, other._releases = dict(self._rates), None, []
         other._rows, other._carried = np.empty((0, col.STATE)), self._carried.copy()
         return other
 
@@ -212,7 +214,8 @@ class Series:
         """All windows but for their corrections; the last answer is kept, since corrections move far more often.
 
         body, P, props, effects rows, attitude, rates, standing orientation and place, release state and memory, and
-        the turn in spin of the carrying point and the motion of the plate under it.
+        the turn in spin of the carrying point and the motion of the plate under it. With a user's own effect the
+        releases are kept as problems, too.
         """
         key = (tuple(id(m) for m in models), tilt.tobytes())
         if self._prepared is not None and self._prepared[0] == key:
@@ -222,6 +225,7 @@ class Series:
         effects, state = np.empty((B, slots.SLOTS)), np.zeros((B, col.STATE))
         memory, Lambda, W = np.zeros((B, n, col.MEMORY)), np.empty((B, 3, 3)), np.empty((B, 3))
         upright, place, yaw, plate = np.empty((B, 3, 3)), np.empty((B, 3)), np.zeros(B), np.zeros((B, 2))
+        releases: list[Problem] = []
         for i, run in enumerate(self.runs):
             turned = bool(run.block_turned)
             roll = float(models[i].origin.get("roll_offset", 0.0))
@@ -229,7 +233,10 @@ class Series:
             problem = pack.with_memory(models[i].problem(duration=1.0, **start_of))
             at = np.flatnonzero(self.run_of == i)
             body[at], P[at], props[at] = pack.body_row(problem), problem.points.P, pack.props_rows(problem)
-            effects[at] = pack.effects_row(problem)
+            if own_of(problem.effects):
+                releases.append(problem)
+            else:
+                effects[at] = pack.effects_row(problem)
             w, smooth = self.rates(i, sensor)
             start = problem.start
             L = attitudes(np.ascontiguousarray(start.Lambda), w, sensor.clock / self.rate)
@@ -246,8 +253,15 @@ class Series:
                     self.start[at]
                 ]
         result = (body, P, props, effects, Lambda, W, upright, place, state, memory, yaw, plate)
-        self._prepared = (key, models, result)
+        self._prepared, self._releases = (key, models, result), releases
         return result
+
+    def stepped(self, batch: Batch, which: np.ndarray) -> np.ndarray:
+        """States of the windows `which` at the steps that are wanted, (len(which), R, STATE)."""
+        out = self._buffer(len(which), batch.wanted.shape[1])
+        if self._releases:
+            return run_own(batch, self._releases, self.run_of[which], out)
+        return run_batch(batch, self.workers, out=out)
 
     def counted(self, which: np.ndarray, upto: np.ndarray) -> np.ndarray:
         """Sample values of the windows `which` that count among their first `upto` samples, (len(which),)."""
@@ -280,7 +294,7 @@ class Series:
             return False
         sensor = sensor_of(models[0])
         batch = self.batch(models, tilt, corrections, np.arange(self.B), sensor, self.length)
-        states = run_batch(batch, self.workers, out=self._buffer(self.B, batch.wanted.shape[1]))
+        states = self.stepped(batch, np.arange(self.B))
         ends = states[np.arange(self.B), self.length * self.ROWS_PER_SAMPLE][:, col.Q : col.Q_RATE + 1]
         follows = np.flatnonzero((self.stop[:-1] == self.start[1:]) & (self.run_of[:-1] == self.run_of[1:])) + 1
         plate = self.prepared(models, tilt, sensor)[-1]
@@ -293,7 +307,7 @@ class Series:
         length = self.length[which] if upto is None else np.minimum(upto, self.length[which])
         s = sensor_of(models[0])
         batch = self.batch(models, tilt, corrections, which, s, length)
-        states = run_batch(batch, self.workers, out=self._buffer(len(which), batch.wanted.shape[1]))
+        states = self.stepped(batch, which)
         step = 1 / self.rate / self.ROWS_PER_SAMPLE
         follows = np.zeros(len(which), bool)
         slow = None

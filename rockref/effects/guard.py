@@ -44,9 +44,15 @@ def guarded(hook: Callable, spec: str, name: str) -> Callable:
             raise
         except (Exception, SystemExit) as e:
             what = f"fails: {type(e).__name__}: {e}"
+            cure = f"Use np.exp, np.cos in place of math's: times may be an array, one a run. {AXES}"
+            cure = cure if isinstance(e, TypeError) and "Python scalars" in str(e) else f"Mend the line. {AXES}"
             line = line_in(e, Path(spec.rpartition(":")[0]))
-            raise InputError("E-EFFECT", f"{spec}.{name}{line}", what, f"Mend the line. {AXES}") from e
-        LOOKS[name](f"{spec}.{name}", arguments, result)
+            raise InputError("E-EFFECT", f"{spec}.{name}{line}", what, cure) from e
+        try:
+            LOOKS[name](f"{spec}.{name}", arguments, result)
+        except NotFinite:
+            if are_finite(arguments):  # else the numbers were lost before: the engine says where
+                raise
         return result
 
     return looked_over
@@ -58,6 +64,18 @@ def line_in(error: BaseException, path: Path) -> str:
         f.lineno for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).resolve() == path.resolve()
     ]
     return f", line {lines[-1]}" if lines else ""
+
+
+class NotFinite(InputError):
+    """A result that holds a number that is not finite."""
+
+
+def are_finite(things: Any) -> bool:
+    """Whether all arrays among these arguments of a hook are finite, (F, k, points, m) for example."""
+    if isinstance(things, (np.ndarray, float)):
+        return np.asarray(things).dtype.kind != "f" or bool(np.all(np.isfinite(things)))
+    inside = things.values() if isinstance(things, dict) else things if isinstance(things, tuple) else ()
+    return all(are_finite(thing) for thing in inside)
 
 
 def wrong(where: str, what: str, cure: str) -> InputError:
@@ -77,7 +95,8 @@ def numbers(where: str, key: str, a: Any, shape: tuple[int, ...]) -> None:
     if array.shape != shape:
         raise wrong(where, f"{key} has shape {array.shape}, the law's has {shape}", AXES)
     if not finite:
-        raise wrong(where, f"{key} holds a number that is not finite", "Look for 0/0, roots and powers of negatives.")
+        what, cure = f"{key} holds a number that is not finite", "Look for 0/0, roots and powers of negatives."
+        raise NotFinite("E-EFFECT", where, what, cure)
 
 
 def pair(where: str, given: Any) -> tuple[Any, Any]:

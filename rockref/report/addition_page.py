@@ -15,7 +15,7 @@ from rockref.report.page import Page
 def addition_page(a: Addition) -> Page:
     """Return the page."""
     page = Page(f"{a.experiment.name}: {a.effect} added", " ".join(lines(a)))
-    page.add_section("What was added", catalogue.EFFECTS[a.effect].sentence)
+    page.add_section("What was added", catalogue.find(a.effect).sentence)
     page.add_table(estimates_table([e for e in a.estimates if e.of_effect and e.of_run is None]))
     add_errors(page, a)
     page.add_section("All numbers of the model")

@@ -41,7 +41,9 @@ class BaseVibration(Effect):
     def body_wrench(self, problem, c, x, Lambda, v, W, m):
         if self.is_absent():
             return None
-        size = -problem.block.mass * self.amplitude * math.cos(2 * math.pi * self.frequency * c.t + self.phase)
+        # math's cos for one time, so that a run keeps its bits; windows of a fit have a time each.
+        cosine = (np.cos if np.ndim(c.t) else math.cos)(2 * math.pi * self.frequency * c.t + self.phase)
+        size = -problem.block.mass * self.amplitude * cosine
         F = np.zeros_like(x)
         F[..., 0], F[..., 1] = size * math.sin(self.direction), size * math.cos(self.direction)
         return F, np.zeros_like(x)

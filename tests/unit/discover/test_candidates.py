@@ -1,16 +1,26 @@
 """Effects as numbers that a fit moves: absent at zero, typical at one, and back."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from rockref import Model
+from rockref import InputError, Model
+from rockref.discover import plan as planning
 from rockref.discover.candidates import FACTORS, FIXED, SELDOM, SHAPES, kinds, parameters_of, value_of
 from rockref.discover.fit import baseline_parameters
 from rockref.discover.fitted import start_from, z_of
+from rockref.discover.fitting import known_effects
 from rockref.effects import catalogue
 
 TABLE = Model.table_3_1()
 PLAIN = [kind for kind in catalogue.IN_STEP_ORDER if kind.id != "base_vibration"]
+
+
+@pytest.fixture(autouse=True)
+def no_others(monkeypatch):
+    """What a test tells the process about effects of its own is forgotten after it."""
+    monkeypatch.setattr(catalogue, "OWN", {})
 
 
 def put(kind, z: float) -> Model:
@@ -78,3 +88,69 @@ def test_each_run_of_a_shaking_base_has_its_own_phase():
     (effect,) = model.active_effects()
     size = kind.quantities["amplitude"].typical
     assert effect.amplitude == pytest.approx(np.sqrt(2) * size) and effect.phase == pytest.approx(-np.pi / 4)
+
+
+EXAMPLE = Path(__file__).resolve().parents[3] / "examples/my_effect.py"
+OWN = """
+import math
+from dataclasses import dataclass
+from rockref.effects.base import Effect, Quantity
+
+@dataclass(frozen=True)
+class Mine(Effect):
+    id = "mine"
+    quantities = {
+        "range": Quantity("rad/s", math.inf, 0.1, 10.0, 0.5),
+        "push": Quantity("N", 0.0, -2.0, 2.0, 0.0),
+        "shape": Quantity("1", 2.0, 1.0, 4.0, 3.0),
+    }
+    switches = ("range", "push")
+    range: float = math.inf
+    push: float = 0.0
+    shape: float = 2.0
+
+    def sensor(self, t, crv):
+        return crv / (1 + abs(crv / self.range) ** self.shape) + self.push
+"""
+
+
+def test_a_users_own_effect_is_a_candidate_like_any_other():
+    """Named by its file once, it is known by its id: what fit, add and plan ask for."""
+    (id,) = known_effects((f"{EXAMPLE}:EddyBrake",))
+    kind = catalogue.find(id)
+    (p,) = parameters_of(kind, 6)
+    assert (id, p.name, p.unit, p.low) == ("eddy_brake", "eddy_brake.c", "N m s", 0.0)
+    assert put(kind, 0.0).active_effects() == ()
+    assert put(kind, 1.0).active_effects() == (kind(0.05),)
+    assert start_from((p,), put(kind, 0.5)) == pytest.approx([0.5])
+    with pytest.raises(InputError, match="given twice"):
+        known_effects((id, f"{EXAMPLE}:EddyBrake"))
+
+
+def test_numbers_of_a_users_own_that_are_infinite_none_or_only_shape(tmp_path):
+    """Found as an inverse; in quarters of the range; not moved, but typical."""
+    (tmp_path / "mine.py").write_text(OWN, encoding="utf-8")
+    kind = catalogue.find(f"{tmp_path / 'mine.py'}:Mine")
+    parameters = parameters_of(kind, 1)
+    assert [p.name for p in parameters] == ["mine.range", "mine.push"]
+    assert put(kind, 0.0).active_effects() == ()
+    assert put(kind, 0.5).active_effects() == (kind(range=1.0, push=0.5, shape=3.0),)
+    assert [value_of(p, 0.5) for p in parameters] == [1.0, 0.5]
+    np.testing.assert_allclose(start_from(parameters, put(kind, 0.5)), [0.5, 0.5])
+
+
+def test_one_who_fits_or_plans_may_name_a_file(monkeypatch):
+    """`plan` asks every release about the class that the file has."""
+    asked = []
+
+    class Enough(Exception):
+        pass
+
+    def says(model, release, effects, *rest, **more):
+        asked.append([kind.id for kind in effects])
+        raise Enough
+
+    monkeypatch.setattr(planning, "says", says)
+    with pytest.raises(Enough):
+        planning.plan(TABLE, [planning.Release(0.117)], [f"{EXAMPLE}:EddyBrake", "quadratic_drag"])
+    assert asked == [["eddy_brake", "quadratic_drag"]]

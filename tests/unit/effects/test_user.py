@@ -7,7 +7,9 @@ import pytest
 
 from rockref import InputError, Model, cli, simulate
 from rockref.effects import catalogue
+from rockref.effects.probe import sample_problem
 from rockref.effects.user import load_user
+from rockref.model.integrator import evaluate_contact
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/my_effect.py"
 HEAD = """
@@ -254,6 +256,30 @@ def test_mistakes_that_show_in_the_run_name_the_hook(tmp_path, capsys, mistake):
     err = capsys.readouterr().err
     assert end.value.code == 2
     assert f"{spec}.body_wrench" in err and said in err and "Traceback" not in err
+
+
+def test_numbers_that_were_lost_before_are_no_mistake_of_the_hook(tmp_path):
+    """A run that blows up, as one of many in a search may, is the engine's to tell."""
+    kind = load_user(written(tmp_path, HOOK))
+    lost = np.full((7, 3), np.nan)
+    assert np.all(np.isnan(kind(1.0).sensor(np.arange(7.0), lost)))
+    with pytest.raises(InputError, match="not finite"):
+        kind(1e308).sensor(np.arange(7.0), np.full((7, 3), 1e308))
+
+
+def test_a_time_for_each_run_wants_arrays(tmp_path):
+    """math's functions take one number: the author is told what to write."""
+    text = (
+        "    def body_wrench(self, problem, c, x, Lambda, v, W, m):\n        import math\n"
+        "        return self.c * math.exp(-c.t) * v, np.zeros_like(x)\n"
+    )
+    kind = load_user(written(tmp_path, text))
+    problem = sample_problem()
+    c = evaluate_contact(
+        problem, problem.start, *(getattr(problem.start, k) for k in ("x", "Lambda", "v", "W")), 0, 0, ()
+    )
+    with pytest.raises(InputError, match=r"line 13: fails: TypeError.*Use np\.exp"):
+        kind(1.0).body_wrench(problem, c._replace(t=np.zeros(2)), *(np.zeros(3),) * 4, {})
 
 
 def test_hooks_of_a_class_between_are_guarded(tmp_path):
