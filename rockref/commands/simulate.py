@@ -41,7 +41,7 @@ def simulate(
     from rockref import api
     from rockref.commands._models import named_model, with_effects
     from rockref.commands._progress import progress
-    from rockref.report.response_table import check_name, overturned_at, write_response
+    from rockref.report.response_table import as_measured, check_name, overturned_at, write_response
 
     if out is not None:
         check_name(out)
@@ -61,7 +61,7 @@ def simulate(
         "step_s": step,
         "output_rate_hz": rate,
         "main_impacts_s": [float(t) for t in response.main_impacts() if fell is None or t < fell],
-        "largest_rates_deg_s": [float(v) for v in abs(response.crv).max(axis=0)],
+        "largest_rates_deg_s": [float(v) for v in abs(as_measured(response).crv).max(axis=0)],
         "overturned": response.overturned,
         "overturned_at_s": fell,
         "output": written,

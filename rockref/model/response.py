@@ -52,7 +52,10 @@ class Response:
 
     @property
     def crv(self) -> np.ndarray:
-        """The measured channel (M1): crv about X, Y, Z in deg/s, (..., T, 3)."""
+        """The crv about X, Y, Z in deg/s, (..., T, 3): what an ideal gyroscope shows (M1).
+
+        Effects of the sensor are not in it; `rockref.effects.catalogue.measured` applies them to W.
+        """
         return crv_deg_s(self.W)
 
     @property
@@ -125,7 +128,7 @@ class Response:
         """The response of one block as a table; the column names carry the units.
 
         t_s, wx_deg_s .. wz_deg_s, x_m .. z_m, qw .. qz (body to plate), and for every point, for example, fx_1ext_N ..
-        fz_1ext_N, contact_1ext, slip_1ext.
+        fz_1ext_N, contact_1ext, slip_1ext. Rates are those of `crv`, without effects of the sensor.
         """
         import pandas
 

@@ -32,6 +32,11 @@ def overturned_at(response: Response) -> float | None:
     return float(response.t[fallen[0]]) if len(fallen) else None
 
 
+def as_measured(response: Response) -> Response:
+    """The response with the rates that the gyroscope shows, with the sensor effects of its problem, in place of W."""
+    return replace(response, W=measured(response.problem.effects, response.t, response.W))
+
+
 def write_response(response: Response, path: Path) -> dict[str, Any]:
     """Write the response of one block, whole or not at all, and return path, rows, columns and digest of the file.
 
@@ -39,8 +44,7 @@ def write_response(response: Response, path: Path) -> dict[str, Any]:
     reading them gives the same doubles. Raises InputError (E-PATH, E-WRITE).
     """
     check_name(path)
-    shown = measured(response.problem.effects, response.t, response.W)
-    frame = replace(response, W=shown).to_frame()
+    frame = as_measured(response).to_frame()
     switches = [name for name in frame if frame[name].dtype == bool]
     frame[switches] = frame[switches].astype("int8")
     data = frame.to_csv(index=False, lineterminator="\n").encode("ascii")

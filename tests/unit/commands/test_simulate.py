@@ -47,6 +47,18 @@ def test_model_file_and_effects(capsys, tmp_path):
     assert set(json.loads(out)["effects"]) == {"gyro_scale", "gyro_drift"}
 
 
+def test_largest_rates_are_those_of_the_table(capsys, tmp_path):
+    """What the gyroscope shows, in words, as JSON and in the file."""
+    path = tmp_path / "out.csv"
+    arguments = ("simulate", "--duration", 0.05, "--effect", "gyro_scale:x=2", "-o", path)
+    facts = json.loads(run(capsys, *arguments, "--json")[1])
+    written = np.loadtxt(path, delimiter=",", skiprows=1, usecols=(1, 2, 3))
+    assert facts["largest_rates_deg_s"] == list(np.abs(written).max(axis=0))
+    plain = json.loads(run(capsys, "simulate", "--duration", 0.05, "--json")[1])
+    assert facts["largest_rates_deg_s"][0] == 2 * plain["largest_rates_deg_s"][0]
+    assert f"X {facts['largest_rates_deg_s'][0]:.2f}" in run(capsys, *arguments)[1]
+
+
 def test_effect_on_the_command_line_replaces_that_of_the_file(capsys, tmp_path):
     from rockref.effects.catalogue import parse
 
