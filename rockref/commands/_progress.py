@@ -9,6 +9,7 @@ from contextlib import contextmanager
 
 # decided: what is done by then needs no bar.
 PATIENCE = 2.0
+COMPILING = "compiling the engine (once: up to a minute; later runs load it)"
 
 
 @contextmanager
@@ -20,6 +21,8 @@ def progress(text: str, wanted: bool = True) -> Iterator[Callable[[float], None]
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+    from rockref.engines import compile_watchers
+
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -28,7 +31,13 @@ def progress(text: str, wanted: bool = True) -> Iterator[Callable[[float], None]
     )
     bar = Progress(*columns, console=Console(stderr=True), transient=True)
     task = bar.add_task(text, total=1.0)
-    began, shown = time.monotonic(), False
+    began, shown, told = time.monotonic(), False, False
+
+    def compiling() -> None:
+        nonlocal told
+        if not told:
+            told = True
+            bar.console.print(COMPILING, highlight=False)
 
     def report(fraction: float) -> None:
         nonlocal shown
@@ -37,8 +46,10 @@ def progress(text: str, wanted: bool = True) -> Iterator[Callable[[float], None]
             bar.start()
         bar.update(task, completed=fraction)
 
+    compile_watchers.append(compiling)
     try:
         yield report
     finally:
+        compile_watchers.remove(compiling)
         if shown:
             bar.stop()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+from collections.abc import Callable
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from rockref.model.problem import Problem, precision
 from rockref.model.response import Response
 
 ENGINES = ("numpy", "numba", "auto")
+
+#: Called, without arguments, when the compiled engine begins to compile, which it does once on a machine.
+compile_watchers: list[Callable[[], None]] = []
 
 
 def has_numba() -> bool:

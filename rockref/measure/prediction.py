@@ -117,7 +117,12 @@ def solve(problems: list[Problem], engine: str, progress: Callable[[float], None
         return [batch[i] for i in range(len(problems))]
     responses = []
     for k, problem in enumerate(problems):
-        responses.append(run(problem, engine))
+        responses.append(run(problem, engine, _part(progress, k, len(problems))))
         if progress is not None:
             progress((k + 1) / len(problems))
     return responses
+
+
+def _part(progress: Callable[[float], None] | None, k: int, count: int) -> Callable[[float], None] | None:
+    """What the k-th of `count` runs reports its own fraction to."""
+    return None if progress is None else lambda share: progress((k + share) / count)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -17,42 +17,87 @@ from rockref.model.problem import Problem, State, as_arrays, stack
 from rockref.model.response import Response, pick
 from rockref.model.simulate import check, not_finite, output_steps
 
+#: What is called with the fraction done, or None where nobody looks.
+Progress = Callable[[float], None] | None
 
-def simulate(problem: Problem, progress=None, keep_going: bool = False) -> Response:
-    """Solve one problem, or a batch row by row, with the compiled step. Errors as in `rockref.model.simulate`."""
+
+#: Steps between two reports of a run. Decided: a tenth of a second at most; the call itself takes some 1e-5 s.
+STEPS_A_REPORT = 100_000
+
+
+def simulate(problem: Problem, progress: Progress = None, keep_going: bool = False) -> Response:
+    """Solve one problem, or a batch row by row, with the compiled step. Errors as in `rockref.model.simulate`.
+
+    progress : called with the fraction done, after every `STEPS_A_REPORT` steps of one block, after every run of a
+        batch. The bits do not depend on it.
+    """
     check(problem)
     problem = as_arrays(problem, np.float64)
     if problem.batch:
         flat = [pick(problem, i) for i in np.ndindex(problem.batch)]
-        return joined(problem, simulate_many(flat, keep_going=keep_going))
-    return _one(problem, keep_going)
+        return joined(problem, simulate_many(flat, keep_going=keep_going, progress=progress))
+    return _one(problem, keep_going, progress)
 
 
-def simulate_many(problems: Sequence[Problem], workers: int | None = None, keep_going: bool = False) -> list[Response]:
+def simulate_many(
+    problems: Sequence[Problem], workers: int | None = None, keep_going: bool = False, progress: Progress = None
+) -> list[Response]:
     """Solve many problems on `workers` threads (default: all cores). Each run is by itself, so the results do not
-    depend on the number of workers, bit for bit."""
+    depend on the number of workers, bit for bit. `progress` is called with the fraction of the runs that are done."""
     ready = [as_arrays(p, np.float64) for p in problems]
     for p in ready:
         check(p)
+    responses = []
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        return list(pool.map(lambda p: _one(p, keep_going), ready))
+        for response in pool.map(lambda p: _one(p, keep_going), ready):
+            responses.append(response)
+            if progress is not None:
+                progress(len(responses) / len(ready))
+    return responses
 
 
-def _one(problem: Problem, keep_going: bool) -> Response:
+def _in_pieces(loop, read: list, h: float, wanted: np.ndarray, written_to: tuple, progress: Progress) -> int:
+    """Run the loop over a piece of the rows after the other, and return how many rows were written.
+
+    A piece starts from the last row of the piece before, which holds all that the step carries on (memories and forces
+    stay in their arrays): the bits are those of one call.
+    """
+    *rest, state = read
+    done, total = np.zeros(1, np.int64), len(wanted)
+    many = progress is not None and wanted[-1] > STEPS_A_REPORT
+    size = max(1, int(total * STEPS_A_REPORT / wanted[-1])) if many else total
+    for first in range(0, total, size):
+        last, before = min(first + size, total), int(wanted[first - 1]) if first else 0
+        rows = [a[:, first:last] for a in written_to]
+        loop(0, 1, *rest, state, h, (wanted[first:last] - before)[None], True, *rows, done)
+        end = first + int(done[0])
+        if progress is not None:
+            progress(end / total)
+        if end < last or not _has_numbers(written_to[0][0, end - 1]):
+            return end
+        state = written_to[0][:, end - 1].copy()
+    return total
+
+
+def _has_numbers(row: np.ndarray) -> bool:
+    """Whether a row (STATE,) is still made of numbers, by the test with which the loop ends a run."""
+    return bool(np.isfinite(row[0:3].sum() + row[3:6].sum() + row[15:18].sum()))
+
+
+def _one(problem: Problem, keep_going: bool, progress: Progress = None) -> Response:
     wanted = output_steps(problem)
     n, rows = problem.points.n, len(wanted)
     problem = pack.with_memory(problem)
     effects, props = pack.effects_row(problem), pack.props_rows(problem)
     states, forces = np.empty((rows, col.STATE)), np.empty((rows, n, 3))
-    memories, done = np.empty((rows, n, col.MEMORY)), np.zeros(1, np.int64)
+    memories = np.empty((rows, n, col.MEMORY))
     read = (
         pack.body_row(problem), pack.centres(problem.points.P, props), props, pack.memory_rows(problem.start),
         np.zeros((n, 3)) if problem.start.F is None else problem.start.F.copy(), effects, pack.state_row(problem),
     )  # fmt: skip
     batch_of_one = [a[None] for a in read]
-    written_to = (states[None], forces[None], memories[None], done)
-    kernel.loop_for(effects)(0, 1, *batch_of_one, float(problem.step), wanted[None], True, *written_to)
-    written = int(done[0])
+    written_to = (states[None], forces[None], memories[None])
+    written = _in_pieces(kernel.loop_for(effects), batch_of_one, float(problem.step), wanted, written_to, progress)
     if not np.isfinite(states[written - 1, :18]).all() and not keep_going:
         good = problem.start
         # What the start's forces have lost, its row does not show otherwise: the law evaluates them anew.

@@ -11,6 +11,9 @@ from types import FunctionType
 from typing import Any
 
 import numba
+from numba.core import event
+
+from rockref.engines import compile_watchers
 
 _options: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
 
@@ -46,3 +49,17 @@ def entered(function: Callable, **variant: Any) -> Any:
     text: Any = FunctionType(function.__code__, {**function.__globals__, **variant}, closure=function.__closure__)
     held = [cell.cell_contents for cell in function.__closure__ or ()]
     return numba.njit(nogil=True, cache=True, **_options)(marked(text, *held))
+
+
+class _Told(event.Listener):
+    """Tells those who watch that machine code is being made; nothing where it is loaded from disk."""
+
+    def on_start(self, event: Any) -> None:
+        for tell in tuple(compile_watchers):
+            tell()
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+event.register("numba:compile", _Told())

@@ -191,3 +191,49 @@ def test_stored_code_holds_the_fingerprint_and_no_compiled_function(groups):
     held = [cell.cell_contents for cell in kernel.LOOPS[groups].py_func.__closure__]
     assert {sources.FINGERPRINT, groups} <= set(held)
     assert all(type(value) is int for value in held)
+
+
+@pytest.mark.parametrize("steps_a_report", [1, 37, 100, 10**6])
+@pytest.mark.parametrize("ids", [(), ("hysteretic_contact", "spin_friction", "compliant_support")], ids=len)
+def test_a_run_in_pieces_has_the_bits_of_one_run(ids, steps_a_report, monkeypatch):
+    """Pieces are made where somebody watches; rows every third step, a last piece shorter than the others."""
+    model = MODEL.replace(effects=tuple(EFFECTS[id].typical() for id in ids))
+    problem = model.problem(3e-3, output_rate=1e5 / 3)
+    whole = engine.simulate(problem)
+    monkeypatch.setattr(engine, "STEPS_A_REPORT", steps_a_report)
+    seen = []
+    pieces = engine.simulate(problem, progress=seen.append)
+    for key in ("t", "x", "v", "Lambda", "W", "F", "s", "anchored", "sliding"):
+        assert np.array_equal(getattr(whole, key), getattr(pieces, key)), key
+    assert restart_bits(whole) == restart_bits(pieces)
+    assert seen[-1] == 1.0
+    assert np.all(np.diff(seen) > 0)
+    assert len(seen) == {1: 101, 37: 9, 100: 4, 10**6: 1}[steps_a_report]
+
+
+def restart_bits(response):
+    final = response.final_state
+    return [np.asarray(getattr(final, k)).tobytes() for k in ("x", "v", "Lambda", "W", "s", "a", "T", "F")] + [
+        final.t, final.origin, final.count
+    ]  # fmt: skip
+
+
+def test_a_run_in_pieces_is_lost_where_one_run_is(monkeypatch):
+    problem = MODEL.problem(1e-3, output_rate=1e5)
+    problem = problem.replace(start=replace(problem.start, v=np.full(3, 1e305)))
+    monkeypatch.setattr(engine, "STEPS_A_REPORT", 1)
+    texts = []
+    for progress in (None, lambda share: None):
+        with pytest.raises(NumericalError) as error:
+            engine.simulate(problem, progress=progress)
+        texts.append(str(error.value))
+    assert texts[0] == texts[1]
+    kept = [engine.simulate(problem, progress, keep_going=True) for progress in (None, lambda share: None)]
+    assert np.array_equal(kept[0].x, kept[1].x, equal_nan=True)
+    assert np.array_equal(kept[0].F, kept[1].F, equal_nan=True)
+
+
+def test_a_batch_reports_run_by_run():
+    seen = []
+    engine.simulate(stack([MODEL.problem(1e-4, output_rate=1e5)] * 4), progress=seen.append)
+    assert seen == [0.25, 0.5, 0.75, 1.0]

@@ -55,3 +55,26 @@ def test_variants_that_were_compiled_in_different_processes_live_in_one(tmp_path
     for ids in ([one], [other], [one, other]):
         done = subprocess.run([sys.executable, "-c", FIRST_FORCES, *ids], env=kept, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr[-1000:]
+
+
+#: A run, another, and what was told meanwhile.
+TOLD = """
+import rockref
+from rockref import engines
+told = []
+engines.compile_watchers.append(lambda: told.append(1))
+for _ in range(2):
+    rockref.simulate(rockref.Model.table_3_1(), 1e-4, output_rate=1e4, engine="numba")
+    print(len(told) > 0)
+    told.clear()
+"""
+
+
+def test_who_watches_is_told_when_machine_code_is_made(tmp_path):
+    """In the first run of the first process, and never where it is loaded."""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    said = [
+        subprocess.run([sys.executable, "-c", TOLD], env=environment, capture_output=True, text=True, check=True).stdout
+        for _ in range(2)
+    ]
+    assert said == ["True\nFalse\n", "False\nFalse\n"]
