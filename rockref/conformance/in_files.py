@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from rockref.conformance.in_words import numbers, rule_lines, text
+from rockref.conformance.in_words import bars, numbers, rule_lines, text
 from rockref.conformance.runs import RunCheck
 from rockref.conformance.verdict import Verdict
 
@@ -17,7 +17,8 @@ GOOD, BAD, INK = "#2e7d32", "#c62828", "#1f2933"
 
 
 def junit(v: Verdict) -> bytes:
-    """JUnit XML: a test suite per layer, a test case per vector; what is not shown is skipped."""
+    """JUnit XML: a test suite per layer, a test case per vector, run, property, claimed effect; what is not shown is
+    skipped."""
     root = ElementTree.Element("testsuites", name=f"rockref conform {v.findings.backend['name']}")
     by_layer: dict[str, dict[str, list]] = {}
     for check in v.findings.checks:
@@ -35,23 +36,40 @@ def junit(v: Verdict) -> bytes:
                 ElementTree.SubElement(case, "skipped")
     if v.findings.runs:
         _runs(root, v.findings.runs)
+    properties = [(p.name, "" if p.holds else p.note or "does not hold") for p in v.findings.properties]
+    claimed = [e for e in v.findings.effects if e.grade != "not shown"]
+    effects = [(e.effect, (e.note or bars(e.worst)) if e.failed else "") for e in claimed]
+    for name, cases in (("L6", properties), ("LE", effects)):
+        _suite(root, name, cases)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
 
 
 def _runs(root: ElementTree.Element, runs: list[RunCheck]) -> None:
-    bad = sum(r.failed for r in runs)
-    suite = ElementTree.SubElement(root, "testsuite", name="L5", tests=str(len(runs)), failures=str(bad))
-    for r in runs:
-        case = ElementTree.SubElement(suite, "testcase", classname="L5", name=r.id)
-        if r.failed:
-            at = f" from t = {r.first['t_s']:.6g} s" if r.first else ""
-            ElementTree.SubElement(case, "failure", message=r.note or f"{r.worst:.3g} bars{at}")
+    def said(r: RunCheck) -> str:
+        at = f" from t = {r.first['t_s']:.6g} s" if r.first else ""
+        return r.note or f"{r.worst:.3g} bars{at}"
+
+    _suite(root, "L5", [(r.id, said(r) if r.failed else "") for r in runs])
+
+
+def _suite(root: ElementTree.Element, layer: str, cases: list[tuple[str, str]]) -> None:
+    """A suite of cases: name, and what is said where it fails."""
+    if not cases:
+        return
+    bad = sum(bool(said) for _, said in cases)
+    suite = ElementTree.SubElement(root, "testsuite", name=layer, tests=str(len(cases)), failures=str(bad))
+    for name, said in cases:
+        case = ElementTree.SubElement(suite, "testcase", classname=layer, name=name)
+        if said:
+            ElementTree.SubElement(case, "failure", message=said)
 
 
 def badge(v: Verdict) -> str:
     """A badge, SVG."""
-    profile = "" if v.findings.profile == "float64" else f" ({v.findings.profile})"
+    said = [v.findings.profile] if v.findings.profile != "float64" else []
+    said += ["quick"] if "L5" not in v.findings.layers else []
+    profile = f" ({', '.join(said)})" if said else ""
     left, right = "rockref", f"conforms{profile}" if v.passed else f"fails {v.rule or ''}".strip()
     # Widths: 6.6 pixels a letter in 11-pixel Verdana, and 5 on either side.
     a, b = (round(6.6 * len(t)) + 10 for t in (left, right))

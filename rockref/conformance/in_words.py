@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from rockref.conformance.compare import Check
+from rockref.conformance.judge import LAYERS, Findings
 from rockref.conformance.rules import BY_ID, RULES
 from rockref.conformance.runs import RunCheck
-from rockref.conformance.vectors import layer, manifest
-from rockref.conformance.verdict import Verdict, downstream_of, grades
+from rockref.conformance.vectors import AS_RUN, layer, manifest
+from rockref.conformance.verdict import Verdict, alike, downstream_of, grades
 
 RED, GREEN, YELLOW, BOLD, PLAIN = "\x1b[31m", "\x1b[32m", "\x1b[33m", "\x1b[1m", "\x1b[0m"
 
@@ -44,7 +45,7 @@ def numbers(check: Check) -> str:
 
 def flags_of(id_: str, name: str) -> str:
     """What a vector shows, in its own flags."""
-    found = next((v for v in layer(name) if v.id == id_), None)
+    found = next((v for v in layer(name) if v.id == id_.removesuffix(AS_RUN)), None)
     return ", ".join(found.flags) if found else ""
 
 
@@ -75,6 +76,8 @@ def divergence(v: Verdict, colour: bool) -> list[str]:
         lines.append(f"  vector {v.check.vector} ({flags_of(v.check.vector, v.check.layer)}): {numbers(v.check)}")
     if v.says:
         lines.append(f"  {v.says}")
+    if alike(v):
+        lines.append(f"  runs cannot tell it from {', '.join(f'{r} ({BY_ID[r].says})' for r in alike(v))}")
     if v.rule is not None:
         lines.append(_upstream(v))
     if v.consequences:
@@ -133,6 +136,15 @@ def neighbour_lines(v: Verdict) -> list[str]:
     ]
 
 
+def passing(f: Findings) -> str:
+    """The word for who passes: in which profile, and what was not asked."""
+    left = [name for name in LAYERS if name not in f.layers]
+    quick = "quick: long runs and properties were not asked"
+    said = [f.profile] if f.profile != "float64" else []
+    said += [quick if left == ["L5", "L6"] else f"not asked: {' '.join(left)}"] if left else []
+    return f"PASS ({'; '.join(said)})" if said else "PASS"
+
+
 def text(v: Verdict, colour: bool = False) -> str:
     """The whole verdict."""
     f = v.findings
@@ -158,7 +170,6 @@ def text(v: Verdict, colour: bool = False) -> str:
     )
     lines.append(f"Results: {told}; {f.seconds:.1f} s")
     word = f"{v.status} ({v.rule})" if v.rule else v.status
-    if v.passed and f.profile != "float64":
-        word = f"PASS ({f.profile})"
+    word = passing(f) if v.passed else word
     lines.append(painted(word, BOLD, GREEN if v.passed else RED, colour=colour))
     return "\n".join(lines) + "\n"

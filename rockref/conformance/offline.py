@@ -23,6 +23,8 @@ def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[
     for layer in SMALL:
         if layer in wanted:
             yield from map(jsonlines.of_vector, vectors.layer(layer))
+        if layer == "L4" and layer in wanted:
+            yield from map(jsonlines.of_vector, vectors.steps_as_runs())
     if "L5" in wanted:
         names = (
             vectors.trajectory_names() if profile == "scheme" else vectors.window_names() + vectors.trajectory_names()

@@ -66,6 +66,21 @@ RULES: tuple[Rule, ...] = (
     Rule("M1", "measured channel: crv in deg/s about X, Y, Z", "Fig. 3.4", "rockref.model.channel:crv_deg_s", ("I5",)),
 )
 
+#: What a run by itself cannot tell from a rule: constants that are misread, a rate and the damper that it drives, a
+#: force and what is made of it, an inertia and the equations that it stands in.
+ALIKE_IN_RUNS: dict[str, tuple[str, ...]] = {
+    "I2": ("G1", "I5"),
+    "I5": ("G1", "I2"),
+    "K1": ("G2", "N1"),
+    "N1": ("P1", "P2", "K1"),
+    "T1": ("P1", "P2", "P3", "K1"),
+    "T6": ("T2",),
+    "T4": ("T3",),
+    "A1": ("I4",),
+    "A2": ("G2", "A3"),
+    "I4": ("A1",),
+}
+
 ORDER = {rule.id: i for i, rule in enumerate(RULES)}
 BY_ID = {rule.id: rule for rule in RULES}
 

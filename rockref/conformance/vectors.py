@@ -7,7 +7,7 @@ import gzip
 import hashlib
 import io
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from importlib.resources import files
 from typing import Any
@@ -156,6 +156,21 @@ def layer(name: str) -> tuple[Vector, ...]:
     """All vectors of one layer, "L0" .. "L4", "L7", or of the short runs, "L5s"."""
     document = json.loads(read_bytes(f"{name}.json"))
     return tuple(vector_of(entry, document["sets"]) for entry in document["vectors"])
+
+
+#: What a row of a run shows of a step, and how it ends a vector's name there.
+OF_A_ROW, AS_RUN = ("x", "Lambda", "W", "F_N", "anchored", "F_stick", "F_slip"), "-run"
+
+
+@lru_cache
+def steps_as_runs() -> tuple[Vector, ...]:
+    """The vectors of L4 as runs of one step, for who shows no step: the same numbers, looked for in the second row."""
+
+    def as_run(v: Vector) -> Vector:
+        expect = {f"{k}@1": e for k, e in v.expect.items() if k in OF_A_ROW}
+        return replace(v, id=v.id + AS_RUN, piece="simulate", expect=expect)
+
+    return tuple(map(as_run, layer("L4")))
 
 
 def problem_of(q: dict[str, Any]) -> Problem:

@@ -5,15 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 from rockref.conformance.compare import Check
-from rockref.conformance.judge import Findings, finite
-from rockref.conformance.rules import BY_ID, RULES, downstream
+from rockref.conformance.judge import LAYERS, Findings, finite
+from rockref.conformance.rules import ALIKE_IN_RUNS, BY_ID, RULES, downstream
 from rockref.conformance.runs import RunCheck
-from rockref.conformance.vectors import manifest
+from rockref.conformance.vectors import AS_RUN, layer, manifest
 
 LOOP = "All pieces pass by themselves; the run that is made of them does not."
+NO_RULE = "No short run diverges: the first divergent sample of the long ones is all that is known."
+A_STEP = "A whole step is wrong, and no short run tells by which rule: it is this one, or one that comes before it."
 SMALL = ("L0", "L1", "L2", "L3", "L7")
 
 
@@ -83,10 +86,16 @@ def first(checks: Sequence[Check]) -> Check | None:
     return min(failed, key=place) if failed else None
 
 
-def place(check: Check) -> tuple[float, int]:
-    """Where a failure stands: by rule and number; short runs by number alone, as they build on each other."""
-    number = int(check.vector.rpartition("-")[2])
-    return (0.0 if check.layer == "L5s" else check.rank, number)
+def place(check: Check) -> tuple[float, float]:
+    """Where a failure stands: by rule and number; short runs by place alone, as they build on each other."""
+    number = float(check.vector.removesuffix(AS_RUN).rpartition("-")[2])
+    return (0.0, places().get(check.vector, number)) if check.layer == "L5s" else (check.rank, number)
+
+
+@lru_cache
+def places() -> dict[str, float]:
+    """The short runs that are judged elsewhere than at their own number."""
+    return {v.id: v.place for v in layer("L5s") if v.place is not None}
 
 
 def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
@@ -107,6 +116,8 @@ def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None,
             continue
         if layers == ("L5s",) and check.rule == "S2" and pieces:
             return "S2", check, LOOP
+        if layers == ("L4",) and check.vector.endswith(AS_RUN):
+            return check.rule, check, A_STEP
         if layers == SMALL or check.rule not in good:
             return check.rule, check, ""
         if layers == ("L4",):
@@ -157,6 +168,9 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
         and findings.profile != "scheme"
     ):
         found.rule, found.says = "S2", LOOP
+    short = any(c.layer == "L5s" for c in findings.checks)
+    if found.rule is None and check is None and bad_run is not None and short:
+        found.says = NO_RULE
     silent = check is not None and not check.weighed
     if backend is not None and findings.profile == "float64" and "contact_law" not in findings.pieces and not silent:
         resembling(found, backend)
@@ -179,6 +193,14 @@ def resembling(found: Verdict, backend: Any) -> None:
     if cosine >= SAME and rule != found.rule:
         found.says = f"All runs deviate as those of {nearest}; the first short run outside would point to {found.rule}."
         found.rule = rule
+
+
+def alike(v: Verdict) -> list[str]:
+    """Rules that the runs cannot tell from the one that is named, and of which no piece says that they are right."""
+    if v.rule is None or v.check is None or v.check.layer != "L5s":
+        return []
+    small = status_of_rules([c for c in v.findings.checks if c.layer in SMALL])
+    return [rule for rule in ALIKE_IN_RUNS.get(v.rule, ()) if small[rule] == "not shown"]
 
 
 def grades(verdict: Verdict) -> dict[str, int]:
@@ -218,6 +240,8 @@ def as_json(v: Verdict) -> dict[str, Any]:
         "equation": None if v.rule is None else BY_ID[v.rule].equation,
         "says": None if v.rule is None else BY_ID[v.rule].says,
         "remark": v.says,
+        "alike": alike(v),
+        "not_asked": [name for name in LAYERS if name not in f.layers],
         "backend": f.backend,
         "profile": f.profile,
         "layers": list(f.layers),

@@ -11,9 +11,11 @@ import pytest
 from rockref import cli
 from rockref.conformance import in_files, in_words, vectors
 from rockref.conformance.backend import load
+from rockref.conformance.claims import ClaimCheck
 from rockref.conformance.compare import compare, grade_of
-from rockref.conformance.judge import judge
+from rockref.conformance.judge import LAYERS, judge
 from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance.properties import PropertyCheck
 from rockref.conformance.verdict import as_json, verdict
 from rockref.model.errors import InputError
 
@@ -142,6 +144,48 @@ def test_without_pieces_the_short_runs_tell_the_rule():
     assert verdict(judge(Only(wrong), QUICK)).rule == "I3"
 
 
+class FourFeet:
+    """Right, but for blocks on four points: no short run is asked on those."""
+
+    def simulate(self, problem):
+        out = vars(NumpyEngine().simulate(problem))
+        shown = {k: np.array(out[k]) for k in ("t", "W", "x", "Lambda")}
+        shown["W"][1:] += 1e-9 * (problem.points.n == 4)
+        return shown
+
+
+def test_whole_steps_are_put_to_who_shows_runs_only():
+    v = judged(FourFeet())
+    assert v.rule == "I5" and v.check.vector.endswith("-run") and "four_points" in in_words.text(v)
+    assert "no short run tells by which rule" in v.says
+    steps = [c for c in v.findings.checks if c.layer == "L4"]
+    assert len({c.vector for c in steps}) == len(vectors.layer("L4"))
+    assert judged(Only(NumpyEngine())).passed
+
+
+def test_who_shows_steps_is_asked_for_steps():
+    checks = judge(Only(NumpyEngine(), "step"), ["L4"]).checks
+    assert checks and not [c for c in checks if c.vector.endswith("-run")]
+
+
+def test_what_runs_cannot_tell_apart_is_said():
+    wrong = planted("return max(K_N * xi + C_N * xi_rate, 0.0)", "return max(K_N * xi - C_N * xi_rate, 0.0)")
+    v = verdict(judge(Only(wrong), QUICK))
+    assert as_json(v)["alike"] == ["P1", "P2", "K1"] and "runs cannot tell it from P1" in in_words.text(v)
+    assert as_json(judged(Only(wrong, "kinematics", "contact_law")))["alike"] == []
+
+
+def test_a_pass_says_what_was_not_asked():
+    quick = judged(NumpyEngine(), [n for n in LAYERS if n not in ("L5", "L6")])
+    assert in_words.text(quick).endswith("PASS (quick: long runs and properties were not asked)\n")
+    assert "conforms (quick)" in in_files.badge(quick)
+    some = judged(load("float32"), [n for n in LAYERS if n not in ("L5", "L7")], "float32")
+    assert in_words.text(some).endswith("PASS (float32; not asked: L5 L7)\n")
+    every = judge(NumpyEngine(), ["L0"])
+    every.layers = LAYERS
+    assert in_words.text(verdict(every)).endswith("\nPASS\n")
+
+
 def test_a_wrong_run_of_right_pieces_is_the_loop():
     right, late = NumpyEngine(), NumpyEngine()
     late.simulate = lambda problem: right.simulate(
@@ -250,6 +294,22 @@ def test_junit_badge_and_page():
     assert ElementTree.fromstring(in_files.badge(v)).tag.endswith("svg") and "fails T1" in in_files.badge(v)
     page = in_files.page(v)
     assert "FIRST DIVERGENCE" in page and "<script" not in page and "http" not in page.replace("http://www.w3.org", "")
+
+
+def test_junit_lists_properties_and_effects():
+    from xml.etree import ElementTree
+
+    findings = judge(NumpyEngine(), ["L2"])
+    findings.properties = [PropertyCheck("no tension", True), PropertyCheck("a cone", False, "|F_T| = 2")]
+    findings.effects = [ClaimCheck("quadratic_drag", "inside", 0.5), ClaimCheck("plate_tilt", "outside", 55.0)]
+    v = verdict(findings)
+    assert v.status == "FAIL"
+    suites = {s.get("name"): s for s in ElementTree.fromstring(in_files.junit(v))}
+    assert {k: (s.get("tests"), s.get("failures")) for k, s in suites.items() if k != "L2"} == {
+        "L6": ("2", "1"),
+        "LE": ("2", "1"),
+    }
+    assert [f.get("message") for k in ("L6", "LE") for f in suites[k].iter("failure")] == ["|F_T| = 2", "55 bars"]
 
 
 def test_targets_that_are_no_backend_are_named():

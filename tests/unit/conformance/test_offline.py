@@ -30,7 +30,8 @@ def test_every_question_has_one_line_and_its_own_id():
     asked = [json.loads(line) for line in offline.text(LAYERS).splitlines()]
     assert asked[0] == {"cmd": "start", "protocol": 1}
     ids = [q["id"] for q in asked[1:]]
-    assert ids == [v.id for layer in LAYERS for v in vectors.layer(layer)]
+    assert ids == [v.id for layer in LAYERS for v in vectors.layer(layer)] + [v.id for v in vectors.steps_as_runs()]
+    assert len(set(ids)) == len(ids)
 
 
 def test_recorded_answers_are_judged_as_live_ones(responses):

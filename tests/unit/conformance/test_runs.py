@@ -155,6 +155,17 @@ def test_a_black_box_is_told_where_it_parts_and_whom_it_resembles():
     assert as_json(v)["neighbours"][0]["rule"] == "I3"
 
 
+def test_where_no_short_run_diverges_that_is_said():
+    findings = judge(load("numpy"), ["L5s"])
+    findings.pieces = ()
+    run = vectors.trajectory("window_table_3_1_0500ms")
+    findings.runs = [judge_rows(run, Shifted("W", 60, 1e-6).out(run), "float64")]
+    v = verdict(findings)
+    text = in_words.text(v)
+    assert v.status == "FAIL" and v.rule is None and "No short run diverges" in text
+    assert f"first divergent sample of {run.id}: t = {v.run.first['t_s']:.6g} s" in text
+
+
 def test_longer_steps_are_another_problem():
     run = vectors.trajectory("step_2e-5")
     base = vectors.trajectory("table_3_1")
