@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rockref.api import Model
+    from rockref.effects.base import Effect
 
 NAMED = ("table_3_1", "four_points")
 
@@ -18,7 +20,22 @@ def named_model(text: str) -> Model:
 
     if text in NAMED:
         return getattr(Model, text)()
-    return Model.load(text)
+    model = Model.load(text)
+    say_implausible(model.effects, text)
+    return model
+
+
+def say_implausible(effects: Iterable[Effect], where: str) -> None:
+    """Print a remark on standard error for every parameter outside its plausible range; it is used all the same."""
+    from rockref.effects.base import implausible
+
+    for effect in effects:
+        for name, what, plausible in implausible(effect):
+            from rockref.measure.notice import Notice
+
+            cure = f"Plausible is {plausible}; it is used as it is."
+            notice = Notice("W-RANGE", f"{where}: {effect.id} {name}", f"{what}, which is not plausible", cure)
+            print(f"rockref: {notice}", file=sys.stderr)
 
 
 def labels(texts: Sequence[str]) -> list[str]:
@@ -34,5 +51,7 @@ def with_effects(model: Model, texts: Sequence[str]) -> Model:
     if not texts:
         return model
     added = [parse(text) for text in texts]
+    for text, effect in zip(texts, added, strict=True):
+        say_implausible([effect], f"--effect {text}")
     kept = [effect for effect in model.effects if effect.id not in {new.id for new in added}]
     return model.replace(effects=in_step_order([*kept, *added]))

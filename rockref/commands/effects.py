@@ -34,7 +34,9 @@ def effects(
       rockref effects gyro_scale:x=1.05 --picture scale.png
       rockref effects examples/my_effect.py:EddyBrake
     """
-    from rockref.effects.catalogue import QUESTIONS, parse
+    from rockref.commands._models import say_implausible
+    from rockref.effects.catalogue import OF_TOSSES, QUESTIONS, parse
+    from rockref.effects.tracking.none import TrackedAsDrawn
     from rockref.model.errors import InputError
     from rockref.report import gallery
 
@@ -43,16 +45,21 @@ def effects(
             raise InputError("E-EFFECT", "--picture", "needs an effect", "Write rockref effects NAME --picture FILE.")
         if as_json:
             kinds = [kind for answers in QUESTIONS.values() for kind in answers[1:]]
-            typer.echo(json.dumps([gallery.card(kind) for kind in kinds], indent=2))
+            typer.echo(json.dumps([gallery.card(kind) for kind in (*kinds, *OF_TOSSES.values())], indent=2))
             return
         for question, answers in QUESTIONS.items():
             typer.echo(f"{question}: {gallery.TITLES[question]}")
             for kind in answers:
                 typer.echo(f"  {kind.id:24} {kind.sentence}")
+        typer.echo(f"tosses: {gallery.TOSSES}")
+        tosses: list[type[Effect]] = [TrackedAsDrawn, *OF_TOSSES.values()]
+        for kind in tosses:
+            typer.echo(f"  {kind.id:24} {kind.sentence}")
         return
     if picture is not None and picture.suffix.lower() not in (".png", ".svg"):
         raise InputError("E-SUFFIX", str(picture), "is no kind of picture", "End its name in .png or .svg.")
     effect = parse(name, "effects")
+    say_implausible([effect], f"effects {name}")
     typer.echo(json.dumps(gallery.card(type(effect)), indent=2) if as_json else text(effect))
     if picture is not None:
         from rockref.commands._progress import progress
@@ -65,10 +72,12 @@ def effects(
 
 def text(effect: "Effect") -> str:
     """What is shown of an effect, as lines."""
+    from rockref.effects.catalogue import OF_TOSSES
     from rockref.report import gallery
 
     about = gallery.card(type(effect))
-    lines = [f"{about['id']} ({about['question']})", "", about["sentence"], "", about["form"], ""]
+    asked = about["question"] + (", tosses only" if effect.id in OF_TOSSES else "")
+    lines = [f"{about['id']} ({asked})", "", about["sentence"], "", about["form"], ""]
     lines += [f"equation     {about['equation']}", f"source       {about['source']}", "parameters"]
     for key, p in about["parameters"].items():
         low, high = p["plausible"]
@@ -76,6 +85,12 @@ def text(effect: "Effect") -> str:
         absent = "the top" if p["absent"] is None else f"{p['absent']}{unit}"
         lines.append(f"  {key:12} {p['meaning']}")
         lines.append(f"  {'':12} absent {absent}; plausible {low:g} to {high:g}{unit}; here {getattr(effect, key)}")
-    lines += [f"acts at      {', '.join(about['acts_at'])}", f"confounder   {about['confounder']}"]
-    lines += [f"told apart   {about['experiment']}", f"to use it    rockref simulate --effect {gallery.words(effect)}"]
+        lines.append(f"  {'':12} {p['sign_in_words']}; allowed is {p['allowed']}{unit}")
+    lines += [
+        f"acts at      {', '.join(about['acts_at']) or gallery.WHERE_POSES_ARE_READ}",
+        f"confounder   {about['confounder']}",
+    ]
+    lines += [f"told apart   {about['experiment']}", f"to use it    {gallery.command(effect)}"]
+    if effect.id not in OF_TOSSES:
+        lines.append(f"to see it    rockref effects {gallery.words(effect)} --picture {effect.id}.png")
     return "\n".join(lines)

@@ -138,6 +138,20 @@ class Effect:
         return crv
 
 
+def implausible(effect: Effect) -> list[tuple[str, str, str]]:
+    """Parameters that lie outside what is plausible: (name, what it is, the range), in words.
+
+    A value that is absent is fine: there is nothing to be plausible.
+    """
+    found = []
+    for name, value in effect.values().items():
+        q = effect.quantities[name]
+        if value is not None and value != q.absent and not q.low <= value <= q.high:
+            unit = "" if q.unit == "1" else f" {q.unit}"
+            found.append((name, f"is {value:g}{unit}", f"{q.low:g} to {q.high:g}{unit}"))
+    return found
+
+
 def limits(q: Quantity) -> str:
     """What a quantity may be, in words: the hard limits, then the plausible range."""
     unit = "" if q.unit == "1" else f" {q.unit}"

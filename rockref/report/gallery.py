@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from rockref import api
-from rockref.effects.base import HOOKS, Effect
-from rockref.effects.catalogue import QUESTIONS, measured
+from rockref.effects.base import HOOKS, POSITIVE, Effect, Quantity
+from rockref.effects.catalogue import OF_TOSSES, QUESTIONS, measured
 from rockref.model.channel import DEGREES
 from rockref.model.storage import write_bytes, write_text
 from rockref.report import style
@@ -32,6 +32,12 @@ TITLES = {
     "release": "How does the block start?",
     "sensor": "What does the gyroscope make of it?",
 }
+#: Where effects act that change no term of the step.
+WHERE_POSES_ARE_READ = "measured poses, where they become poses of the body over the plate"
+#: The heading of what only tosses know.
+TOSSES = "What else shows in measured tosses?"
+#: The effect that makes eight points of four: it is shown on, and needs, the four-point model.
+ON_FOUR_POINTS = "foot_defects"
 #: Pictures last until a little after the second main impact [s], while one can still follow both curves.
 DURATION = 1.5
 
@@ -51,6 +57,8 @@ def card(kind: type[Effect]) -> dict[str, Any]:
             "typical": number(q.typical),
             "plausible": [number(q.low), number(q.high)],
             "sign": q.sign,
+            "sign_in_words": sign_in_words(kind, name),
+            "allowed": allowed(q),
         }
         for name, q in kind.quantities.items()
     }
@@ -66,7 +74,35 @@ def card(kind: type[Effect]) -> dict[str, Any]:
         "confounder": kind.confounder,
         "experiment": kind.experiment,
         "example": words(kind.typical()),
+        "command": command(kind.typical()),
     }
+
+
+def sign_in_words(kind: type[Effect], name: str) -> str:
+    """On which side of its absent value a parameter is physical."""
+    q = kind.quantities[name]
+    finite = q.absent is not None and math.isfinite(q.absent)
+    if q.sign == "+":
+        brings_in = kind.switches is None or name in kind.switches
+        return f"physical only above {q.absent:g}" if brings_in and finite else "positive"
+    if q.least >= 0:
+        return f"on either side of {q.absent:g}" if finite else "of any size"
+    return "of either sign"
+
+
+def allowed(q: Quantity) -> str:
+    """What is not refused, in words: the hard limits."""
+    least = "above 0" if q.least == POSITIVE else f"at least {q.least:g}" if math.isfinite(q.least) else ""
+    most = f"at most {q.most:g}" if math.isfinite(q.most) else ""
+    return ", ".join(part for part in (least, most) if part) or "all finite numbers"
+
+
+def command(effect: Effect) -> str:
+    """What to type to use the effect: of what only tosses know a fit, else a simulation, with the model it needs."""
+    if effect.id in OF_TOSSES:
+        return f"rockref fit FOLDER_OF_TOSSES --effect {effect.id}"
+    model = "four_points " if effect.id == ON_FOUR_POINTS else ""
+    return f"rockref simulate {model}--effect {words(effect)}"
 
 
 def number(value: float | None) -> float | str | None:
@@ -87,7 +123,7 @@ def curves(
 
     `foot_defects` is shown against the four-point model, to which it belongs.
     """
-    base = api.Model.four_points() if effect.id == "foot_defects" else api.Model.table_3_1()
+    base = api.Model.four_points() if effect.id == ON_FOUR_POINTS else api.Model.table_3_1()
     without = api.simulate(base, duration=duration, engine="auto")
     with_it = api.simulate(base.replace(effects=(effect,)), duration=duration, engine="auto", progress=progress)
     shown = measured([effect], with_it.t, with_it.W)
@@ -130,7 +166,10 @@ def page() -> str:
     for question, answers in QUESTIONS.items():
         parts += ["", f"## {TITLES[question]}", "", f"The law: {answers[0].sentence}", "", f"$${answers[0].equation}$$"]
         for kind in answers[1:]:
-            parts += ["", *section(kind)]
+            parts += ["", *section(kind), "", f"![crv with and without {kind.id}](effects/{kind.id}.png)"]
+    parts += ["", f"## {TOSSES}", "", "A block that is released stands on its feet, and a gyroscope sees no pose."]
+    for kind in OF_TOSSES.values():
+        parts += ["", *section(kind)]
     return "\n".join(parts) + "\n"
 
 
@@ -138,17 +177,16 @@ def section(kind: type[Effect]) -> list[str]:
     """One effect of the page, as lines."""
     about = card(kind)
     lines = [f"### {kind.id}", "", kind.sentence, "", f"$${kind.equation}$$", "", about["form"], ""]
-    lines += ["| parameter | meaning | unit | absent | typical | plausible |", "| --- | --- | --- | --- | --- | --- |"]
+    lines += ["| parameter | meaning | unit | absent | typical | plausible | sign; hard limits |", "| --- " * 7 + "|"]
     for name, p in about["parameters"].items():
         low, high = p["plausible"]
         cells = [f"`{name}`", p["meaning"], p["unit"], _text(p["absent"]), _text(p["typical"]), f"{low:g} to {high:g}"]
-        lines.append("| " + " | ".join(cells) + " |")
-    lines += ["", f"- Acts at: {', '.join(f'`{hook}`' for hook in about['acts_at'])}."]
+        lines.append("| " + " | ".join([*cells, f"{p['sign_in_words']}; {p['allowed']}"]) + " |")
+    hooks = ", ".join(f"`{hook}`" for hook in about["acts_at"]) or WHERE_POSES_ARE_READ
+    lines += ["", f"- Acts at: {hooks}."]
     lines += [f"- Most like it: [{kind.confounder}](#{kind.confounder}). What tells them apart: {kind.experiment}"]
     lines += [f"- Source: {kind.source}."]
-    lines += ["", f"`rockref simulate --effect {about['example']}`", ""]
-    lines += [f"![crv with and without {kind.id}](effects/{kind.id}.png)"]
-    return lines
+    return [*lines, "", f"`{about['command']}`"]
 
 
 def _text(value: float | str | None) -> str:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rockref import cli
-from rockref.effects.catalogue import EFFECTS
+from rockref.effects.catalogue import EFFECTS, OF_TOSSES
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/my_effect.py"
 
@@ -22,9 +22,10 @@ def said(capsys, *arguments):
 def test_list_has_every_effect_with_its_sentence(capsys):
     out, _, code = said(capsys)
     assert code == 0
-    for id, kind in EFFECTS.items():
+    for id, kind in (EFFECTS | OF_TOSSES).items():
         assert f"  {id:24} {kind.sentence}\n" in out
-    assert out.count("  none ") == 7
+    assert out.count("  none ") == 8
+    assert out.index("\ntosses: ") < out.index("  tag_frame ")
 
 
 def test_one_effect_shows_what_a_reader_needs(capsys):
@@ -38,10 +39,62 @@ def test_one_effect_shows_what_a_reader_needs(capsys):
 
 def test_json_is_json_without_infinities(capsys):
     cards = json.loads(said(capsys, "--json")[0], parse_constant=lambda text: pytest.fail(text))
-    assert {card["id"] for card in cards} == set(EFFECTS)
+    assert {card["id"] for card in cards} == set(EFFECTS | OF_TOSSES)
     card = json.loads(said(capsys, "gyro_bandwidth", "--json")[0])
     assert card["parameters"]["frequency"]["absent"] == "inf"
     assert card["acts_at"] == ["sensor"]
+
+
+@pytest.mark.parametrize("id", ["foot_defects", "quadratic_drag", "compliant_support"])
+def test_the_command_that_is_shown_can_be_typed(capsys, id):
+    """`foot_defects` needs the four-point model."""
+    out = said(capsys, id)[0]
+    line = out.split("to use it    rockref ")[1].splitlines()[0]
+    with pytest.raises(SystemExit) as end:
+        cli.main([*line.split(), "--duration", "0.01"])
+    assert not end.value.code
+    assert f"--picture {id}.png" in out
+
+
+def test_effects_of_tosses_are_shown_without_a_simulation(capsys):
+    out = said(capsys, "tag_frame")[0]
+    assert "tag_frame (tracking, tosses only)" in out and "to use it    rockref fit FOLDER_OF_TOSSES" in out
+    assert "acts at      measured poses" in out and "--picture" not in out
+
+
+@pytest.mark.parametrize(
+    "id, words",
+    [
+        ("quadratic_drag", "physical only above 0; allowed is at least 0 N m s2"),
+        ("hertzian_contact", "physical only above 1; allowed is above 0, at most 10"),
+        ("adhesion", "positive; allowed is above 0 m"),
+        ("plate_tilt", "of either sign; allowed is at least -0.2, at most 0.2 rad"),
+        ("gyro_scale", "of either sign; allowed is all finite numbers"),
+        ("gyro_bandwidth", "of any size; allowed is above 0 Hz"),
+        ("uneven_foot_friction", "on either side of 1; allowed is at least 0"),
+    ],
+)
+def test_sign_and_hard_limits_are_shown(capsys, id, words):
+    assert f" {words}\n" in said(capsys, id)[0]
+
+
+@pytest.mark.parametrize("command", ["effects", "simulate"])
+def test_what_is_not_plausible_is_remarked(capsys, tmp_path, command):
+    """Used all the same, with the range on standard error; from a file, too."""
+    more = ["--duration", "0.01"] if command == "simulate" else []
+    for value, remark in (("50", True), ("0.4", False), ("0", False)):
+        words = f"quadratic_drag:c={value}"
+        with pytest.raises(SystemExit) as end:
+            cli.main([command, *(["--effect", words] if command == "simulate" else [words]), *more])
+        err = capsys.readouterr().err
+        assert not end.value.code
+        assert ("c: is 50 N m s2, which is not plausible. Plausible is 0.002 to 5 N m s2" in err) is remark
+        assert (err == "") is not remark
+    file = tmp_path / "model.toml"
+    file.write_text("[effects.rounded_feet]\nradius = 0.03\n", encoding="utf-8")
+    with pytest.raises(SystemExit):
+        cli.main(["simulate", str(file), "--duration", "0.01"])
+    assert f"{file}: rounded_feet radius: is 0.03 m" in capsys.readouterr().err
 
 
 def test_users_own_effect_is_shown(capsys):

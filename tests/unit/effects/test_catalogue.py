@@ -13,6 +13,7 @@ from rockref import InputError, Model
 from rockref.effects import catalogue
 from rockref.effects.base import HOOKS, Effect, Quantity, limits
 from rockref.effects.catalogue import EFFECTS, NONE, QUESTIONS
+from rockref.effects.tracking.none import TrackedAsDrawn
 from rockref.effects.user import check_class
 
 TABLE = {
@@ -43,6 +44,9 @@ def test_a_folder_per_question_a_file_per_answer():
             assert (FOLDER / question / f"{id}.py").is_file(), f"{question}/{id}"
         assert QUESTIONS[question][0] is NONE[question]
         assert NONE[question].question == question and NONE[question].sentence and NONE[question].equation
+    for folder in (path for path in FOLDER.iterdir() if (path / "__init__.py").is_file()):
+        assert (folder / "none.py").is_file(), folder.name
+    assert TrackedAsDrawn.question == "tracking" and TrackedAsDrawn().is_absent()
 
 
 @pytest.mark.parametrize("kind", EVERY, ids=lambda kind: kind.id)

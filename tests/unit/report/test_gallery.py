@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from rockref.effects.base import HOOKS
-from rockref.effects.catalogue import EFFECTS
+from rockref.effects.catalogue import EFFECTS, OF_TOSSES
 from rockref.report import gallery
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
@@ -20,7 +20,8 @@ def test_the_page_in_the_documentation_is_current():
 def test_the_page_has_a_section_and_a_picture_for_each():
     page = gallery.page()
     assert re.findall(r"^### (\w+)$", page, re.MULTILINE) == [
-        kind.id for answers in gallery.QUESTIONS.values() for kind in answers[1:]
+        *(kind.id for answers in gallery.QUESTIONS.values() for kind in answers[1:]),
+        *OF_TOSSES,
     ]
     for id in EFFECTS:
         assert f"](effects/{id}.png)" in page
