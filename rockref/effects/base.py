@@ -30,8 +30,9 @@ class Quantity(NamedTuple):
     """What is known of one parameter of an effect.
 
     unit ("1" for a plain number); absent: the value at which the effect is not there; low, high: plausible range;
-    typical: typical size; sign: "+" where only values above the absent one are physical, else "any"; meaning: a few
-    words; least, most: hard limits, beyond which the value is unphysical and refused.
+    typical: typical size; sign: "+" where only values above the absent one are physical (positive ones, of a parameter
+    that shapes the effect but does not bring it in), else "any"; meaning: a few words; least, most: hard limits, beyond
+    which the value is unphysical and refused.
     """
 
     unit: str

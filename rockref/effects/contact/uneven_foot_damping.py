@@ -21,9 +21,12 @@ class UnevenFootDamping(Effect):
     }
     sentence = "Feet lose different shares of an impact: one on bare steel, another on a film of oil or a shim."
     equation = r"C^{(N)}_i \to s_i C^{(N)}_i,\quad C^{(T)}_i \to s_i C^{(T)}_i"
-    source = 'The model\'s source, "Defects", (3.8)'
+    source = 'The model\'s source, "Defects", (3.8); a share of the common damping is a definition: no DOI'
     confounder = "uneven_foot_stiffness"
-    experiment = "Turn the block by 180 degrees on the same plate, then swap shims: the loss follows the foot."
+    experiment = (
+        "Tap the standing block above each foot: uneven dampers let the ringing die at each foot's own rate, uneven "
+        "stiffness gives each foot its own pitch."
+    )
 
     foot1: float = 1.0
     foot2: float = 1.0

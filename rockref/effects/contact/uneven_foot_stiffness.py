@@ -25,7 +25,10 @@ class UnevenFootStiffness(Effect):
     equation = r"K^{(N)}_i \to s_i K^{(N)}_i"
     source = 'The model\'s source, "Defects"; K. L. Johnson (1985), Contact Mechanics, doi:10.1017/CBO9781139171731'
     confounder = "uneven_foot_friction"
-    experiment = "Turn the block by 180 degrees on the same plate: what belongs to the feet turns with it. Swap shims."
+    experiment = (
+        "Tap the standing block above each foot: the pitch of the contact follows the stiffness and knows no friction. "
+        "Pull it slowly by each foot: the pull at which it slides follows the friction."
+    )
 
     foot1: float = 1.0
     foot2: float = 1.0

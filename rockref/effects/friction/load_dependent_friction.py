@@ -15,7 +15,9 @@ FLOOR = 1e-3
 class LoadDependentFriction(Effect):
     """Both thresholds are multiplied by (F_N/reference)^(-exponent), F_N floored at a thousandth of the reference.
 
-    The reference is half the weight of the 54 kg block: there the coefficient is the stated one.
+    The reference is half the weight of the 54 kg block: there the coefficient is the stated one. Archard's areas give
+    exponents of 0 (many contacts) to 1/3 (one smooth one). Below zero, where friction rises with the load, there is no
+    theory here; decided: a fit may go there, so that data that speak against the effect can say so.
     """
 
     id = "load_dependent_friction"

@@ -11,7 +11,9 @@ from rockref.effects.base import POSITIVE, Effect, Quantity
 class StribeckFriction(Effect):
     """Both thresholds are multiplied by 1 + (ratio - 1) exp(-(|v_slide|/velocity)^2).
 
-    Simplified: the survey's curve without its viscous term (that is `viscous_friction`) and without memory.
+    Simplified: the survey's curve without its viscous term (that is `viscous_friction`) and without memory. A ratio
+    above 1 is Stribeck's: friction falls with speed. Below 1 it rises, which the survey does not have; decided: a fit
+    may go there, so that data that speak against the effect can say so.
     """
 
     id = "stribeck_friction"

@@ -21,9 +21,12 @@ class UnevenFootFriction(Effect):
     }
     sentence = "A foot that is polished, worn or oily holds less than its neighbours."
     equation = r"\mu_i \to s_i\,\mu_i"
-    source = 'The model\'s source, "Defects"'
+    source = 'The model\'s source, "Defects"; a share of the common friction is a definition: no DOI'
     confounder = "uneven_foot_stiffness"
-    experiment = "Turn the block by 180 degrees on the same plate; clean one foot at a time."
+    experiment = (
+        "Pull the standing block slowly by each foot, then clean that foot: the pull at which it slides changes, the "
+        "pitch of a tap above it, which follows the stiffness, does not."
+    )
 
     foot1: float = 1.0
     foot2: float = 1.0

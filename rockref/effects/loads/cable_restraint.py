@@ -26,7 +26,7 @@ class CableRestraint(Effect):
     switches = ("k", "c")
     sentence = "The cable to the sensor is slack at release; then it pulls the top back to where it was, and damps it."
     equation = r"F_{xy} = -k\,(p_{xy} - p_{xy}(0)) - c\,\dot p_{xy},\quad p = x + \Lambda\,(0,0,z_c)"
-    source = "Linear spring and damper, as in any textbook of vibrations; no source needed"
+    source = "Linear spring and damper, as in any textbook of vibrations: no DOI"
     confounder = "quadratic_drag"
     experiment = "Take the cable off (a logger on the block), or lead it another way: only this effect changes."
 

@@ -26,9 +26,12 @@ class LingeringWirePull(Effect):
     switches = ("force",)
     sentence = "A latch that sticks or a wire that burns through holds the block back for a moment after release."
     equation = r"F_y = F_w\,e^{-t/\tau}\ \text{at}\ x + \Lambda(0,0,h/2)"
-    source = "A load decided here; the release by a wire is in the model's source, section 3.3"
+    source = "A load decided here: no DOI; the release by a wire is in the model's source, section 3.3"
     confounder = "release_velocity"
-    experiment = "Cut the wire in another way (burn, electromagnet) and film the release: later arcs stay as they were."
+    experiment = (
+        "Film the release: with this the block begins at rest, and its acceleration grows as the pull dies away; with "
+        "a velocity it moves from the first picture on. Or cut the wire in another way: only this one changes."
+    )
 
     force: float = 0.0
     tau: float = 0.1

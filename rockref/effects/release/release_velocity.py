@@ -25,9 +25,12 @@ class ReleaseVelocity(Effect):
     }
     sentence = "A wire that snaps or a hand that steadies leaves the block turning when it is let go."
     equation = r"W(0) = (x, y, z),\quad v(0) = -\omega \times r_{pivot}"
-    source = "Kinematics of a turning body; no source needed"
+    source = "Kinematics of a turning body, as in any textbook of mechanics: no DOI"
     confounder = "lingering_wire_pull"
-    experiment = "Film the release, or release by an electromagnet: repeats of one run then agree in their first arc."
+    experiment = (
+        "Film the release: with this the block moves from the first picture on, and then as the law says; a wire that "
+        "still pulls lets it begin at rest and bends the acceleration after it."
+    )
 
     x: float = 0.0
     y: float = 0.0

@@ -24,7 +24,10 @@ class GyroBandwidth(Effect):
     }
     sentence = "The sensor's own filter smooths the steps of an impact and shows everything a little late."
     equation = r"H(s) = \omega^2/(s^2 + \sqrt2\,\omega s + \omega^2),\quad \omega = 2\pi f"
-    source = "S. Butterworth (1930), On the theory of filter amplifiers, Experimental Wireless 7:536-541 (order two)"
+    source = (
+        "S. Butterworth (1930), On the theory of filter amplifiers, Experimental Wireless 7:536-541 (order two); a "
+        "journal of that time: no DOI"
+    )
     confounder = "hertzian_contact"
     experiment = "Knock the sensor alone on a table and look at the rise of the step; or log a second, faster sensor."
 

@@ -23,7 +23,7 @@ class DimensionDeviation(Effect):
     }
     sentence = "A rounded or worn edge, or a wrong drawing: the feet stand closer together than the sides say."
     equation = r"P \to \mathrm{diag}(s_w, s_d, s_h)\,P,\quad J(w, d, h) \to J(s_w w, s_d d, s_h h)"
-    source = "The model's source, Fig. 3.2 (what the sides enter: rules G1 and G2)"
+    source = "The model's source, Fig. 3.2 (what the sides enter: rules G1 and G2); a definition: no DOI"
     confounder = "inertia_deviation"
     experiment = (
         "Measure the sides with a calliper; tip the block slowly until it balances: that angle knows no inertia."

@@ -35,7 +35,7 @@ class FootDefects(Effect):
     }
     sentence = "No base is flat: each foot touches at its outer corner and at an inner point, at different heights."
     equation = r"P_{int} = P_{corner}\,(1 - \delta_{diag}/\|P_{corner}\|)_{xy},\quad z_{ext} = -h/2 + \delta_{long,i}"
-    source = 'The model\'s source, "Defects", Fig. 3.2b and Table 3.1'
+    source = 'The model\'s source, "Defects", Fig. 3.2b and Table 3.1; the model itself: no DOI'
     confounder = "uneven_foot_stiffness"
     experiment = (
         "Measure the base with a feeler gauge or blue ink; turn the block by 180 degrees: the rattle turns with it."
@@ -72,15 +72,12 @@ class FootDefects(Effect):
         def both(a, ratio=1.0):
             return np.concatenate([a, a * ratio], axis=-1)
 
+        ratios = {"K_N": 1.0, "K_T": 1.0, "C_N": self.beta_int, "C_T": self.beta_int}
+        ratios |= {"mu_0": self.mu_int, "mu": self.mu_int}
         return block, replace(
             points,
             P=np.concatenate([outer, inner], axis=-2),
-            K_N=both(points.K_N),
-            K_T=both(points.K_T),
-            C_N=both(points.C_N, self.beta_int),
-            C_T=both(points.C_T, self.beta_int),
-            mu_0=both(points.mu_0, self.mu_int),
-            mu=both(points.mu, self.mu_int),
             radius=None if points.radius is None else both(points.radius),
             names=EXTERNAL + INTERNAL,
+            **{key: both(getattr(points, key), ratio) for key, ratio in ratios.items()},
         )

@@ -25,7 +25,7 @@ class MassEccentricity(Effect):
     }
     sentence = "A hole, a bolted sensor or uneven density moves the centre of mass, so left and right arcs differ."
     equation = r"P_i \to P_i - (x,\ y,\ z)"
-    source = 'The model\'s source, "Defects"'
+    source = 'The model\'s source, "Defects"; a shift of the origin, statics: no DOI'
     confounder = "plate_tilt"
     experiment = "Turn the block by 180 degrees on the same plate: an eccentricity flips, a tilt of the plate stays."
 

@@ -13,8 +13,10 @@ from rockref.model import assembly
 class UnevenContactNormals(Effect):
     """The normal at foot i is (x_i, y_i, 1), in plate axes: a further force F_N (x_i, y_i, 0) at its points.
 
-    First order in the angles. Simplified: penetration and friction keep to the flat plate; so a foot that slides along
-    its own slope gains or loses energy that a real slope would take from its height. Angles belong to the place on the
+    First order in the angles. Simplified: penetration and friction keep to the flat plate. So the force is not
+    conservative: it pushes sideways as hard as the foot is pressed, and no height pays for that. A foot that slides
+    along its own slope gains or loses energy, and round a closed way of pressing, sliding and lifting it gives or takes
+    what encloses depth times way. Angles belong to the place on the
     plate where the foot stands, and are not turned with the block.
     Source: one of the scenarios that the model's authors tried before the eight points ("Defects").
     """
@@ -30,7 +32,7 @@ class UnevenContactNormals(Effect):
     }
     sentence = "Scratches and chamfers turn the plate's push a little sideways, differently at each foot."
     equation = r"F_i \to F_i + F_i^{(N)}\,(x_i,\ y_i,\ 0)"
-    source = 'The model\'s source, "Defects"'
+    source = 'The model\'s source, "Defects"; a force along another normal, statics: no DOI'
     confounder = "uneven_foot_friction"
     experiment = "Move the block to another place on the plate, then turn it by 180 degrees in the same place."
 

@@ -10,12 +10,15 @@ from rockref.effects.contact.adhesion import Adhesion
 from rockref.effects.contact.hertzian_contact import HertzianContact
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
 from rockref.effects.contact.hysteretic_contact import HystereticContact
+from rockref.effects.friction.load_dependent_friction import LoadDependentFriction
 from rockref.effects.friction.rolling_resistance import ARM, RollingResistance
 from rockref.effects.friction.spin_friction import SpinFriction
+from rockref.effects.friction.stribeck_friction import StribeckFriction
 from rockref.effects.loads.cable_restraint import CableRestraint
 from rockref.effects.loads.plate_tilt import PlateTilt
+from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
 from rockref.effects.support.compliant_support import CompliantSupport
-from rockref.model.contact import Kinematics
+from rockref.model.contact import Kinematics, point_kinematics
 from rockref.model.integrator import Contact, evaluate_contact
 from rockref.model.problem import Problem
 from tests.unit.effects.bodies import body, points_at, puck, walk
@@ -169,3 +172,47 @@ def test_the_support_keeps_or_takes(ratio):
     else:
         assert change[-1] < -0.1
         assert np.all(np.diff(change[::100]) < 2e-3)
+
+
+@pytest.mark.parametrize(
+    "effect",
+    [
+        StribeckFriction(1.5, 0.01), StribeckFriction(0.5, 0.05), StribeckFriction(3.0, 1e-3),
+        LoadDependentFriction(0.33, 2.5), LoadDependentFriction(-0.33, 2.5),
+    ],
+    ids=lambda effect: f"{effect.id}-{list(effect.values().values())[0]}",
+)  # fmt: skip
+def test_friction_with_a_coefficient_that_varies_never_drives(effect):
+    """A puck that slides, stops and bounces a little: motion, springs and weight together never rise."""
+    K_N, K_T, mass = 1e6, 1e6, 1.0
+    problem = puck([effect], mass=mass, mu=0.4, v=(0.05, 0.02, 1e-3), K_N=K_N, K_T=K_T, C_N=20.0, C_T=20.0)
+    total = []
+    for s in walk(problem, 3000):
+        k = point_kinematics(s.x, s.Lambda, s.v, s.W, problem.points.P)
+        held = np.where(s.anchored[:, None], k.u[:, :2] - s.s, 0.0)
+        springs = K_N * np.maximum(k.xi, 0) ** 2 + K_T * np.sum(held**2, axis=1)
+        total.append(mass * s.v @ s.v / 2 + mass * 9.81 * s.x[2] + np.sum(springs) / 2)
+    moved = mass * 0.05**2 / 2
+    change = np.diff(total) / moved
+    # Of second order in the step: (omega h)^2 = 4 K h^2/m = 4e-4 of what a spring holds, (mu m g)^2/8 K = 2e-6 J.
+    assert change.max() < 4e-4 * 2e-6 / moved
+    assert total[0] - total[-1] > 0.9 * moved
+
+
+def test_uneven_normals_are_not_conservative():
+    """Pressed to 2 um, slid by 1 mm, lifted and brought back, a foot has taken or given K xi x d, as the text says."""
+    tilt, depth, way = 0.02, 2e-6, 1e-3
+    points = points_at([(0, 0, 0)], K_N=K)
+    effect = UnevenContactNormals(x1=tilt)
+
+    def force(x, z):
+        problem = body(points, [effect], x=(x, 0, z))
+        s = problem.start
+        c = evaluate_contact(problem.replace(effects=()), s, s.x, s.Lambda, s.v, s.W, np.zeros(3), 0.0, ())
+        return effect.point_wrench(problem, c, {})[0]
+
+    # Along z the further force has no part; so only the two slides count, pressed and lifted.
+    assert force(0.0, -depth)[2] == 0
+    work = way * (force(0.0, -depth)[0] - force(way, depth)[0])
+    assert work == pytest.approx(tilt * K * depth * way, rel=1e-12)
+    assert "not\n    conservative" in UnevenContactNormals.__doc__

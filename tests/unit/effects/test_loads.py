@@ -183,3 +183,14 @@ def test_release_velocity_turns_about_the_pivots():
 def test_half_height_is_above_the_lowest_point():
     assert half_height(sample_problem().points) == 0.344
     assert np.all(exponential(np.zeros(3)) == np.eye(3))
+
+
+def test_typical_drag_is_that_of_the_sail_of_which_the_text_speaks():
+    """rho C_d A H^3/2 of a plate about the base; bare, the integral of rho C_d w z^3/2 over the block's height."""
+    rho, C_d, width, height = 1.2, 2.0, 0.1, 0.688
+    sail = rho * C_d * 10 * width * height * 0.8**3 / 2
+    bare = rho * C_d * width * height**4 / 4 / 2
+    q = QuadraticDrag.quantities["c"]
+    # The text gives one digit.
+    assert q.typical == pytest.approx(sail, rel=0.1) and "0.4 N m s2 is a sail" in QuadraticDrag.__doc__
+    assert bare == pytest.approx(0.007, rel=0.1) and q.low < bare
