@@ -11,6 +11,10 @@ from rockref.discover.stretches import AXES, STRETCH_WORDS, STRETCHES
 from rockref.model.channel import DEGREES
 from rockref.report.page import Table
 
+#: Stretches by the main impacts that bound them, and units, where a line is short.
+STRETCH_SHORT = {"before": "to 1st impact", "between": "1st to 2nd", "after": "after 2nd"}
+UNITS = ("(deg/s)", "/ noise", "/ spread")
+
 
 def number(value: float | None, digits: int = 2, unit: str = "", plus: bool = False) -> str:
     """Return a number as text, an en dash for what is not known."""
@@ -59,28 +63,33 @@ def runs_table(c: Comparison) -> Table:
     )
 
 
-def errors_table(c: Comparison, model: int) -> Table:
-    """The error of one model by stretch and axis, fit and holdout runs apart, in three units."""
-    uses = [use for use in ("fit", "holdout") if c.of(use)]
+def errors_table(c: Comparison, model: int, use: str | None = None) -> Table:
+    """The error of one model by stretch and axis in three units: fit and holdout runs side by side, or those of one
+    use (narrow, for a terminal)."""
+    uses = [one for one in ("fit", "holdout") if c.of(one) and use in (None, one)]
+    names = STRETCH_WORDS if use is None else STRETCH_SHORT
     columns = ["stretch", "axis"]
-    for use in uses:
-        columns += [f"{use} (deg/s)", f"{use} / noise", f"{use} / spread"]
+    for one in uses:
+        columns += [f"{one} (deg/s)", f"{one} / noise", f"{one} / spread"] if use is None else list(UNITS)
     rows = []
     for stretch in STRETCHES:
         for axis in AXES:
-            row = [STRETCH_WORDS[stretch], axis]
-            for use in uses:
+            row = [names[stretch], axis]
+            for one in uses:
                 row += [
-                    number(DEGREES * c.rms(model, stretch, axis, use), 3),
-                    number(mean_of(c, model, use, stretch, axis, "in_noise"), 1),
-                    number(mean_of(c, model, use, stretch, axis, "in_spread"), 1),
+                    number(DEGREES * c.rms(model, stretch, axis, one), 3),
+                    number(mean_of(c, model, one, stretch, axis, "in_noise"), 1),
+                    number(mean_of(c, model, one, stretch, axis, "in_spread"), 1),
                 ]
             rows.append(row)
     note = (
         "Quadratic means over the runs, after the release tilt was moved within its uncertainty to meet the first main "
         "impact. / noise: 1 is a perfect model. / spread: standard deviations between repeats, which differ by 1.4."
     )
-    return Table(f"Error of {c.names[model]}", columns, rows, note)
+    of_use = "" if use is None else f", {use} runs"
+    # Below the last table of the model, once.
+    last = use is None or use == "holdout" or not c.of("holdout")
+    return Table(f"Error of {c.names[model]}{of_use}", columns, rows, note if last else "")
 
 
 def mean_of(c: Comparison, model: int, use: str | None, stretch: str, axis: str, name: str) -> float | None:
@@ -93,6 +102,7 @@ def mean_of(c: Comparison, model: int, use: str | None, stretch: str, axis: str,
 def departures_table(c: Comparison, model: int) -> Table:
     """Run by run: instants, and where the model leaves the band."""
     rows = []
+    fell = any(r.overturned for r in c.results[model])
     for k, r in enumerate(c.results[model]):
         d = r.leaves_band
         rows.append(
@@ -104,7 +114,7 @@ def departures_table(c: Comparison, model: int) -> Table:
                 "never" if d is None else number(d.time, 3),
                 "" if d is None else d.axis,
                 "" if d is None else ", ".join(name for name, _ in d.points),
-                "overturned" if r.overturned else "",
+                *([("yes" if r.overturned else "no")] if fell else []),
             ]
         )
     columns = [
@@ -115,7 +125,7 @@ def departures_table(c: Comparison, model: int) -> Table:
         "leaves the band (s)",
         "axis",
         "points touching",
-        "",
+        *(["fell over"] if fell else []),
     ]
     note = (
         "1st impact: model minus measured at the stated tilt. 1st to 2nd: the same after the tilt was moved. "
