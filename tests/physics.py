@@ -23,7 +23,7 @@ def points(P, K_N=6e7, K_T=5e7, C_N=2e4, C_T=1.8e4, mu_0=0.25, mu=None, radius=N
     P = np.asarray(P, float).reshape(-1, 3)
     n = len(P)
     mu = mu_0 if mu is None else mu
-    same = [np.full(n, float(value)) for value in (K_N, K_T, C_N, C_T, mu_0, mu)]
+    same = [np.full(n, np.asarray(value, float)) for value in (K_N, K_T, C_N, C_T, mu_0, mu)]
     return ContactPoints(P, *same, None if radius is None else np.full(n, float(radius)), tuple(map(str, range(n))))
 
 

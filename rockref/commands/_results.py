@@ -10,6 +10,13 @@ if TYPE_CHECKING:
     from rockref.api import Model
 
 
+def folder_name(text: str) -> Path:
+    """The folder that an option names; an empty word, which would be the current folder, is refused."""
+    if not text.strip():
+        raise typer.BadParameter("is empty; name a folder, or . for the current one.")
+    return Path(text)
+
+
 def keep(text: str, output: Path | None, model: "Model", save_model: Path | None) -> list[Path]:
     """Write the record and the model where they are wanted; where they are now."""
     from rockref.model.storage import write_text

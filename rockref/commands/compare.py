@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._results import folder_name
+
 
 def register(app: typer.Typer) -> None:
     """Add ``compare`` to `app`."""
@@ -21,7 +23,13 @@ def compare(
         ),
     ] = None,
     report: Annotated[
-        Path | None, typer.Option("--report", help="Folder for the page and the figures; made if it is not there.")
+        Path | None,
+        typer.Option(
+            "--report",
+            parser=folder_name,
+            metavar="FOLDER",
+            help="Folder for the page and the figures; made if it is not there.",
+        ),
     ] = None,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself) or numba (compiled).")] = "auto",
     check: Annotated[
@@ -52,12 +60,12 @@ def compare(
     from rockref.discover.compare import baseline_model
     from rockref.discover.compare import compare as run_comparison
     from rockref.measure import load_experiment
-    from rockref.report.output import made_folder, write_report
+    from rockref.report.output import usable_folder, write_report
 
     loaded = load_experiment(experiment)
     models = [named_model(text) for text in model] if model else [baseline_model(loaded)]
     names = labels(model) if model else [f"baseline ({loaded.baseline})"]
-    folder = made_folder(report) if report is not None else None
+    folder = usable_folder(report) if report is not None else None
     with progress("simulating the runs") as ahead:
         comparison = run_comparison(loaded, models, names, engine=engine, progress=ahead)
     written = write_report(comparison, folder) if folder is not None else []
@@ -66,11 +74,10 @@ def compare(
     if as_json:
         typer.echo(json.dumps(comparison.to_dict() | {"written": [str(path) for path in written]}, indent=1))
     else:
-        from rich.console import Console
-
+        from rockref.commands._stages import console
         from rockref.report.text import print_comparison
 
-        print_comparison(Console(), comparison)
+        print_comparison(console(), comparison)
         say_written(written)
     if check and not comparison.holds_to_second_impact():
         raise typer.Exit(1)

@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._results import folder_name
+
 
 def register(app: typer.Typer) -> None:
     """Add ``diagnose`` to `app`."""
@@ -18,7 +20,13 @@ def diagnose(
         str | None, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml to start from.")
     ] = None,
     report: Annotated[
-        Path | None, typer.Option("--report", help="Folder for the page (index.html); made if it is not there.")
+        Path | None,
+        typer.Option(
+            "--report",
+            parser=folder_name,
+            metavar="FOLDER",
+            help="Folder for the page (index.html); made if it is not there.",
+        ),
     ] = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
     save_model: Annotated[Path | None, typer.Option("--save-model", help="Write the best model there.")] = None,
@@ -49,10 +57,10 @@ def diagnose(
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
-    from rockref.report.output import made_folder
+    from rockref.report.output import made_folder, usable_folder
 
     given = named_model(model) if model is not None else None
-    folder = made_folder(report) if report is not None else None
+    folder = usable_folder(report) if report is not None else None
     with stages(f"diagnosing {experiment}", every_line=verbose) as say:
         found = engine.diagnose(experiment, given, seed, workers, progress=say)
         record = plain(found.to_dict())
@@ -61,7 +69,7 @@ def diagnose(
             from rockref.report.diagnosis_page import write_diagnosis
 
             say("the page")
-            written.append(write_diagnosis(found, folder))
+            written.append(write_diagnosis(found, made_folder(folder)))
     text = json.dumps(record, indent=1, allow_nan=False)
     written += keep(text, output, found.model, save_model)
     if as_json:

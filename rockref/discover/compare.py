@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -31,7 +32,7 @@ from rockref.measure.ledger import GRAVITY, rocking_block
 from rockref.measure.noise import noise_floor
 from rockref.measure.prediction import STEP, Prediction, gyro_of, predict
 from rockref.measure.repeatability import Repeatability, repeat_groups, repeatability
-from rockref.model.errors import InputError
+from rockref.model.errors import InputError, NumericalError
 
 # decided: an envelope narrower than this many noise widths is noise.
 ENVELOPE_SIGMAS = 3.0
@@ -207,14 +208,16 @@ def compare(
         raise InputError("E-RUN", f"{experiment.path}", "no run was loaded", "Load the runs of one use at least.")
     measured = measured_runs(experiment, runs)
     results = []
-    for number, model in enumerate(models):
+    for number, (name, model) in enumerate(zip(names, models, strict=True)):
         half = [_part(progress, 2 * number + k, 2 * len(models)) for k in (0, 1)]
         given = dict(releases or {})
-        stated = predict(model, runs, gyro, engine=engine, releases=given, step=step, progress=half[0])
-        offsets = [
-            0.0 if m.run.id in given else tilt_offset(m, p, experiment) for m, p in zip(measured, stated, strict=True)
-        ]
-        aligned = _predict_again(model, runs, stated, offsets, gyro, engine=engine, step=step, progress=half[1])
+        with _named(name, step):
+            stated = predict(model, runs, gyro, engine=engine, releases=given, step=step, progress=half[0])
+            offsets = [
+                0.0 if m.run.id in given else tilt_offset(m, p, experiment)
+                for m, p in zip(measured, stated, strict=True)
+            ]
+            aligned = _predict_again(model, runs, stated, offsets, gyro, engine=engine, step=step, progress=half[1])
         rows = zip(measured, stated, aligned, offsets, strict=True)
         results.append(tuple(_one(*row, experiment) for row in rows))
     return Comparison(
@@ -227,6 +230,20 @@ def compare(
         step=step,
         seconds=time.perf_counter() - began,
     )
+
+
+@contextmanager
+def _named(name: str, step: float) -> Iterator[None]:
+    """Say of which model an error is; who compares chooses the model, not the step."""
+    try:
+        yield
+    except (InputError, NumericalError) as error:
+        if error.code == "E-ENGINE":
+            raise
+        cure = error.cure
+        if error.code == "E-STEP":
+            cure = f"Releases are computed in steps of {step:g} s: check the unit of the stiffness and the damping."
+        raise type(error)(error.code, f"model {name}: {error.where}", error.what, cure) from error
 
 
 def _check_names(names: tuple[str, ...], models: Sequence[Model]) -> None:

@@ -49,6 +49,17 @@ def largest_step(problem: Problem) -> float:
     return float(np.min(2 * (np.sqrt(d * d + w2) - d) / w2))
 
 
+def stiffest(problem: Problem) -> str:
+    """Name, stiffness and damping of the contact that by itself allows the shortest step, in the stiffer direction."""
+    points, mass = problem.points, np.asarray(problem.block.mass, float)[..., None]
+    pairs = [(np.asarray(points.K_N), np.asarray(points.C_N)), (np.asarray(points.K_T), np.asarray(points.C_T))]
+    limits = np.stack([(np.sqrt(C * C + K * mass) - C) / K for K, C in pairs])
+    place = tuple(np.unravel_index(np.argmin(limits), limits.shape))
+    K, C = (np.broadcast_to(a, limits.shape[1:])[place[1:]] for a in pairs[place[0]])
+    axis = "NT"[place[0]]
+    return f"{points.names[place[-1]]} with K_{axis} = {K:.3g} N/m and C_{axis} = {C:.3g} N s/m"
+
+
 def rounded_down(a: float) -> float:
     """A positive number cut to two digits."""
     place = 10.0 ** (np.floor(np.log10(a)) - 1)
@@ -88,13 +99,13 @@ def check(problem: Problem) -> None:
         raise InputError(
             "E-STEP",
             "step",
-            f"{problem.step:g} s is too large for the stiffest contact",
+            f"{problem.step:g} s is too large for the stiffest contact, {stiffest(problem)}",
             f"Use a step of at most {rounded_down(limit):.2g} s.",
         )
 
 
-#: No run is longer. Decided: 1e10 steps take the compiled engine hours and the law a fortnight; a run of the source
-#: has 1e6. More is a slip of the keyboard.
+#: No run is longer. Decided: 1e10 steps take the compiled engine an hour and the law weeks; a run of the source has
+#: 1e6. More is a slip of the keyboard.
 MOST_STEPS = 1e10
 
 #: No response is larger [bytes]. Decided: what a desk machine still holds; 10 s of one block at 2 kHz are 1e7.

@@ -119,3 +119,79 @@ def test_demo_without_data_says_where_to_get_it(capsys, tmp_path):
     assert (code, out) == (2, "")
     assert "E-DEMO" in err and "source repository" in err
     assert not (tmp_path / "out").exists()
+
+
+def printed(comparison, width, terminal):
+    """What a console of this width, terminal or pipe, shows of a comparison."""
+    import io
+
+    from rich.console import Console
+
+    from rockref.report.text import print_comparison
+
+    file = io.StringIO()
+    print_comparison(Console(file=file, width=width, force_terminal=terminal, color_system=None), comparison)
+    return file.getvalue()
+
+
+@pytest.fixture(scope="module")
+def of_two_models(short):
+    from rockref.discover.compare import compare
+    from rockref.measure import load_experiment
+
+    return compare(load_experiment(short), [Model.table_3_1(), Model.four_points()], ["table_3_1", "four_points"])
+
+
+@pytest.mark.parametrize(("width", "terminal"), [(80, True), (80, False), (40, True), (120, False), (200, True)])
+def test_every_number_of_the_tables_is_there(of_two_models, width, terminal):
+    """In whatever width, as a word of its own: nothing is cut, no number is broken."""
+    from rockref.report import tables
+
+    shown = printed(of_two_models, width, terminal)
+    assert "\u2026" not in shown
+    words = set(shown.split())
+    made = [tables.runs_table(of_two_models), tables.energy_table(of_two_models)]
+    for model in (0, 1):
+        made += [tables.departures_table(of_two_models, model)]
+        made += [tables.errors_table(of_two_models, model, use) for use in ("fit", "holdout")]
+    for table in made:
+        for row in table.rows:
+            assert {word for cell in row for word in cell.split()} <= words, table.caption
+
+
+def test_at_80_columns_no_line_of_a_table_is_longer(of_two_models):
+    shown = printed(of_two_models, 80, True)
+    tables_only = [line for line in shown.splitlines() if not line.startswith("  - ")]
+    assert max(map(len, tables_only)) <= 80
+
+
+def test_in_a_pipe_a_row_is_a_line(of_two_models):
+    shown = printed(of_two_models, 80, False)
+    rows = [line.split() for line in shown.splitlines() if line.startswith("01 (fit) ")]
+    # one of the runs, one a model of where it leaves the band
+    assert len(rows) == 3
+    assert all(re.fullmatch(r"0\.\d{3}", word) for word in rows[0][-6:-1] if word != "/")
+
+
+@pytest.mark.parametrize("extra", [("--model", "nowhere.toml"), ("--engine", "abacus")], ids=lambda e: e[0])
+def test_a_refused_comparison_leaves_no_folder(capsys, short, tmp_path, extra):
+    assert run(capsys, "compare", short, *extra, "--report", tmp_path / "new" / "report")[0] == 2
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command", ["compare", "diagnose"])
+def test_a_report_in_no_folder_is_refused(capsys, short, command):
+    code, out, err = run(capsys, command, short, "--report", "")
+    assert (code, out) == (2, "")
+    assert "--report" in err and "name a folder" in err
+
+
+def test_a_model_too_stiff_for_the_step_is_named_with_its_point(capsys, short, tmp_path):
+    """The command has no step to choose: the cure is the model's."""
+    path = tmp_path / "glass.toml"
+    Model.four_points().replace(K_N=6e12).save(path)
+    code, out, err = run(capsys, "compare", short, "--model", path)
+    said = " ".join(err.split())
+    assert (code, out) == (2, "")
+    assert "model glass" in said and "K_N = 6e+12 N/m" in said and "1ext" in said and "[E-STEP]" in said
+    assert "Use a step" not in said

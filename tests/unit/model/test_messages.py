@@ -181,7 +181,25 @@ REFUSALS = [
     (
         # an undamped spring of 6e7 N/m under 66 kg: (w h)^2 / 4 = 1 at h = 2.098 ms
         lambda: run(physics.mass_on_a_foot(mass=66.0, K_N=6e7, K_T=6e7, C_N=0, C_T=0, step=3e-3)),
-        "step: 0.003 s is too large for the stiffest contact. Use a step of at most 0.002 s. [E-STEP]",
+        "step: 0.003 s is too large for the stiffest contact, 0 with K_N = 6e+07 N/m and C_N = 0 N s/m. "
+        "Use a step of at most 0.002 s. [E-STEP]",
+    ),
+    (
+        # h = 1 / d, d = C_T (1/60 + 0.1^2 / 0.09), of the second foot, damped more than stiff, under the lighter block
+        lambda: run(
+            problem.stack(
+                [
+                    replace(
+                        physics.mass_on_a_foot(mass=m, step=3e-3),
+                        points=physics.points([0, 0, 0, 0.1, 0, 0], C_T=np.array([1e4, 3e6])),
+                        start=problem.State.at_rest(np.zeros(3), np.eye(3), 2),
+                    )
+                    for m in (66.0, 60.0)
+                ]
+            )
+        ),
+        "step: 0.003 s is too large for the stiffest contact, 1 with K_T = 5e+07 N/m and C_T = 3e+06 N s/m. "
+        "Use a step of at most 2.6e-06 s. [E-STEP]",
     ),
     (lambda: run(body(mass=np.array(0.0))), f"mass: is 0.0. {BODY}"),
     (lambda: run(body(g=np.array(-1.0))), f"g: is -1.0. {BODY}"),
