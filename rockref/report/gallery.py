@@ -8,6 +8,7 @@ from __future__ import annotations
 import inspect
 import math
 import sys
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -38,6 +39,8 @@ WHERE_POSES_ARE_READ = "measured poses, where they become poses of the body over
 TOSSES = "What else shows in measured tosses?"
 #: The effect that makes eight points of four: it is shown on, and needs, the four-point model.
 ON_FOUR_POINTS = "foot_defects"
+#: Characters in a line of a picture's title; decided: what fits above it in letters of eight points.
+TITLE = 110
 #: Pictures last until a little after the second main impact [s], while one can still follow both curves.
 DURATION = 1.5
 
@@ -121,30 +124,38 @@ def curves(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times (N,) [s], and crv (N, 3) [deg/s] without and with the effect, for the block of Table 3.1.
 
-    `foot_defects` is shown against the four-point model, to which it belongs.
+    `foot_defects` is shown against the four-point model, to which it belongs. A clock that is slow shows more of the
+    motion in the same time: it is simulated for that much longer.
     """
     base = api.Model.four_points() if effect.id == ON_FOUR_POINTS else api.Model.table_3_1()
     without = api.simulate(base, duration=duration, engine="auto")
-    with_it = api.simulate(base.replace(effects=(effect,)), duration=duration, engine="auto", progress=progress)
-    shown = measured([effect], with_it.t, with_it.W)
+    longer = duration * max(1.0, float(effect.values()["rate"])) if effect.id == "clock_error" else duration
+    with_it = api.simulate(base.replace(effects=(effect,)), duration=longer, engine="auto", progress=progress)
+    shown = measured([effect], with_it.t, with_it.W)[: len(without.t)]
     return without.t, without.W * DEGREES, shown * DEGREES
 
 
 def picture(effect: Effect, duration: float = DURATION, progress: Callable[[float], None] | None = None) -> Any:
-    """A figure: the three rates, without the effect in grey and with it in colour."""
+    """A figure: the three rates, without the effect in grey and with it in colour; beside them what it changes."""
     t, without, with_it = curves(effect, duration, progress)
-    figure = new_figure(8.0, 5.6)
-    axes = figure.subplots(3, 1, sharex=True)
-    for i, name in enumerate(style.AXIS_NAMES):
-        axes[i].plot(t, without[:, i], color=style.GREY, linewidth=0.9, label="without")
-        axes[i].plot(t, with_it[:, i], color=style.colour(0), linewidth=0.9, label="with")
-        axes[i].set_ylabel(f"{name}\n(deg/s)", fontsize=9)
-        axes[i].margins(y=0.08)
-        axes[i].axhline(0.0, color=style.BAND, linewidth=0.6, zorder=0)
-    axes[-1].set_xlabel("time (s)")
-    axes[-1].set_xlim(0.0, float(t[-1]))
-    axes[0].legend(loc="upper right", ncols=2, frameon=False, fontsize=8)
-    figure.suptitle(words(effect), fontsize=8, x=0.02, ha="left")
+    figure = new_figure(9.6, 5.6)
+    axes = figure.subplots(3, 2, sharex=True, width_ratios=(5, 3))
+    law = "without (four points)" if effect.id == ON_FOUR_POINTS else "without"
+    for row, name, a, b in zip(axes, style.AXIS_NAMES, without.T, with_it.T, strict=True):
+        row[0].plot(t, a, color=style.GREY, linewidth=0.9, label=law)
+        row[0].plot(t, b, color=style.colour(0), linewidth=0.9, label="with")
+        row[1].plot(t, b - a, color=style.colour(1), linewidth=0.9)
+        row[0].set_ylabel(f"{name}\n(deg/s)", fontsize=9)
+        for ax in row:
+            ax.margins(y=0.08)
+            ax.axhline(0.0, color=style.BAND, linewidth=0.6, zorder=0)
+            ax.set_xlim(0.0, float(t[-1]))
+    for ax in axes[-1]:
+        ax.set_xlabel("time (s)")
+    axes[0, 0].legend(loc="upper right", ncols=2, frameon=False, fontsize=8)
+    axes[0, 1].set_title("with minus without", fontsize=8)
+    title = textwrap.wrap(words(effect).replace(",", ", "), TITLE, break_on_hyphens=False)
+    figure.suptitle("\n".join(title), fontsize=8, x=0.02, ha="left")
     return figure
 
 
@@ -161,7 +172,8 @@ def page() -> str:
         "# Effects",
         "What may be added to the law. `rockref effects NAME` prints the same; `rockref simulate --effect WORDS` and",
         "a model file use it. Pictures show the block of Table 3.1, without the effect in grey and with it, at its",
-        "typical size, in colour.",
+        "typical size, in colour; on the right is the difference, with minus without, on a scale of its own. For",
+        "`foot_defects`, which makes eight points of four, grey is the four-point model.",
     ]
     for question, answers in QUESTIONS.items():
         parts += ["", f"## {TITLES[question]}", "", f"The law: {answers[0].sentence}", "", f"$${answers[0].equation}$$"]

@@ -41,6 +41,28 @@ def test_curves_are_those_of_the_law_and_of_the_effect():
     assert not np.array_equal(four, eight)
 
 
+def test_a_slow_clock_is_shown_to_the_end():
+    """It shows the motion at rate t, in the last row, too: nothing is held there."""
+    t, without, with_it = gallery.curves(EFFECTS["clock_error"](2.0), duration=0.02)
+    _, longer, _ = gallery.curves(EFFECTS["clock_error"](1.5), duration=0.04)
+    np.testing.assert_allclose(with_it, longer[::2], atol=1e-9)
+    assert len(t) == len(with_it) == len(without)
+
+
+def test_a_picture_shows_what_changes_and_its_whole_title():
+    """An effect of two per cent hides on the curves; its difference stands beside them, on a scale of its own."""
+    effect = EFFECTS["foot_defects"].typical()
+    figure = gallery.picture(effect, duration=0.02)
+    _, four, eight = gallery.curves(effect, duration=0.02)
+    left, right = figure.axes[0::2], figure.axes[1::2]
+    for i in range(3):
+        assert np.array_equal(right[i].lines[0].get_ydata(), eight[:, i] - four[:, i])
+    assert left[0].lines[0].get_label() == "without (four points)"
+    title = figure.get_suptitle()
+    assert title.replace("\n", " ") == gallery.words(effect).replace(",", ", ")
+    assert max(map(len, title.split("\n"))) <= gallery.TITLE
+
+
 def test_words_are_what_the_command_line_reads():
     assert gallery.words(EFFECTS["cable_restraint"](5.0, 0.3)) == "cable_restraint:k=5,c=0.3"
     assert gallery.words(EFFECTS["gyro_bandwidth"].typical()) == "gyro_bandwidth:frequency=40"
