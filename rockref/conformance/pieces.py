@@ -225,16 +225,16 @@ class Rows:
 RECORDED = ("W", "x", "Lambda", "F", "anchored")
 
 
-def simulate(rules: Rules, problem: Problem, dtype=None, late: int = 0) -> Rows:
+def simulate(rules: Rules, problem: Problem, dtype=None, late: int = 0, recorded: Callable = output_steps) -> Rows:
     """Run a problem, one or a batch, by these rules. A run that loses its numbers goes on with them.
 
-    late : rows hold the state of so many steps before; for the zoo.
+    late : rows hold the state of so many steps before; recorded : numbers of the steps of the rows; for the zoo.
     """
     problem = as_arrays(problem, dtype)
     inertia = prepared_inertia(problem.block)
     with np.errstate(all="ignore"):
         state = rules.start(rules, problem)
-        wanted, done, t = np.maximum(output_steps(problem) - late, 0), 0, []
+        wanted, done, t = np.maximum(recorded(problem) - late, 0), 0, []
         columns: dict[str, list] = {k: [] for k in RECORDED}
         for count in wanted:
             for _ in range(done, int(count)):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -94,11 +96,24 @@ def step(q: dict[str, Any], m: Any) -> dict[str, Any]:
     return found
 
 
+def rows_of(q: dict[str, Any], m: Any) -> Iterator[Moment]:
+    """The rows of a run: the nearest steps to the instants i / output_rate, up to the last whole step."""
+    steps = round(float(q["duration"]) / float(q["step"]))
+    every = 1 / (float(q["output_rate"]) * float(q["step"]))
+    wanted = [math.floor(i * every + 0.5) for i in range(math.floor(steps / every + 1e-9) + 1)]
+    return exact_run.run(body_of(q), start_of(q), q["step"], wanted, m)
+
+
+def patterns(q: dict[str, Any], m: Any) -> list[str]:
+    """What the feet do in every row: open -, sticking s, sliding S."""
+    flags = [zip(row.anchored, row.sliding, strict=True) for row in rows_of(q, m)]
+    return ["".join("-" if not on else "S" if slides else "s" for on, slides in row) for row in flags]
+
+
 def simulate(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """A short run; `x@1` is x after one step. The number of steps follows from the duration."""
-    steps = range(round(float(q["duration"]) / float(q["step"])) + 1)
+    """A short run; `x@1` is x in the row after the first."""
     found: dict[str, Any] = {}
-    for i, row in enumerate(exact_run.run(body_of(q), start_of(q), q["step"], list(steps), m)):
+    for i, row in enumerate(rows_of(q, m)):
         found |= {f"{k}@{i}": getattr(row, k) for k in ("W", "x", "Lambda", "F", "anchored")}
         found |= {f"{k}@{i}": part(k, np.array(row.F, object), {}).tolist() for k in ("F_N", "F_T")}
         found[f"x_T@{i}"] = row.x[:2]

@@ -40,6 +40,7 @@ class Case:
 
     instead : result -> the one in whose stead it is looked at, where that is not shown
     on_surface : the inputs lie exactly on a switching surface and every operation on them is exact: they are not moved.
+    place : of a short run: between which numbers it is judged, where that is not its own number
     """
 
     rule: str
@@ -53,6 +54,7 @@ class Case:
     set: str | None = None
     margin: float | None = None
     instead: dict[str, str] = field(default_factory=dict)
+    place: float | None = None
 
 
 @dataclass

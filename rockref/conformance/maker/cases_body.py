@@ -155,7 +155,13 @@ def steps() -> Iterator[Case]:
     yield ask("I5", "W", ("spinning under a moment", "oblique inertia"), h=2.0**-10, inertia=full, **loads)
 
 
+def no_rotation() -> Iterator[Case]:
+    """I3 of the vector that is exactly zero: nothing is moved, and nothing is divided by nothing."""
+    fields = {"Lambda": ("I3", "I3")}
+    yield Case("I3", "L3", "rotate", {"Theta": np.zeros(3)}, fields, ("zero",), on_surface=True)
+
+
 def all_bodies() -> Iterator[Case]:
     """Every question of L2 and L3."""
-    for group in (assembly, exponentials, steps):
+    for group in (assembly, exponentials, steps, no_rotation):
         yield from group()

@@ -48,13 +48,13 @@ def ask(
 ) -> Case:
     """A run of so many steps from a state; `made` replaces properties, `changes` the memory and the step.
 
-    stand : whether the next row stands in for forces that are not shown
+    stand : whether the next row stands in for forces that are not shown; `every` among the changes: steps a row
     """
-    q = table_3_1(delta_long=EVEN) | {k: np.full(8, float(v)) for k, v in (made or {}).items()}
+    q = table_3_1(delta_long=EVEN) | {k: np.full(8, v, float) for k, v in (made or {}).items()}
     rates = {k: np.array(changes.pop(k), float) for k in ("v", "W") if k in changes}
     q = at_rest(q, x, np.eye(3) if Lambda is None else Lambda, **rates) | changes
-    h = q.pop("step", 2.0**-17)
-    q |= {"step": h, "duration": steps * h, "output_rate": 1 / h}
+    h, every = q.pop("step", 2.0**-17), q.pop("every", 1.0)
+    q |= {"step": h, "duration": steps * h, "output_rate": 1 / (every * h)}
     rule = next(iter(fields.values()))
     instead = stand_ins(fields, steps) if stand else {}
     named = {k: (r, r) for k, r in fields.items()} | {k: (rule, rule) for k in instead}

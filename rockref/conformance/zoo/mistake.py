@@ -22,7 +22,8 @@ class Mistake:
 
     id, says : name and one line;  rule : the rule that is wrong.
     plant : replaces rules;  read : how a whole run misreads its problem, where a mistake in what is derived from the
-    parameters shows in a run only so;  report : what a run makes of its rows;  late : rows that many steps old.
+    parameters shows in a run only so;  report : what a run makes of its rows;  late : rows that many steps old;
+    recorded : the numbers of the steps that a run writes down, where they are not the nearest ones.
     """
 
     id: str
@@ -32,6 +33,7 @@ class Mistake:
     read: Callable[[Problem], Problem] | None = None
     report: Callable[[Rows], Rows] | None = None
     late: int = 0
+    recorded: Callable[[Problem], np.ndarray] = pieces.output_steps
 
     def backend(self) -> Mistaken:
         """A backend that makes this mistake and shows all its pieces."""
@@ -49,13 +51,15 @@ class Mistaken(RulesBackend):
     def simulate(self, problem: Problem) -> Any:
         """A run with the mistake in it."""
         m = self.mistake
-        rows = pieces.simulate(self.rules, m.read(problem) if m.read else problem, self.dtype, m.late)
+        read = m.read(problem) if m.read else problem
+        rows = pieces.simulate(self.rules, read, self.dtype, m.late, m.recorded)
         return m.report(rows) if m.report else rows
 
     def simulate_many(self, problems: list[Problem]) -> list[Any]:
         """Runs side by side."""
         m = self.mistake
-        batch = pieces.simulate(self.rules, stack([m.read(p) if m.read else p for p in problems]), self.dtype, m.late)
+        read = stack([m.read(p) if m.read else p for p in problems])
+        batch = pieces.simulate(self.rules, read, self.dtype, m.late, m.recorded)
         rows = [batch.pick(i) for i in range(len(problems))]
         return [m.report(r) for r in rows] if m.report else rows
 

@@ -18,6 +18,7 @@ from rockref.conformance.maker.arithmetic import converted
 from rockref.conformance.maker.bars import FIFTY, converted_floats_of, is_flag
 from rockref.conformance.rules import ORDER, PIECES
 from rockref.conformance.zoo.mistakes import BY_ID
+from rockref.engines import run
 from rockref.model.errors import InputError
 
 LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "L7")
@@ -113,6 +114,26 @@ def test_points_take_the_stated_branch():
         (True, False, True),
         (True, True, True),
     }
+
+
+def test_short_runs_take_the_stated_pattern():
+    signs = np.array(list("-sS"))
+    for vector in vectors.layer("L5s"):
+        r = run(vectors.problem_of(vector.inputs), engine="numpy")
+        code = r.anchored.astype(int) + (r.anchored & r.sliding)
+        # A foot without friction sticks or slides as its last bit is: nothing follows from it.
+        firm = np.asarray(vector.inputs["mu_0"]) > 0
+        stated = [list(row) for row in vector.branch["rows"]]
+        assert np.array_equal(signs[code][:, firm], np.array(stated)[:, firm]), vector.id
+        assert np.array_equal(r.anchored, np.array(stated) != "-"), vector.id
+        assert len(stated) == len(r.t) and {len(row) for row in stated} == {len(vector.inputs["P"])}, vector.id
+
+
+def test_short_runs_that_are_judged_elsewhere_stand_at_the_end():
+    places = [v.place for v in vectors.layer("L5s")]
+    without = places.index(next(p for p in places if p is not None))
+    assert set(places[:without]) == {None} and None not in places[without:]
+    assert len(set(places[without:])) == len(places) - without and max(places[without:]) < without
 
 
 def test_steps_take_the_stated_pattern():

@@ -59,6 +59,13 @@ def test_the_summary_counts_the_cases():
     assert "detected 1/1" in zoo_run.in_words(found) and "| Z01 | N1 |" in in_markdown(found)
 
 
+@pytest.mark.parametrize("id_", ["Z93", "Z94", "Z95", "Z96", "Z97", "Z98", "Z99", "Z100", "Z101"])
+def test_what_the_first_short_runs_let_through_or_misnamed_is_named(id_):
+    mistake = BY_ID[id_]
+    v = verdict(judge(zoo_run.BlackBox(mistake.backend()), ["L4", "L5s"]))
+    assert v.rule == mistake.rule, in_words.text(v)
+
+
 @pytest.mark.parametrize("id_", ["Z02", "Z12", "Z25", "Z27", "Z81"])
 def test_a_black_box_resembles_its_own_mistake(id_):
     near = blackbox.neighbours(blackbox.fingerprint(BY_ID[id_].backend()))
