@@ -20,14 +20,16 @@ from rockref.model.geometry import (
     check_cuboid,
     check_inertia,
     check_number,
+    check_plausible,
     cuboid_inertia,
     eight_points,
     four_points,
 )
-from rockref.model.parameters import BLOCK, PROPERTIES, Parameters, point_properties, split_54
+from rockref.model.parameters import BLOCK, PROPERTIES, Parameters, check_friction, point_properties, split_54
 from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, State
-from rockref.model.release import release_posture
+from rockref.model.release import check_tilt, release_posture
 from rockref.model.response import Response
+from rockref.model.simulate import check_names, check_points
 
 POINT_SETS = ("eight_points", "four_points", "custom")
 
@@ -99,7 +101,32 @@ class Model:
         return replace(self, **changes)
 
     def check(self) -> None:
-        """Refuse values that make no block. Raises InputError (E-RANGE, E-KEY)."""
+        """Refuse values that make no block, that no block has, and a release tilt from which the block falls over.
+
+        Raises InputError (E-RANGE, E-KEY, E-SHAPE, E-TYPE, E-TILT). A file is loaded only if its model passes.
+        """
+        self.check_values()
+        p = self.parameters
+        check_plausible(self.width, self.depth, self.height, p.delta_long, self.foot_radius)
+        for key in ("mu_int", "mu_ext"):
+            check_friction(key, getattr(p, key))
+        if self.properties is not None:
+            points = point_set(self.properties)
+            _of("properties", lambda: check_points(points))
+            _of("properties", lambda: check_friction("mu_0", points.mu_0))
+        if self.points == "custom":
+            own = self.custom_points
+            assert own is not None  # checked above
+            _of("custom_points", lambda: check_friction("mu_0", own.mu_0))
+            if np.min(own.P[:, 2]) >= 0:
+                what = "lie above the centre of mass, all of them"
+                raise InputError("E-RANGE", "custom_points P", what, "z is up, and the feet are below: give z < 0.")
+        else:
+            block, points = self.body_without_effects()
+            check_tilt(block, points, p.theta_0)
+
+    def check_values(self) -> None:
+        """Refuse values with which nothing can be computed. Raises InputError (E-RANGE, E-KEY, E-SHAPE, E-TYPE)."""
         p = self.parameters
         check_cuboid(self.mass, self.width, self.depth, self.height, p.delta_long, p.delta_diag)
         if self.points not in POINT_SETS:
@@ -114,6 +141,10 @@ class Model:
             check_inertia(self.inertia)
         if self.points == "custom" and self.custom_points is None:
             raise InputError("E-KEY", "custom_points", "is missing", 'Give the points, or points = "eight_points".')
+        if self.points == "custom" and self.custom_points is not None:
+            own = self.custom_points
+            _of("custom_points", lambda: check_points(own))
+            _of("custom_points", lambda: check_names(own))
         enough = 4 if self.points == "four_points" else 8
         for key in PROPERTIES if self.properties is not None else ():
             values = np.asarray((self.properties or {}).get(key, ()))
@@ -124,7 +155,14 @@ class Model:
 
     def body(self) -> tuple[Block, ContactPoints]:
         """Block and contact points as arrays, with the effects on geometry and mass applied."""
-        self.check()
+        block, points = self.body_without_effects()
+        for effect in self.active_effects():
+            block, points = effect.points(block, points)
+        return block, points
+
+    def body_without_effects(self) -> tuple[Block, ContactPoints]:
+        """Block and contact points as arrays, as the parameters alone make them. Raises InputError."""
+        self.check_values()
         p = self.parameters
         sides = self.width, self.depth, self.height
         inertia = cuboid_inertia(self.mass, *sides) if self.inertia is None else self.inertia
@@ -142,8 +180,6 @@ class Model:
             radius = np.full(len(names), float(self.foot_radius)) if self.foot_radius else None
             own = {k: np.array(q[k], float)[: len(names)] for k in PROPERTIES}
             points = ContactPoints(P=P, radius=radius, names=names, **own)
-        for effect in self.active_effects():
-            block, points = effect.points(block, points)
         return block, points
 
     def active_effects(self) -> tuple[Effect, ...]:
@@ -169,6 +205,21 @@ class Model:
             for effect in effects:
                 start = effect.release(block, points, start)
         return Problem(block, points, start, step, duration, output_rate, effects)
+
+
+def point_set(properties: dict[str, Any]) -> ContactPoints:
+    """The properties of the eight points, or of the first four, in no place yet."""
+    names = (EXTERNAL + INTERNAL)[: len(properties["K_N"])]
+    own = {k: np.array(properties[k], float)[: len(names)] for k in PROPERTIES}
+    return ContactPoints(P=np.zeros((len(names), 3)), radius=None, names=names, **own)
+
+
+def _of(part: str, check: Callable[[], None]) -> None:
+    """Make a check, and say of what refused it that it belongs to this part of the model."""
+    try:
+        check()
+    except InputError as e:
+        raise InputError(e.code, f"{part} {e.where}", e.what, e.cure) from e
 
 
 def simulate(

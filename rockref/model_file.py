@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -67,7 +68,9 @@ def read_toml(path: str | os.PathLike) -> dict[str, Any]:
     try:
         return tomllib.loads(raw.decode("utf-8-sig"))
     except UnicodeDecodeError as e:
-        raise InputError("E-ENCODING", str(path), f"is not UTF-8 (byte {e.start})", "Save it as UTF-8.") from e
+        line = raw.count(b"\n", 0, e.start) + 1
+        what = f"is not UTF-8: byte {raw[e.start]:#04x} in line {line}"
+        raise InputError("E-ENCODING", str(path), what, "Save it as UTF-8.") from e
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as e:
         raise InputError("E-TOML", str(path), f"is not valid TOML: {e}", "Mend the line that is named.") from e
 
@@ -140,8 +143,33 @@ def load(cls, path: str | os.PathLike):
     try:
         model.check()
     except InputError as e:
-        raise InputError(e.code, f"{where}: {e.where}", e.what, e.cure) from e
+        raise InputError(e.code, f"{where}: {key_of(e.where)}", e.what, e.cure) from e
     return model
+
+
+#: Names of the code -> table and key of the file.
+PLACES = {
+    **{name: f"[block] {key}" for key, name in BLOCK_KEYS.items()},
+    **{name: f"[parameters] {key}" for key, name in PARAMETER_KEYS.items()},
+    **{name: f"[points] {key}" for key, name in POINT_KEYS.items()},
+    "inertia": "[block] inertia_kg_m2",
+    "custom_points": "[custom_points]",
+}
+#: The same within [properties] and [custom_points].
+PLACES_OF_POINTS = {**{name: key for key, name in PROPERTY_KEYS.items()}, "P": "P_m", "radius": "radius_m"}
+
+
+def key_of(where: str) -> str:
+    """Table and key of the file for the place that a check of the model names.
+
+    "K_N" is "[parameters] K_N_N_m", "custom_points K_N of point a" is "[custom_points] K_N_N_m of point a".
+    """
+    part, _, rest = where.partition(" ")
+    if part in ("properties", "custom_points") and rest:
+        name = re.match(r"\w*", rest)[0]  # type: ignore[index]
+        return f"[{part}] {PLACES_OF_POINTS.get(name, name)}{rest[len(name) :]}"
+    name = re.match(r"\w*", where)[0]  # type: ignore[index]
+    return PLACES.get(name, name) + where[len(name) :]
 
 
 def _properties(where: str, given: dict, n: int) -> dict[str, np.ndarray]:
@@ -177,9 +205,13 @@ def plain(value: Any) -> Any:
 
 
 def save(model, path: str | os.PathLike) -> None:
-    """Write `model` as TOML; every number is written so that it reads back to the same bits."""
+    """Write `model` as TOML; every number is written so that it reads back to the same bits.
+
+    Raises InputError where a value is none with which anything can be computed, or the file cannot be written.
+    """
     import tomlkit
 
+    model.check_values()
     document = tomlkit.document()
     document.add(tomlkit.comment("A rockref model. SI units; the unit is in the key."))
     tables: dict[str, Any] = {"format": FORMAT, "block": {k: getattr(model, n) for k, n in BLOCK_KEYS.items()}}

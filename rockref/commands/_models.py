@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import difflib
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +14,8 @@ if TYPE_CHECKING:
     from rockref.effects.base import Effect
 
 NAMED = ("table_3_1", "four_points")
+#: Errors of a run that come from what the model says, as much as from how it is run.
+OF_THE_MODEL = ("E-STEP", "E-NAN", "E-ANGLE", "E-TILT", "E-RELEASE", "E-FEET")
 
 
 def named_model(text: str) -> Model:
@@ -20,9 +24,27 @@ def named_model(text: str) -> Model:
 
     if text in NAMED:
         return getattr(Model, text)()
+    near = difflib.get_close_matches(text.lower(), NAMED, 1)
+    if near and not Path(text).exists():
+        from rockref.model.errors import InputError
+
+        raise InputError("E-FILE", text, "is no file, and no model of that name", f"Did you mean {near[0]}?")
     model = Model.load(text)
     say_implausible(model.effects, text)
     return model
+
+
+@contextmanager
+def of_file(text: str) -> Iterator[None]:
+    """Put the model's file before the place of an error of its run; models of the house keep the place alone."""
+    from rockref.model.errors import InputError, NumericalError
+
+    try:
+        yield
+    except (InputError, NumericalError) as e:
+        if text in NAMED or e.code not in OF_THE_MODEL:
+            raise
+        raise type(e)(e.code, f"{text}: {e.where}", e.what, e.cure) from e
 
 
 def say_implausible(effects: Iterable[Effect], where: str) -> None:

@@ -164,11 +164,19 @@ class Comparison:
 
 
 def baseline_model(experiment: Experiment) -> Model:
-    """Return the model from which the experimenter starts: Table 3.1, eight or four points, the block of the file."""
+    """Return the model from which the experimenter starts: Table 3.1, eight or four points, the block of the file.
+
+    Its own release tilt, which no run of the experiment uses, is that of the first run where the block is so slender
+    that it would fall over from that of Table 3.1.
+    """
     kind = Model.four_points if experiment.baseline == "four_points" else Model.table_3_1
-    return kind().replace(
+    model = kind().replace(
         mass=experiment.mass, width=experiment.width, depth=experiment.width, height=experiment.height
     )
+    tilt = next((run.release_tilt for run in experiment.runs if run.release_tilt is not None), None)
+    if tilt is not None and model.parameters.theta_0 >= math.atan2(experiment.width, experiment.height):
+        model = model.replace(theta_0=tilt)
+    return model
 
 
 def compare(

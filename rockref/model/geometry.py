@@ -106,3 +106,26 @@ def check_cuboid(mass: float, width: float, depth: float, height: float, delta_l
             f"is {delta_diag!r} m; half the diagonal of the base is {half:.4g} m",
             "Give a distance from the corner in metres, between 0 and half the diagonal.",
         )
+
+
+#: Sides [m] between which a block rocks on a plate. Decided: a grain of sand does not, nor does a house; what lies
+#: outside was typed in another unit.
+SHORTEST_SIDE, LONGEST_SIDE = 1e-3, 100.0
+
+
+def check_plausible(width: float, depth: float, height: float, delta_long, foot_radius: float) -> None:
+    """Refuse lengths that no rocking block has (E-RANGE), most of them typed in another unit.
+
+    Sides are between 1 mm and 100 m; heights of the external points and the radius of the feet, all in m, are at most
+    half the width of the base: these are defects and roundings of a block, not its shape.
+    """
+    for key, value in (("width", width), ("depth", depth), ("height", height)):
+        if not SHORTEST_SIDE <= value <= LONGEST_SIDE:
+            limits = f"Give metres, between {SHORTEST_SIDE:g} and {LONGEST_SIDE:g}."
+            raise InputError("E-RANGE", key, f"is {value!r} m, and no block rocks that is so large or small", limits)
+    half = min(width, depth) / 2
+    lengths = [*((f"delta_long[{i}]", value) for i, value in enumerate(delta_long)), ("foot_radius", foot_radius)]
+    for key, value in lengths:
+        if abs(value) > half:
+            what = f"is {value!r} m, more than half the width of the base, {half:.4g} m"
+            raise InputError("E-RANGE", key, what, "Give metres: a foot is a small part of the block.")

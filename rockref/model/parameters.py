@@ -50,6 +50,18 @@ GENES_12 = tuple(TABLE_3_1)
 PROPERTIES = ("K_N", "K_T", "C_N", "C_T", "mu_0", "mu")
 
 
+#: No dry contact has more friction; decided: rubber has 1 to 4, and 50 is 0.50 in another unit.
+MOST_FRICTION = 10.0
+
+
+def check_friction(key: str, values) -> None:
+    """Refuse friction coefficients, one or (n,), that no dry contact has (E-RANGE)."""
+    most = float(np.max(values))
+    if most > MOST_FRICTION:
+        what = f"is {most!r}, and no dry contact has more than {MOST_FRICTION:g}"
+        raise InputError("E-RANGE", key, what, "Give a friction coefficient, not per cent or degrees.")
+
+
 @dataclass(frozen=True)
 class Parameters:
     """The twelve parameters of the reduced model; units as in `TABLE_3_1`. `delta_long` holds four heights [m]."""

@@ -15,6 +15,18 @@ def tipping_angle(block: Block, points: ContactPoints, side: int = 1) -> float:
     return float(np.arctan2(np.max(P[:, 1] * side), -np.min(P[:, 2])))
 
 
+def check_tilt(block: Block, points: ContactPoints, theta_0: float, side: int = 1) -> None:
+    """Refuse a release tilt [rad] that is not in (0, tipping angle) (E-TILT); side as in `tipping_angle`."""
+    limit = tipping_angle(block, points, side)
+    if not (np.isfinite(theta_0) and 0 < theta_0 < limit):
+        raise InputError(
+            "E-TILT",
+            "theta_0",
+            f"is {theta_0!r} rad; the block tips over at {limit:.4g} rad",
+            "Give a release tilt in radians between 0 and the tipping angle.",
+        )
+
+
 def pivot_points(points: ContactPoints, theta_0: float, side: int) -> tuple[int, int]:
     """The two points on which the tilted block rests: the lowest with x > 0 and the lowest with x < 0."""
     P = points.P
@@ -61,14 +73,7 @@ def release_posture(
     Decided (the excerpt says only "released"): a start that tilts about X only would drop the block onto one corner.
     """
     side = -1 if turned else 1
-    limit = tipping_angle(block, points, side)
-    if not (np.isfinite(theta_0) and 0 < theta_0 < limit):
-        raise InputError(
-            "E-TILT",
-            "theta_0",
-            f"is {theta_0!r} rad; the block tips over at {limit:.4g} rad",
-            "Give a release tilt in radians between 0 and the tipping angle.",
-        )
+    check_tilt(block, points, theta_0, side)
     i, j = pivot_points(points, theta_0, side)
     dtype = points.P.dtype
     weight = block.mass * block.g

@@ -187,6 +187,13 @@ def check_points(points: ContactPoints) -> None:
         raise InputError("E-RANGE", "mu_0", "is below mu", "Static friction is at least as large as dynamic friction.")
 
 
+def check_names(points: ContactPoints) -> None:
+    """Refuse points of one name (E-KEY): columns, contacts and errors call them by it."""
+    twice = [name for k, name in enumerate(points.names) if name in points.names[:k]]
+    if twice:
+        raise InputError("E-KEY", "names", f"{twice[0]!r} is there twice", "Give every point a name of its own.")
+
+
 def whole_part(quotient: float) -> int:
     """How many whole ones are in it; what is short of one by the rounding of a quotient counts as one."""
     return int(np.floor(quotient * (1 + 4 * np.finfo(float).eps) + 1e-9))

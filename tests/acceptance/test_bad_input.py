@@ -136,15 +136,15 @@ def test_a_bad_experiment_ends_with_2_and_leaves_nothing(tmp_path, capsys, case)
         (("--effect", "quadratic_dragg"), "E-EFFECT"),
         (("--effect", "quadratic_drag:d=1"), "E-KEY"),
         (("--effect", "quadratic_drag:c=lots"), "E-TYPE"),
-        (("--theta", "0.2"), None),
         (("--engine", "fortran"), "E-ENGINE"),
+        (("table_31",), "E-FILE"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else str(value),
 )
 def test_a_run_that_cannot_be_made_ends_with_2_and_leaves_nothing(tmp_path, capsys, words, code):
     status, out, err = ended(capsys, "simulate", "-o", tmp_path / "out.csv", *words)
     assert (status, out) == (2, "")
-    assert code is None or f"[{code}]" in "".join(err.split())
+    assert f"[{code}]" in "".join(err.split())
     assert not list(tmp_path.iterdir())
 
 
@@ -155,6 +155,7 @@ def test_a_run_that_cannot_be_made_ends_with_2_and_leaves_nothing(tmp_path, caps
         ("[parameters]\nK_N_N_m = -6e7\n", "E-RANGE"),
         ("[parameters]\ndelta_long_m = [0, 0, 0, 1]\n", "E-RANGE"),
         ("[parameters]\ntheta_0_rad = 6.7\n", "E-TILT"),
+        ("[parameters]\ntheta_0_rad = 0.2\n", "E-TILT"),
         ("[parameters]\nK_N_N_m = 6e13\n", "E-STEP"),
         ("[block\n", "E-TOML"),
         ("", None),
@@ -170,6 +171,7 @@ def test_a_model_that_is_none_ends_with_2_and_leaves_nothing(tmp_path, capsys, t
     else:
         assert status == 2
         assert f"[{code}]" in "".join(err.split())
+        assert "model.toml" in "".join(err.split())
         assert not out_file.exists()
 
 

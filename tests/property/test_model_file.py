@@ -30,13 +30,15 @@ def models(draw):
     inertia = None
     if draw(st.booleans()):
         inertia = np.diag(draw(st.tuples(between(0.1, 3), between(0.1, 3), between(0.1, 3))))
+    depth, height, parameters = draw(between(0.08, 0.5)), draw(between(0.3, 2)), draw(parameter_sets())
     return Model(
         mass=draw(between(1, 500)),
         width=draw(between(0.08, 0.5)),
-        depth=draw(between(0.08, 0.5)),
-        height=draw(between(0.3, 2)),
+        depth=depth,
+        height=height,
         g=draw(between(1, 20)),
-        parameters=draw(parameter_sets()),
+        # a slender block tips over earlier
+        parameters=parameters.replace(theta_0=min(parameters.theta_0, 0.99 * float(np.arctan2(depth, height)))),
         points=draw(st.sampled_from(["eight_points", "four_points"])),
         inertia=inertia,
         foot_radius=draw(st.one_of(st.just(0.0), between(0, 0.01))),

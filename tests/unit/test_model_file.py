@@ -9,6 +9,11 @@ from rockref.model_file import LARGEST_FILE
 from tests import physics
 
 HEAD = "format = 1\n"
+SIX = ("K_N_N_m", "K_T_N_m", "C_N_N_s_m", "C_T_N_s_m", "mu_0", "mu")
+#: Properties of eight points, and two points of one's own, good but for what a test changes.
+EIGHT = "[properties]\n" + "".join(f"{key} = [1{7 * ', 1'}]\n" for key in SIX)
+TWO = "[points]\nset = 'custom'\n[custom_points]\nnames = ['a', 'b']\nP_m = [0.1, 0, -0.3, -0.1, 0, -0.3]\n"
+TWO += "".join(f"{key} = [1, 1]\n" for key in SIX)
 
 
 def loaded(tmp_path, text):
@@ -58,7 +63,7 @@ class TestRefusals:
             ("[block]\ninertia_kg_m2 = [1, 0, 0, 0, 1, 0, 0, 0, -1]\n", "E-RANGE", "inertia"),
             ("[parameters]\nK_N_N_m = -6e7\n", "E-RANGE", "K_N"),
             ("[parameters]\ndelta_long_m = [0, 0, 0]\n", "E-TYPE", "delta_long_m"),
-            ("[parameters]\ndelta_long_m = [0, 0, 0, 1]\n", "E-RANGE", "delta_long[3]"),
+            ("[parameters]\ndelta_long_m = [0, 0, 0, 1]\n", "E-RANGE", "[parameters] delta_long_m[3]"),
             ("[parameters]\ndelta_diag_m = 6.0\n", "E-RANGE", "delta_diag"),
             ("[parameters]\nmu_ext = -0.25\n", "E-RANGE", "mu_ext"),
             ("[points]\nset = 'six'\n", "E-KEY", "points"),
@@ -75,7 +80,23 @@ class TestRefusals:
             ("[block\n", "E-TOML", "model.toml"),
             ("[block]\nmass_kg = 54\nmass_kg = 55\n", "E-TOML", "model.toml"),
             (5000 * "[" + "\n", "E-TOML", "model.toml"),
-            (b"[block]\n# \xff\n", "E-ENCODING", "model.toml"),
+            (b"[block]\n# \xff\n", "E-ENCODING", "byte 0xff in line 2"),
+            ("[parameters]\ntheta_0_rad = 0.2\n", "E-TILT", "[parameters] theta_0_rad"),
+            ("[parameters]\ntheta_0_rad = 6.7\n", "E-TILT", "[parameters] theta_0_rad"),
+            ("[block]\nheight_m = 1.2\n", "E-TILT", "[parameters] theta_0_rad"),
+            ("[parameters]\nK_T_N_m = 0\n", "E-RANGE", "[parameters] K_T_N_m"),
+            ("[parameters]\nmu_int = 50\n", "E-RANGE", "[parameters] mu_int"),
+            ("[parameters]\ndelta_long_m = [0.010, 0.040, 0.092, 0.058]\n", "E-RANGE", "delta_long_m[2]"),
+            ("[block]\nwidth_m = 0.0001\n", "E-RANGE", "[block] width_m"),
+            ("[block]\nheight_m = 688\n", "E-RANGE", "[block] height_m"),
+            ("[points]\nfoot_radius_m = 5\n", "E-RANGE", "[points] foot_radius_m"),
+            (EIGHT.replace("K_T_N_m = [1", "K_T_N_m = [-1"), "E-RANGE", "[properties] K_T_N_m of point 1ext"),
+            (EIGHT.replace("mu_0 = [1", "mu_0 = [0.5"), "E-RANGE", "[properties] mu_0"),
+            (EIGHT.replace("mu_0 = [1", "mu_0 = [50"), "E-RANGE", "[properties] mu_0"),
+            (TWO.replace("K_N_N_m = [1", "K_N_N_m = [-1"), "E-RANGE", "[custom_points] K_N_N_m of point a"),
+            (TWO.replace("mu = [1, 1", "mu = [1, 2"), "E-RANGE", "[custom_points] mu_0"),
+            (TWO.replace("'b'", "'a'"), "E-KEY", "'a' is there twice"),
+            (TWO.replace("-0.3", "0.3"), "E-RANGE", "[custom_points] P_m"),
             (b"\x00\x01", "E-TOML", "model.toml"),
         ],
         ids=lambda value: str(value)[:40],
@@ -99,8 +120,26 @@ class TestRefusals:
     def test_a_file_that_is_too_large_is_not_read(self, tmp_path):
         assert refused(tmp_path, b"#" * (LARGEST_FILE + 2)).code == "E-SIZE"
 
+    @pytest.mark.parametrize("text", [EIGHT, TWO])
+    def test_what_the_tests_change_is_good(self, tmp_path, text):
+        assert loaded(tmp_path, text).check() is None
+
+    @pytest.mark.filterwarnings("error")
+    def test_a_negative_stiffness_is_no_warning(self, tmp_path):
+        assert refused(tmp_path, TWO.replace("K_N_N_m = [1", "K_N_N_m = [-1")).code == "E-RANGE"
+
+    def test_corners_above_and_below_are_a_body(self, tmp_path):
+        """A body that is thrown has them all round."""
+        assert loaded(tmp_path, TWO.replace("-0.1, 0, -0.3", "-0.1, 0, 0.3")).custom_points.n == 2
+
 
 class TestWriting:
+    @pytest.mark.parametrize("change", [{"K_N": np.nan}, {"mass": -1.0}, {"delta_long": (0, 0, np.inf, 0)}], ids=str)
+    def test_what_cannot_be_computed_with_is_not_written(self, tmp_path, change):
+        with pytest.raises(InputError):
+            Model().replace(**change).save(tmp_path / "m.toml")
+        assert not list(tmp_path.iterdir())
+
     def test_a_folder_that_is_missing_leaves_nothing(self, tmp_path):
         with pytest.raises(InputError) as error:
             Model().save(tmp_path / "nowhere" / "model.toml")
