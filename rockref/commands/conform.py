@@ -118,15 +118,13 @@ def _judge(
     files: dict[str, Any],
 ) -> None:
     from rockref.conformance import in_files, in_words
-    from rockref.conformance.judge import PROFILES, judge
+    from rockref.conformance.judge import judge, used_profile
     from rockref.conformance.verdict import as_json as in_json
     from rockref.conformance.verdict import verdict
     from rockref.model.storage import write_bytes
 
-    precision = getattr(backend, "precision", "float64")
-    used = profile or (precision if precision in PROFILES else "float64")
     show = sys.stderr.isatty() and not as_json
-    findings = judge(backend, layers, used, _progress if show else None, examples)
+    findings = judge(backend, layers, used_profile(backend, profile), _progress if show else None, examples)
     found = verdict(findings, backend)
     if show:
         typer.echo("\r" + " " * 40 + "\r", nl=False, err=True)
@@ -186,12 +184,12 @@ def _example(rest: list[str], output: Path | None) -> None:
 
 
 def _zoo(as_json: bool, quick: bool, output: Path | None) -> None:
-    from rockref.conformance.zoo.run import in_words, page, run_zoo
+    from rockref.conformance.zoo.run import falls_short, in_words, page, run_zoo
     from rockref.model.storage import write_text
 
     found = run_zoo(black_box=not quick, progress=_progress if sys.stderr.isatty() and not as_json else None)
     if output is not None:
         write_text(output, page(found))
     typer.echo(json.dumps(found, indent=1) if as_json else in_words(found))
-    if found["detected"] < found["planted"] or found["controls_rejected"]:
+    if falls_short(found):
         raise typer.Exit(1)

@@ -88,16 +88,17 @@ def ask(backend: Any, claim: Claim) -> dict[str, Any] | None:
 
 def judge_claims(backend: Any) -> list[ClaimCheck]:
     """Every effect that the backend claims; it claims none where it shows neither piece."""
-    checks = []
-    for claim in claims():
-        if has(backend, claim.piece):
-            try:
-                answer = ask(backend, claim)
-                checks.append(ClaimCheck(claim.effect, "not shown") if answer is None else compare(claim, answer))
-            except ANYTHING as e:  # the backend is a stranger's
-                said = f"{type(e).__name__}: {e}".splitlines()[0][:200]
-                checks.append(ClaimCheck(claim.effect, "outside", float("inf"), said))
-    return checks
+    return [judge_claim(backend, claim) for claim in claims() if has(backend, claim.piece)]
+
+
+def judge_claim(backend: Any, claim: Claim) -> ClaimCheck:
+    """One effect of a backend that shows its piece."""
+    try:
+        answer = ask(backend, claim)
+        return ClaimCheck(claim.effect, "not shown") if answer is None else compare(claim, answer)
+    except ANYTHING as e:  # the backend is a stranger's
+        said = f"{type(e).__name__}: {e}".splitlines()[0][:200]
+        return ClaimCheck(claim.effect, "outside", float("inf"), said)
 
 
 def compare(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:

@@ -62,6 +62,14 @@ def chosen_layers(layers: Iterable[str] | None) -> tuple[str, ...]:
     return tuple(name for name in LAYERS if name in wanted)
 
 
+def used_profile(backend: Any, wanted: str | None) -> str:
+    """The profile that is asked for, or else what the backend says of its precision. Raises InputError (E-PROFILE)."""
+    if wanted is not None and wanted not in PROFILES:
+        raise InputError("E-PROFILE", "profile", f"is {wanted!r}", f"Use one of {', '.join(PROFILES)}.")
+    precision = getattr(backend, "precision", "float64")
+    return wanted or (precision if precision in PROFILES else "float64")
+
+
 def judge(
     backend: Any,
     layers: Iterable[str] | None = None,
@@ -85,8 +93,7 @@ def judge(
     InputError
         E-LAYER, E-PROFILE; E-BACKEND, where there is no `simulate`.
     """
-    if profile not in PROFILES:
-        raise InputError("E-PROFILE", "profile", f"is {profile!r}", f"Use one of {', '.join(PROFILES)}.")
+    profile = used_profile(backend, profile)
     if not asking.has(backend, "simulate"):
         raise InputError(
             "E-BACKEND", described(backend)["name"], "has no simulate(problem)", "It is the one mandatory piece."

@@ -9,15 +9,17 @@ from typing import Any
 
 import pytest
 
+#: Examples drawn for each property; as on the command line.
+EXAMPLES = 50
+
 
 def pytest_addoption(parser: Any) -> None:
     """The options."""
     group = parser.getgroup("rockref")
     group.addoption("--rockref-backend", metavar="TARGET", help="package:Class or path/to/file.py:Class.")
-    group.addoption("--rockref-profile", default="float64", help="float64 (default), float32 or scheme.")
-    group.addoption(
-        "--rockref-layers", default="L0,L1,L2,L3,L4,L5s,L7", help="Layers of vectors; add L5 for whole trajectories."
-    )
+    group.addoption("--rockref-profile", help="float64, float32 or scheme; default: what the backend says it is.")
+    layers = "Layers of vectors; add L5 for windows and trajectories, L6 for properties, LE for effects."
+    group.addoption("--rockref-layers", default="L0,L1,L2,L3,L4,L5s,L7", help=layers)
 
 
 def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -25,21 +27,59 @@ def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config
     target = config.getoption("--rockref-backend")
     if not target:
         return
-    from rockref.conformance import asking, vectors
-    from rockref.conformance.backend import load
-    from rockref.conformance.judge import NOT_OF_THE_SCHEME, chosen_layers
+    from rockref.conformance.judge import chosen_layers, used_profile
+    from rockref.model.errors import InputError
 
-    backend, profile = load(target), config.getoption("--rockref-profile")
-    for layer in chosen_layers(config.getoption("--rockref-layers").split(",")):
-        if layer == "L5":
-            names = vectors.trajectory_names()
-            items += [RunItem.from_parent(session, name=f"{layer}/{n}", given=(backend, n, profile)) for n in names]
-        elif layer not in ("L6", "LE"):
-            for vector in vectors.layer(layer):
-                own_step = profile == "scheme" and vector.piece in NOT_OF_THE_SCHEME
-                if asking.has(backend, vector.piece) and not own_step:
-                    given = (backend, vector, profile)
-                    items.append(VectorItem.from_parent(session, name=f"{layer}/{vector.id}", given=given))
+    try:
+        backend = usable(target)
+        profile = used_profile(backend, config.getoption("--rockref-profile"))
+        layers = chosen_layers(config.getoption("--rockref-layers").split(","))
+    except InputError as e:
+        raise pytest.UsageError(str(e)) from e
+    for layer in layers:
+        for kind, name, thing in asked(backend, layer, profile):
+            items.append(kind.from_parent(session, name=f"{layer}/{name}", given=(backend, thing, profile)))
+
+
+def usable(target: str) -> Any:
+    """The backend. Raises InputError (E-BACKEND) where there is none, or it has no `simulate`."""
+    from rockref.conformance import asking
+    from rockref.conformance.backend import load
+    from rockref.model.errors import InputError
+
+    backend = load(target)
+    if not asking.has(backend, "simulate"):
+        raise InputError("E-BACKEND", target, "has no simulate(problem)", "It is the one mandatory piece.")
+    return backend
+
+
+def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
+    """What becomes a test: the kind of test, its name, and what it is about."""
+    from rockref.conformance import asking, claims, vectors
+    from rockref.conformance.judge import NOT_OF_THE_SCHEME, asked_in
+
+    if layer == "L5":
+        windows = () if profile == "scheme" else vectors.window_names()
+        return [(RunItem, name, name) for name in windows + vectors.trajectory_names()]
+    if layer == "L6":
+        return [(PropertyItem, p[1].__name__, p) for p in properties(profile) if asking.has(backend, p[0])]
+    if layer == "LE":
+        found = claims.claims() if profile == "float64" else ()
+        return [(ClaimItem, c.id, c) for c in found if asking.has(backend, c.piece)]
+    not_asked = NOT_OF_THE_SCHEME if profile == "scheme" else set()
+    shown = [v for v in asked_in(layer, backend) if asking.has(backend, v.piece) and v.piece not in not_asked]
+    return [(VectorItem, v.id, v) for v in shown]
+
+
+def properties(profile: str) -> tuple[Any, ...]:
+    """The properties of L6, which are judged in float64 only. Raises UsageError where hypothesis is not installed."""
+    if profile != "float64":
+        return ()
+    try:
+        from rockref.conformance.properties import PROPERTIES
+    except ImportError as e:
+        raise pytest.UsageError("L6 (properties) needs hypothesis: pip install hypothesis.") from e
+    return PROPERTIES
 
 
 class Failed(Exception):
@@ -98,3 +138,32 @@ class RunItem(_Item):
         if judged.failed:
             at = f"; first divergent sample at {judged.first['t_s']:.6g} s" if judged.first else ""
             raise Failed(run_line(judged) + at)
+
+
+class PropertyItem(_Item):
+    """One property, with the examples that hypothesis draws for it."""
+
+    def runtest(self) -> None:
+        """Draw the states, look for one that breaks it."""
+        from rockref.conformance.properties import judge_one
+
+        backend, (_, rule, drawn), _ = self.given
+        judged = judge_one(backend, rule, drawn, EXAMPLES)
+        if not judged.holds:
+            raise Failed(f"{judged.name}: {judged.note}")
+
+
+class ClaimItem(_Item):
+    """One effect that the backend claims; one that it does not is skipped."""
+
+    def runtest(self) -> None:
+        """Ask for the effect, weigh the answer."""
+        from rockref.conformance.claims import judge_claim
+        from rockref.conformance.in_words import bars
+
+        backend, claim, _ = self.given
+        judged = judge_claim(backend, claim)
+        if judged.grade == "not shown":
+            pytest.skip(f"{claim.effect} is not claimed")
+        if judged.failed:
+            raise Failed(f"{judged.effect}: {judged.note or bars(judged.worst)}")

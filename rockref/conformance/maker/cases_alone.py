@@ -58,7 +58,7 @@ def feet() -> Iterator[tuple[float, Case]]:
     own = ICE | {"K_N": 6e7 * SHARES, "C_N": 16384.0 * SHARES}
     yield 22.6, ask({"F_N@0": "N1"}, "every foot of its own make", 1, standing(), made=own, v=-0.125 * Z)
     yield 35.5, ask({"Lambda@1": "A2"}, "spinning on ice", 1, standing(2.0**-12), made=ICE, W=2.0 * Z)
-    rocking = {"W": [0.5, 0.4375, 0.0]}
+    rocking: Any = {"W": [0.5, 0.4375, 0.0]}
     yield 42.2, ask({"F_N@0": "N1"}, "a foot lifts while others press", 1, standing(), made=ICE, **rocking)
     yield 42.4, ask({"F_N@1": "S1"}, "the second evaluation, hardly moving", 2, standing(2.0**-19), made=ICE)
 

@@ -107,6 +107,17 @@ def run_zoo(black_box: bool = True, progress: Callable[[str, float], None] | Non
     return summary(cases)
 
 
+#: The shares of mistakes that have to be named by the planted rule: with pieces shown; in the top two by runs alone.
+WITH_PIECES, BLACK_BOX = 0.95, 0.80
+
+
+def falls_short(found: dict[str, Any]) -> bool:
+    """Whether a mistake is let through, a control rejected, or fewer mistakes named by their rules than is stated."""
+    planted, box = found["planted"], found["attributed_black_box"]
+    named = found["attributed"] >= WITH_PIECES * planted and (box is None or box >= BLACK_BOX * planted)
+    return found["detected"] < planted or bool(found["controls_rejected"]) or not named
+
+
 def summary(cases: list[dict[str, Any]]) -> dict[str, Any]:
     """Counts, and the cases."""
     mistakes = [c for c in cases if c["kind"] == "mistake"]
