@@ -187,12 +187,11 @@ int main(void) {
         } else {
             char *id = strstr(line, "\"id\":\"") + 6, *piece = strstr(line, "\"piece\":\"") + 9;
             read_request(), sep = "";
-            printf("{\"id\":\"%.*s\",\"out\":{", (int)strcspn(id, "\""), id);
-            if (!strncmp(piece, "simulate", 8)) simulate();
-            else if (!strncmp(piece, "step", 4)) one_step();
-            else if (!strncmp(piece, "kinematics", 10)) kinematics();
-            else if (!strncmp(piece, "contact_law", 11)) contact_law();
-            printf("}}\n");
+            void (*answer)(void) = !strncmp(piece, "simulate", 8) ? simulate : !strncmp(piece, "step", 4) ? one_step
+                : !strncmp(piece, "kinematics", 10) ? kinematics : !strncmp(piece, "contact_law", 11) ? contact_law : NULL;
+            printf("{\"id\":\"%.*s\",", (int)strcspn(id, "\""), id);
+            if (answer) printf("\"out\":{"), answer(), printf("}}\n");
+            else printf("\"error\":\"no such piece\"}\n");
         }
         fflush(stdout);
     }

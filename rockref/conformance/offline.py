@@ -9,6 +9,7 @@ from typing import Any
 
 from rockref.conformance import jsonlines, vectors
 from rockref.conformance.executable import Misbehaved
+from rockref.conformance.judge import asked_in
 from rockref.conformance.rules import PIECES
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
@@ -47,6 +48,9 @@ class Recorded:
         self.answers: dict[str, dict[str, Any]] = {}
         facts: dict[str, Any] = {}
         for number, reply in _replies(path):
+            if "cmd" in reply:
+                where, cure = f"{path}, line {number}", "Give the file of the answers to it."
+                raise InputError("E-RESPONSE", where, "is a question, not an answer", cure)
             if "id" in reply:
                 self.answers[str(reply["id"])] = reply
             elif "protocol" in reply:
@@ -65,19 +69,34 @@ class Recorded:
         self.questions = self._by_content()
         for piece in self._shown(facts):
             setattr(self, piece, self._piece(piece))
+        self.remarks = self._left_out()
 
     def _shown(self, facts: dict[str, Any]) -> list[str]:
         """The pieces that it says it has; where it does not say, those that are answered by more than an error."""
         if facts.get("capabilities"):
             return [p for p in PIECES if p in facts["capabilities"]]
         asked = [v for layer in SMALL for v in vectors.layer(layer)]
-        answered = {v.piece for v in asked if "out" in self.answers.get(v.id, {})}
+        answered = {v.piece for v in asked if self.answers.get(v.id, {}).get("out")}
         return [p for p in PIECES if p in answered]
+
+    def _left_out(self) -> list[str]:
+        """A remark for every layer with questions to pieces that are shown which the file does not answer."""
+        asked = {name: tuple((v.id, v.piece) for v in asked_in(name, self)) for name in SMALL}
+        asked["L5"] = tuple((name, "simulate") for name in vectors.window_names() + vectors.trajectory_names())
+        remarks = []
+        for layer, questions_ in asked.items():
+            shown = [id_ for id_, piece in questions_ if callable(getattr(self, piece, None))]
+            left = [id_ for id_ in shown if id_ not in self.answers]
+            if left:
+                which = "None" if len(left) == len(shown) else f"{len(left)}, first {left[0]},"
+                some = "is answered" if len(left) == len(shown) else "are not answered"
+                remarks.append(f"{which} of the {len(shown)} questions of {layer} {some} in the file.")
+        return remarks
 
     @property
     def layers(self) -> set[str]:
         """The layers to which the file has at least one answer."""
-        found = {layer for layer in SMALL if any(v.id in self.answers for v in vectors.layer(layer))}
+        found = {layer for layer in SMALL if any(v.id in self.answers for v in asked_in(layer, self))}
         runs = {*vectors.window_names(), *vectors.trajectory_names()}
         return found | ({"L5"} if runs & self.answers.keys() else set())
 

@@ -32,6 +32,13 @@ def test_the_tutorial_in_c_passes(compiled):
     assert set(v.findings.pieces) == {"kinematics", "contact_law", "step"}
 
 
+def test_the_tutorial_in_c_says_which_pieces_it_has_not(compiled):
+    backend = Executable([str(compiled())])
+    with pytest.raises(Misbehaved, match="no such piece"):
+        backend._run({"cmd": "run", "id": "q1", "piece": "rotate", "in": {}}, 5.0)
+    backend.close()
+
+
 def test_its_twin_with_a_mistake_is_named(compiled):
     v = judged(compiled("-DMISTAKE"))
     assert v.rule == "T3" and v.check.vector.startswith("L1-")

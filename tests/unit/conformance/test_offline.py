@@ -53,9 +53,52 @@ def test_a_missing_answer_is_a_failure(responses, tmp_path):
     assert f"no answer to {left_out}" in v.check.note
 
 
+def test_what_a_file_leaves_out_is_remarked(responses, tmp_path):
+    lines = responses.read_text().splitlines(keepends=True)
+    cut = 1 + len(vectors.layer("L0")) + 10
+    for order in (1, -1):
+        path = tmp_path / f"cut{order}.jsonl"
+        path.write_text("".join(lines[:cut][::order]))
+        backend = offline.Recorded(path)
+        first = vectors.layer("L1")[10].id
+        assert (
+            f"{len(vectors.layer('L1')) - 10}, first {first}, of the {len(vectors.layer('L1'))} questions of L1 are"
+            in (" ".join(backend.remarks))
+        )
+        assert any("None of the" in r and "L4" in r for r in backend.remarks)
+        assert not any("L0" in r for r in backend.remarks)
+        assert backend.remarks[0] in verdict(judge(backend, ["L0"])).findings.remarks
+
+
+def test_answers_are_found_in_any_order_and_without_the_start(responses, tmp_path):
+    lines = [line for line in responses.read_text().splitlines(keepends=True) if '"protocol"' not in line]
+    path = tmp_path / "shuffled.jsonl"
+    path.write_text("".join(lines[::-1]))
+    assert verdict(judge(offline.Recorded(path), LAYERS)).passed
+
+
+def test_empty_answers_show_no_piece(tmp_path):
+    path = tmp_path / "empty.jsonl"
+    asked = [v for layer in LAYERS for v in vectors.layer(layer)]
+    law, lines = NumpyEngine(), []
+    for v in asked:
+        known = jsonlines.answer(law, json.loads(jsonlines.line(jsonlines.of_vector(v)))) if v.layer == "L1" else {}
+        lines.append(jsonlines.line({"id": v.id, "out": {}} | known))
+    path.write_text("".join(lines))
+    findings = judge(offline.Recorded(path), LAYERS)
+    assert set(findings.pieces) == {"kinematics", "contact_law"}
+    assert not [c for c in findings.failures if c.layer in ("L0", "L1")]
+
+
 @pytest.mark.parametrize(
     "text, said",
-    [("", "no answers"), ("not json\n", "line 1"), ("[]\n", "line 1"), ('{"id":"a","out":{}}\n{"x":1}\n', "line 2")],
+    [
+        ("", "no answers"),
+        ('{"cmd":"start","protocol":1}\n', "line 1"),
+        ("not json\n", "line 1"),
+        ("[]\n", "line 1"),
+        ('{"id":"a","out":{}}\n{"x":1}\n', "line 2"),
+    ],
 )
 def test_a_file_that_cannot_be_used_is_named(tmp_path, text, said):
     path = tmp_path / "bad.jsonl"
