@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rockref.measure.columns import DEGREE, RATES
+from rockref.measure.faults import check_dropout, check_wild, wild_samples, without
 from rockref.measure.noise import noise_floor
 from rockref.measure.notice import Notice
 from rockref.measure.running import half_width, running_mean, sample_step
@@ -33,6 +34,8 @@ SPIKE = 0.25
 FALLEN = 1.3
 # decided: noise of three times the data sheet is a disturbance, or another data sheet.
 NOISE_MARGIN = 3.0
+# decided: the axes of one gyroscope are alike within a factor of two or three; 57 is a unit.
+UNIT_MARGIN = 10.0
 
 
 def rocking_rate(tilt: float, width: float, height: float) -> float:
@@ -95,6 +98,22 @@ def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, ex
         *_noisy(t, crv, names, math.hypot(experiment.gyro.noise, experiment.gyro.resolution), where),
     ]
     return notices
+
+
+def check_faults(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, experiment: Experiment) -> None:
+    """Refuse what only a fault of the logger explains, before it is taken for motion: E-SPIKE, E-DROPOUT.
+
+    t (N,) s; crv (N, 3) rad/s. What comes after the block has fallen over is not looked at.
+    """
+    assert run.release_tilt is not None
+    expected = rocking_rate(run.release_tilt, experiment.width, experiment.height)
+    wild = wild_samples(crv, expected)
+    calm = without(crv, wild)
+    stands = samples_before_a_fall(t, calm, run, experiment)
+    names = [table.names[quantity] for quantity in RATES]
+    check_wild(t[:stands], crv[:stands], wild[:stands], names, table.path)
+    inside = np.abs(tilts(t, calm[:, 0], run)) <= FALLEN * math.atan2(experiment.width, experiment.height)
+    check_dropout(t, crv, np.logical_and.accumulate(inside), expected, table.path)
 
 
 def samples_before_a_fall(t: np.ndarray, crv: np.ndarray, run: Run, experiment: Experiment) -> int:
@@ -182,7 +201,7 @@ def _check_release(t: np.ndarray, crv: np.ndarray, duration: float, where: str) 
 
 
 def _constant(crv: np.ndarray, names: list[str], where: str) -> list[Notice]:
-    cure = "Check the channel of the logger."
+    cure = "Check the channel of the logger, and the unit of the column."
     return [
         Notice("W-CONSTANT", f"{where}, column {names[axis]}", "all values are the same", cure)
         for axis in (1, 2)
@@ -247,21 +266,21 @@ def _spikes(crv: np.ndarray, names: list[str], expected: float, where: str) -> l
         if len(rows):
             value = crv[rows[0] + 1, axis] / DEGREE
             what = f"{len(rows)} single samples stand out, the first with {value:.4g} deg/s in row {rows[0] + 2}"
-            cure = "No impact does that: look for a fault of the logger."
+            cure = "No impact does that: look for a fault of the logger, or for another unit of the column."
             notices.append(Notice("W-SPIKE", f"{where}, column {name}", what, cure))
     return notices
 
 
 def _noisy(t: np.ndarray, crv: np.ndarray, names: list[str], stated: float, where: str) -> list[Notice]:
     sigma = noise_floor(t, crv).sigma
-    cure = "The stated noise weighs the comparison: correct the data sheet, or look for a disturbance."
-    return [
-        Notice(
-            "W-NOISE",
-            f"{where}, column {name}",
-            f"the noise is {sigma[axis] / DEGREE:.3g} deg/s, and {stated / DEGREE:.3g} deg/s is stated",
-            cure,
-        )
-        for axis, name in enumerate(names)
-        if sigma[axis] > NOISE_MARGIN * stated > 0.0
-    ]
+    notices = []
+    for axis, name in enumerate(names):
+        if not sigma[axis] > NOISE_MARGIN * stated > 0.0:
+            continue
+        what = f"the noise is {sigma[axis] / DEGREE:.3g} deg/s, and {stated / DEGREE:.3g} deg/s is stated"
+        cure = "The stated noise weighs the comparison: correct the data sheet, or look for a disturbance."
+        others = float(np.delete(sigma, axis).max())
+        if sigma[axis] > UNIT_MARGIN * others > 0.0:
+            cure = f"The other columns have {others / DEGREE:.3g} deg/s: check the unit of this one."
+        notices.append(Notice("W-NOISE", f"{where}, column {name}", what, cure))
+    return notices

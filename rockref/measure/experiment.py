@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.measure.checks import check_release_run, samples_before_a_fall
+from rockref.measure.checks import check_faults, check_release_run, samples_before_a_fall
 from rockref.measure.columns import DEGREE, POSE, RATES
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import shown
@@ -325,6 +325,7 @@ def _load_run(run: Run, experiment: Experiment, notices: list[Notice]) -> Run:
         notices.extend(found)
     crv = _stack(columns, RATES)
     if release and crv is not None:
+        check_faults(t, crv, table, run, experiment)
         stands = samples_before_a_fall(t, crv, run, experiment)
         if stands < len(t):
             what = f"the block falls over at {t[stands]:.2f} s"

@@ -25,6 +25,28 @@ def late(t, crv):
     return np.arange(len(t) + 250) * 0.002, np.concatenate((rest, crv))
 
 
+def wild(row, value=5000.0, axis=0, count=1):
+    """Single samples that no block has."""
+
+    def change(t, w):
+        w = w.copy()
+        w[row : row + count, axis] = value
+        return t, w
+
+    return change
+
+
+def held(first, last, value=None):
+    """A logger that repeats one value, or its last one."""
+
+    def change(t, w):
+        w = w.copy()
+        w[first:last] = w[first] if value is None else value
+        return t, w
+
+    return change
+
+
 BAD = {
     "X and Y swapped": (lambda t, w: (t, w[:, [1, 0, 2]]), HEADER, "E-AXES", "column wy_deg_s", "not about X"),
     "X and Z swapped": (lambda t, w: (t, w[:, [2, 1, 0]]), HEADER, "E-AXES", "column wz_deg_s", "not about X"),
@@ -47,6 +69,13 @@ BAD = {
     "millirad called degrees": (lambda t, w: (t, 17.45 * w), HEADER, "E-RATE-SIZE", "column wx_deg_s", "37.3 deg/s"),
     "too short": (lambda t, w: (t[:300], w[:300]), HEADER, "E-SHORT", "run01.csv", "ends at 0.598"),
     "channel dead": (lambda t, w: (t, w * [0.0, 1.0, 1.0]), HEADER, "E-STILL", "column wx_deg_s", "all values are 0"),
+    "a wild sample in the first swing": (wild(100), HEADER, "E-SPIKE", "column wx_deg_s", "5000 deg/s at 0.2 s"),
+    "a wild sample later": (wild(400), HEADER, "E-SPIKE", "column wx_deg_s", "leave these rows out"),
+    "wild samples aside": (wild(700, -3000.0, 1, 3), HEADER, "E-SPIKE", "column wy_deg_s", "3 wild samples, the first"),
+    "zeros in the first swing": (held(100, 200, 0.0), HEADER, "E-DROPOUT", "run01.csv", "from 0.2 to 0.398 s"),
+    "zeros after an impact": (held(300, 350, 0.0), HEADER, "E-DROPOUT", "run01.csv", "0, 0, 0 deg/s"),
+    "zeros to the end": (held(600, 750, 0.0), HEADER, "E-DROPOUT", "run01.csv", "from 1.2 to 1.498 s"),
+    "the last value held": (held(600, 700), HEADER, "E-DROPOUT", "run01.csv", "cut the record before it"),
     "released late": (late, HEADER, "E-RELEASE", "run01.csv", "hardly moves"),
 }
 
@@ -139,3 +168,31 @@ def test_closed_forms_of_the_first_swing(rocking):
     assert rocking_time(0.117, 0.1, 0.688) == pytest.approx(motion.times[0], rel=1e-12)
     # Linear in the angle against the full energy: sin and its argument differ by alpha^2/6, 0.35 %.
     assert rocking_rate(0.117, 0.1, 0.688) == pytest.approx(motion.before[0], rel=4e-3)
+
+
+def test_the_noise_of_one_column_alone_is_its_unit(folder, as_table, good_signal):
+    """In the first swing Z has nothing but noise, and only the other columns say how much there should be."""
+    notices = load_experiment(edited(folder, as_table, good_signal, lambda t, w: (t, w * [1, 1, 57.3]))).notices
+    said = [str(n) for n in notices if n.code == "W-NOISE"]
+    assert len(said) == 1
+    assert "column wz_deg_s" in said[0] and "check the unit of this one" in said[0]
+
+
+def test_a_block_at_rest_is_no_dropout():
+    """Zeros before the motion begins, and after it has died out."""
+    from rockref.measure.faults import check_dropout
+
+    t = np.arange(1000) * 1e-3
+    crv = np.zeros((1000, 3))
+    crv[300:700, 0] = 0.5 * np.sin(np.arange(400) * np.pi / 400)
+    check_dropout(t, crv, np.ones(1000, bool), 0.6, "run01.csv")
+
+
+def test_what_lasts_is_not_wild():
+    from rockref.measure.faults import wild_samples, without
+
+    crv = np.full((2000, 3), 0.1)
+    crv[100:103, 1], crv[500:504, 2] = 9.0, -9.0
+    rows = wild_samples(crv, 0.6)
+    assert list(np.flatnonzero(rows)) == [100, 101, 102]
+    assert np.array_equal(without(crv, rows)[:200], np.full((200, 3), 0.1))
