@@ -27,20 +27,27 @@ def name_of(page):
     return page.relative_to(ROOT).as_posix()
 
 
-def blocks(page, languages):
-    """Contents of the fenced blocks of a page in one of the languages, without their indentation."""
+def fenced(page):
+    """The fenced blocks of a page in order: language and contents, without their indentation."""
     found = re.findall(r"^( *)```(\w+)[^\n]*\n(.*?)^ *```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-    return [re.sub(rf"^{indent}", "", text, flags=re.MULTILINE) for indent, kind, text in found if kind in languages]
+    return [(kind, re.sub(rf"^{indent}", "", text, flags=re.MULTILINE)) for indent, kind, text in found]
+
+
+def blocks(page, languages):
+    """Contents of the fenced blocks of a page in one of the languages."""
+    return [text for kind, text in fenced(page) if kind in languages]
+
+
+def commands_in(block):
+    """The commands in a shell block: of a console block the lines with a prompt."""
+    block = block.replace("\\\n", " ")
+    lines = [line.removeprefix("$ ") for line in block.splitlines() if line.startswith("$ ")] or block.splitlines()
+    return [words for line in lines if (words := shlex.split(line.replace(".venv/bin/", ""), comments=True))]
 
 
 def commands_of(page):
-    """The commands in the shell blocks of a page: of a console block the lines with a prompt."""
-    lines = []
-    for block in blocks(page, SHELLS):
-        block = block.replace("\\\n", " ")
-        typed = [line.removeprefix("$ ") for line in block.splitlines() if line.startswith("$ ")]
-        lines += typed or block.splitlines()
-    return [words for line in lines if (words := shlex.split(line.replace(".venv/bin/", ""), comments=True))]
+    """The commands in the shell blocks of a page."""
+    return [words for block in blocks(page, SHELLS) for words in commands_in(block)]
 
 
 def mentioned(page):
@@ -95,6 +102,8 @@ def test_commands_and_options_are_there(page, words, capsys):
 
 
 def typed(words, folder, **more):
+    if {"<", ">", "|"} & set(words):
+        words = ["sh", "-c", " ".join(w if w in ("<", ">", "|") else shlex.quote(w) for w in words)]
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     environment = os.environ | {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "110"}
     return subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=1800, **more)
@@ -123,8 +132,13 @@ def pages_that(have, slow):
     return [pytest.param(page, id=name_of(page), marks=marks if slow(page) else []) for page in PAGES if have(page)]
 
 
+def followed(words):
+    """Commands that are typed: rockref's, the compiler's, and the programs that it makes."""
+    return words[0] in ("rockref", "cc") or words[0].startswith("./")
+
+
 def follow(page, place):
-    for words in runnable(page):
+    for words in filter(followed, commands_of(page)):
         done = typed(words, place)
         # 1: what was asked about falls short, which is an answer; 2 would be a command that the page has wrong
         assert done.returncode in (0, 1), (words, done.stderr[-2000:])
@@ -135,6 +149,40 @@ def follow(page, place):
 def test_commands_of_a_page_in_their_order(page, place):
     """Each page is followed as a reader would, from a folder beside the data."""
     follow(page, place)
+
+
+JUDGE = ROOT / "docs/tutorial/judge_your_backend.md"
+
+
+def edited(path, line):
+    """Make the change of the page in the file: another return line in the function that is named."""
+    function = re.search(r"In `mine.py`, in `(\w+)`", JUDGE.read_text(encoding="utf-8"))[1]
+    old, new = path.read_text(), line.rstrip("\n")
+    changed = re.sub(rf"(def {function}\(.*?\n)    return [^\n]*", lambda m: m[1] + new, old, count=1, flags=re.DOTALL)
+    assert changed != old
+    path.write_text(changed)
+
+
+@pytest.mark.slow
+def test_the_page_of_the_judge_says_what_the_judge_says(place):
+    """All but the long runs, with the change that the page asks for: who passes, who fails, and with which rule."""
+    verdicts, told = [], ""
+    for kind, block in fenced(JUDGE):
+        if kind == "python":
+            edited(place / "mine.py", block)
+        for words in filter(followed, commands_in(block) if kind in SHELLS else []):
+            if words[1:] == ["conform", "mine.py:Backend"]:
+                continue
+            done = typed(words, place)
+            if words[0] == "rockref" and words[2] not in ("example", "export"):
+                verdicts.append((done.returncode, done.stdout.splitlines()[-1].split(" (not")[0].split(" (quick")[0]))
+                told = told or (done.stdout if done.returncode else "")
+            else:
+                assert done.returncode == 0, (words, done.stderr[-2000:])
+    fine, wrong = (0, "PASS"), (1, "FAIL (T3)")
+    assert verdicts == [fine, fine, wrong, fine, wrong, fine]
+    shown = next(block for kind, block in fenced(JUDGE) if kind == "text").splitlines()
+    assert [line for line in shown if line != "..." and line not in told.splitlines()] == []
 
 
 def programs(page):
