@@ -205,15 +205,23 @@ def page(found: dict[str, Any]) -> str:
         "Written by `rockref conform zoo --output docs/reference/zoo.md`; not to be edited.\n\n"
         "Every line is a backend that makes one mistake. *first vector* and *named* are what the judge says when the\n"
         "backend shows its pieces; *bars* is the largest deviation in a vector of the planted rule. The last two\n"
-        "columns are for the same backend as a black box: the two mistakes of the zoo that come nearest, and whether\n"
+        "columns are for the same backend as a black box: up to two mistakes that leave similar traces, and whether\n"
         "the planted rule would be among the two named if this mistake were not in the zoo, which is what a mistake\n"
         "of your own meets.\n"
         "Controls (C) are no mistakes and have to pass.\n\n"
         + "".join(f"- {line}\n" for line in totals)
+        + misnamed(found)
         + f"\n{in_markdown(found)}\n## Resolving power of the vectors\n\n"
         "A vector is admitted only if every mistake that it is said to hunt moves it by a hundred bars.\n\n"
         f"{power}\n"
     )
+
+
+def misnamed(found: dict[str, Any]) -> str:
+    """A line of the page: the mistakes that have the name of another rule where pieces are shown."""
+    wrong = [c for c in found["cases"] if c["kind"] == "mistake" and not c["attributed"]]
+    said = ", ".join(f"{c['id']} ({c['named']} in place of {c['rule']})" for c in wrong)
+    return f"- named by another rule where pieces are shown: {said}\n" if wrong else ""
 
 
 def in_markdown(found: dict[str, Any]) -> str:

@@ -53,6 +53,9 @@ def test_the_summary_counts_the_cases():
     assert set(found) == {*keys, "attributed_black_box_unknown", "cases"}
     assert [found[k] for k in keys] == [1, 1, 1, 1, 1, 0]
     json.dumps(found, allow_nan=False)
+    assert "named by another rule" not in zoo_run.page(found)
+    wrong = summary([some[0] | {"named": "T5", "attributed": False}])
+    assert "named by another rule where pieces are shown: Z01 (T5 in place of N1)" in zoo_run.page(wrong)
     assert "detected 1/1" in zoo_run.in_words(found) and "| Z01 | N1 |" in in_markdown(found)
 
 
