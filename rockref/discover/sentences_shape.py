@@ -17,6 +17,12 @@ AGREE_SHARE, AGREE_ERRORS = 0.02, 2.0
 # decided: a factor between model and record is named where the two are this much alike, and it differs from 1 by this;
 # the uncertainty of the release tilt makes 0.2 %.
 ALIKE, LEAST_FACTOR = 0.99, 0.005
+# The ledger's own uncertainty of a loss per main impact and in a free arc, as a share of the energy. Rates are
+# extrapolated through the clatter, and what is given too much to the impact is missing in the arc: of the four-point
+# model 6.6 % an impact were read where energies of the simulation say 5.95 %. A cycle, apex to apex, is free of it.
+LEDGER_SHARE = {"cycle": 0.0, "impact": 0.007, "free": 0.007}
+# decided: where half of the measured loss could hide, nothing is said to agree.
+NOT_TOLD = 0.5
 # decided: factors of the three axes are called the same within this.
 SAME_FACTOR = 0.005
 # decided: leakage of the main rate is named from 0.2 % (0.1 degrees) and four standard errors on, an offset from 0.05
@@ -37,23 +43,32 @@ def energy(c: Comparison, model: int) -> list[Finding]:
     parts = {}
     for part in PARTS:
         pairs = [(getattr(r.losses_model, part), getattr(r.losses_measured, part)) for r in c.results[model]]
-        parts[part] = _change([p for p in pairs if all(map(math.isfinite, p))])
+        parts[part] = _change([p for p in pairs if all(map(math.isfinite, p))], LEDGER_SHARE[part])
     known = {part: change for part, change in parts.items() if change is not None}
     if "impact" not in known:
         return []
-    off = [(_less(change), f"{PARTS[part]} ({change.shown})") for part, change in known.items() if not change.agrees]
-    same = [f"{PARTS[part]} (to {100 * change.resolution:.0f} %)" for part, change in known.items() if change.agrees]
+    text = _energy_words(known)
+    values = {part: {"model": k.model, "measured": k.measured, "error": k.error} for part, k in known.items()}
+    return finding(c, model, "energy", text, **values)
+
+
+def _energy_words(known: dict[str, _Change]) -> str:
+    """The sentence about the parts of the loss: those that differ, those that agree, those that cannot be told."""
+    off = [(_less(k), f"{PARTS[part]} ({k.shown})") for part, k in known.items() if not k.agrees]
+    same = [f"{PARTS[part]} (to {100 * k.resolution:.0f} %)" for part, k in known.items() if k.agrees and k.told]
+    hidden = [PARTS[part] for part, k in known.items() if k.agrees and not k.told]
+    tail = f"; {' and '.join(hidden)} it cannot be told" if hidden else ""
     if off:
         # "energy" once, after the first amount.
         head = "The model loses " + ", ".join(
             f"{less}{'' if k else ' energy'} {part}" for k, (less, part) in enumerate(off)
         )
         one = len(same) == 1
-        tail = f"; the loss{'' if one else 'es'} {' and '.join(same)} agree{'s' if one else ''}" if same else ""
-    else:
-        head, tail = f"The model loses as much energy as the block, {', '.join(same)}", ""
-    values = {part: {"model": k.model, "measured": k.measured, "error": k.error} for part, k in known.items()}
-    return finding(c, model, "energy", f"{head}{tail}.", **values)
+        agree = f"; the loss{'' if one else 'es'} {' and '.join(same)} agree{'s' if one else ''}" if same else ""
+        return f"{head}{agree}{tail}."
+    if same:
+        return f"The model loses as much energy as the block, {', '.join(same)}{tail}."
+    return f"Whether the model loses as much energy as the block cannot be told, {' or '.join(hidden)}."
 
 
 @dataclass(frozen=True)
@@ -61,38 +76,55 @@ class _Change:
     model: float
     measured: float
     error: float
+    ledger: float = 0.0
 
     @property
     def share(self) -> float:
         return (self.model - self.measured) / self.measured if self.measured else float("nan")
 
     @property
+    def tolerance(self) -> float:
+        """The smallest difference that would be called one, as a share of the energy."""
+        return max(AGREE_ERRORS * self.error, AGREE_SHARE * abs(self.measured), self.ledger)
+
+    @property
     def resolution(self) -> float:
-        """The smallest share of the measured loss that would be called a difference."""
-        return max(AGREE_ERRORS * self.error / abs(self.measured), AGREE_SHARE) if self.measured else float("inf")
+        """The same as a share of the measured loss."""
+        return self.tolerance / abs(self.measured) if self.measured else float("inf")
 
     @property
     def agrees(self) -> bool:
-        return abs(self.share) <= self.resolution
+        return abs(self.model - self.measured) <= self.tolerance
+
+    @property
+    def told(self) -> bool:
+        return self.measured > 0.0 and self.resolution <= NOT_TOLD
 
     @property
     def shown(self) -> str:
-        return f"{100 * self.model:.1f} instead of {100 * self.measured:.1f} %"
+        return f"{self._percent(self.model)} instead of {self._percent(self.measured)} %"
+
+    def _percent(self, share: float) -> str:
+        """A loss in per cent; none is negative, and what is smaller than the ledger sees is below that."""
+        if share < self.ledger:
+            return f"below {100 * self.ledger:.1f}"
+        return f"{100 * max(share, 0.0):.1f}"
 
 
-def _change(pairs: list[tuple[float, float]]) -> _Change | None:
-    """Return the means over the runs and the standard error of their difference."""
+def _change(pairs: list[tuple[float, float]], ledger: float = 0.0) -> _Change | None:
+    """Return the means over the runs and the standard error of their difference; ledger, its own uncertainty."""
     if not pairs:
         return None
     model, measured = np.array(pairs).T
     error = float((model - measured).std(ddof=1) / math.sqrt(len(pairs))) if len(pairs) > 1 else 0.0
-    return _Change(float(model.mean()), float(measured.mean()), error)
+    return _Change(float(model.mean()), float(measured.mean()), error, ledger)
 
 
 def _less(change: _Change) -> str:
     word = "more" if change.model > change.measured else "less"
-    # A share of something near zero or negative says nothing.
-    return word if change.measured <= 0.0 or abs(change.share) > 1.0 else f"{100 * abs(change.share):.0f} % {word}"
+    # A share of something near zero or negative says nothing, nor does one that is below what the ledger sees.
+    vague = change.measured <= change.ledger or change.model < change.ledger or abs(change.share) > 1.0
+    return word if vague else f"{100 * abs(change.share):.0f} % {word}"
 
 
 def amplitude(c: Comparison, model: int) -> list[Finding]:
