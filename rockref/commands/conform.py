@@ -124,8 +124,13 @@ def _judge(
     from rockref.model.storage import write_bytes
 
     show = sys.stderr.isatty() and not as_json
-    findings = judge(backend, layers, used_profile(backend, profile), _progress if show else None, examples)
-    found = verdict(findings, backend)
+    try:
+        findings = judge(backend, layers, used_profile(backend, profile), _progress if show else None, examples)
+        found = verdict(findings, backend)
+    finally:
+        # Also where the judge is interrupted: a program has a group of its own, and would go on.
+        if hasattr(backend, "close"):
+            backend.close()
     if show:
         typer.echo("\r" + " " * 40 + "\r", nl=False, err=True)
     for name, make in (("junit", in_files.junit), ("badge", in_files.badge), ("html", in_files.page)):
@@ -136,8 +141,6 @@ def _judge(
         typer.echo(json.dumps(in_json(found), indent=1))
     else:
         typer.echo(in_words.text(found, sys.stdout.isatty() if colour is None else colour), nl=False, color=True)
-    if hasattr(backend, "close"):
-        backend.close()
     if not found.passed:
         raise typer.Exit(1)
 

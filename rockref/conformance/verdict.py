@@ -151,6 +151,8 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     rule, check, says = suspect(findings.checks, findings.pieces)
     if check is not None and not check.weighed:
         rule, says = None, unanswered(findings.checks)
+        # What was asked first tells why; later questions may not have been put any more.
+        check = next(c for c in findings.checks if c.failed and not c.weighed)
     bad_run = next((r for r in findings.runs if r.failed), None)
     bad_properties = [p for p in findings.properties if not p.holds] + [e for e in findings.effects if e.failed]
     status = (

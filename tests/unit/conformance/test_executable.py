@@ -138,6 +138,22 @@ def test_what_a_program_has_started_is_ended_with_it(tmp_path):
     assert not running(child)
 
 
+def test_who_is_interrupted_leaves_no_program_behind(tmp_path, monkeypatch):
+    from rockref.commands import conform
+    from rockref.conformance import judge as judging
+
+    backend = Executable(program(tmp_path, "time.sleep(300)"))
+    child = backend.process.pid
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(judging, "judge", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        conform._judge(backend, ["L1"], None, False, None, 1, {})
+    assert not running(child)
+
+
 def running(pid):
     """Whether a process is there and not only waits to be buried."""
     stat = Path(f"/proc/{pid}/stat")
