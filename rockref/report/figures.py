@@ -86,14 +86,19 @@ def zooms(c: Comparison, k: int) -> Any | None:
     stretches = [(times[0] - 0.06, times[0] + 0.08), (times[0] - BEYOND, times[1] + BEYOND)]
     if len(times) > 4:
         stretches.append((times[-3] - BEYOND, times[-1] + BEYOND))
-    figure = new_figure(4.0 * len(stretches), 7.5)
-    axes = figure.subplots(4, len(stretches), squeeze=False, height_ratios=[1, 1, 1, 0.7], sharex="col")
+    models = range(len(c.names))
+    figure = new_figure(4.0 * len(stretches), 6.3 + 1.2 * len(models))
+    ratios = [1, 1, 1, *(0.7 for _ in models)]
+    axes = figure.subplots(3 + len(models), len(stretches), squeeze=False, height_ratios=ratios, sharex="col")
     for column, (start, end) in enumerate(stretches):
         for axis in range(3):
             _rates(axes[axis][column], c, k, axis, start, end, labelled=column == 0)
-        contact_plot(axes[3][column], c, k, 0, (start, end), labelled=column == 0)
-        axes[3][column].set_xlim(start, end)
-        axes[3][column].set_xlabel("time (s)")
+        for i in models:
+            contact_plot(axes[3 + i][column], c, k, i, (start, end), labelled=column == 0)
+        axes[-1][column].set_xlim(start, end)
+        axes[-1][column].set_xlabel("time (s)")
+    for i, name in enumerate(c.names):
+        axes[3 + i][0].set_ylabel(f"contacts\n{name}", fontsize=8)
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper right", ncols=5, frameon=False, fontsize=9)
     figure.suptitle(f"{c.experiment.name}, run {tables.run_name(c, k)}", fontsize=10, x=0.02, ha="left")

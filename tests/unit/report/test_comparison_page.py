@@ -163,3 +163,16 @@ def test_provenance_is_plain(c):
     facts = blocks.provenance(c)
     assert json.loads(json.dumps(facts)) == facts
     assert {"engine", "rockref", "numpy"} <= set(facts)
+
+
+def test_zooms_have_a_labelled_row_of_contacts_for_every_model(c):
+    figure = figures.zooms(c, 0)
+    columns = 3 if len(c.measured[0].features.impacts.times) > 4 else 2
+    rows = [figure.axes[i : i + columns] for i in range(0, len(figure.axes), columns)]
+    assert len(rows) == 3 + len(c.names)
+    for i, name in enumerate(c.names):
+        first = rows[3 + i][0]
+        assert first.get_ylabel() == f"contacts\n{name}"
+        assert len(first.get_yticklabels()) == 8
+        colours = {tuple(p.get_facecolor()[0]) for axes in rows[3 + i] for p in axes.collections}
+        assert len(colours) == 1
