@@ -1,5 +1,6 @@
 """`rockref demo`: the block rocks, measured runs beside it, and where the model fails."""
 
+import sys
 import time
 from pathlib import Path
 from typing import Annotated
@@ -27,13 +28,17 @@ def demo(
       rockref demo
       rockref demo --out somewhere
     """
+    from rockref.commands._stages import stages
     from rockref.report.demo import find_experiments, tell
     from rockref.report.output import made_folder
 
     began = time.monotonic()
     folder = find_experiments(data)
     made_folder(out)
-    story = tell(folder, out, engine, lambda text: typer.echo(f"... {text}", err=True))
+    with stages("the demonstration") as show:
+        # A terminal has one line that changes; elsewhere a line a stage is left.
+        report = show if sys.stderr.isatty() else lambda text: typer.echo(f"... {text}", err=True)
+        story = tell(folder, out, engine, report, show)
     for line in story.lines:
         typer.echo(f"- {line}")
     typer.echo(f"\nThe page: {story.written[0].resolve()}")

@@ -16,7 +16,7 @@ from rockref.api import Model, simulate
 from rockref.discover.compare import Comparison, baseline_model, compare
 from rockref.discover.finding import Finding
 from rockref.discover.sentences import findings
-from rockref.discover.story import run_story
+from rockref.discover.story import Journey, run_story
 from rockref.discover.stretches import AXES
 from rockref.measure import envelope_shape, envelopes, load_experiment, main_impacts
 from rockref.measure.activity import leakage, onset
@@ -45,13 +45,15 @@ ROOM = 420_000
 @dataclass
 class Story:
     """What has been told: ``lines`` for the terminal, ``page``; and what later chapters need: ``folder`` of the
-    experiments, ``out``, ``engine``, ``comparisons`` by name, ``written`` files, ``report`` (called with words)."""
+    experiments, ``out``, ``engine``, ``comparisons`` by name, ``written`` files, ``report`` (called with a line at
+    every stage) and ``detail`` (called with what goes on within a stage)."""
 
     folder: Path
     out: Path
     engine: str
     page: Page
     report: Callable[[str], None]
+    detail: Callable[[str], None]
     lines: list[str] = field(default_factory=list)
     comparisons: dict[str, Comparison] = field(default_factory=dict)
     written: list[Path] = field(default_factory=list)
@@ -63,7 +65,7 @@ def the_model(story: Story) -> None:
     model = Model.table_3_1()
     response = simulate(model, duration=DURATION, output_rate=2000.0, engine=story.engine)
     words = features_in_words(response)
-    story.lines += words
+    story.lines += words[:1]
     page = story.page
     page.add_section("The block rocks")
     page.add_text(
@@ -129,18 +131,47 @@ def the_runs(story: Story) -> None:
 
 
 def telling(experiment: Experiment, found: tuple[Finding, ...]) -> list[str]:
-    """Return the lines about one experiment that matter most: where it leaves, and the three largest signs of why."""
+    """Return the two lines about one experiment that matter most: where the model leaves it, and a sign of why."""
     by_kind = {f.kind: f.text for f in found}
-    order = ("before_impact", "leak", "to_second_impact", "energy", "envelope", "first_impact", "error_size")
-    chosen = [by_kind[kind] for kind in order if kind in by_kind][:3]
+    order = ("leak", "energy", "to_second_impact", "before_impact", "envelope", "first_impact", "error_size")
+    chosen = [by_kind[kind] for kind in order if kind in by_kind][:1]
     return [f"{experiment.name}: {text}" for text in (by_kind["leaves_band"], *chosen)]
 
 
 def the_missing_effect(story: Story) -> None:
     """Chapter 3: one of the experiments diagnosed, what is missing added, and the error before and after."""
-    journey = run_story(story.folder / EXPERIMENTS[0], story.report, engine=story.engine)
-    story.lines += journey.lines
+
+    def say(line: str) -> None:
+        (story.report if line.startswith(STAGES) else story.detail)(line)
+
+    journey = run_story(story.folder / EXPERIMENTS[0], say, engine=story.engine)
+    story.lines += in_three_lines(journey)
     add_story(story.page, journey, room=ROOM)
+
+
+def in_three_lines(journey: Journey) -> list[str]:
+    """Return the verdict, the sizes of the effect, and the error before and after; the verdict alone without one."""
+    d, a = journey.diagnosis, journey.addition
+    lines = [f"{d.experiment.name}: {d.sentence}"]
+    if a is None:
+        return lines
+    own = [e for e in a.estimates if e.of_effect and e.of_run is None and e.name.startswith(f"{a.effect}.")]
+    sizes = ", ".join(
+        f"{e.name.partition('.')[2]} {e.value:.3g}{'' if e.unit == '1' else ' ' + e.unit} ({e.low:.3g} to {e.high:.3g})"
+        for e in own
+    )
+    lines.append(f"Its size, with 90 % intervals: {sizes}.")
+    falls = [
+        f"on the {words} from {before.total:.3f} to {after.total:.3f}"
+        for use, words in (("fit", "fit runs"), ("holdout", "held-out runs"))
+        if (before := getattr(a.before, use)) is not None and (after := getattr(a.after, use)) is not None
+    ]
+    lines.append(f"With it the error falls {' and '.join(falls)} deg/s RMS; the noise floor is {a.noise:.3f}.")
+    return lines
+
+
+#: How the lines begin with which the story says that another stage has begun.
+STAGES = ("diagnosing", "adding ", "comparing before and after")
 
 
 #: What the demonstration tells, in order.
@@ -169,13 +200,23 @@ def find_experiments(given: Path | None) -> Path:
     raise InputError("E-DEMO", str(places[0]), what, cure)
 
 
-def tell(folder: Path, out: Path, engine: str = "auto", report: Callable[[str], None] = lambda text: None) -> Story:
+def silent(text: str) -> None:
+    """Say nothing."""
+
+
+def tell(
+    folder: Path,
+    out: Path,
+    engine: str = "auto",
+    report: Callable[[str], None] = silent,
+    detail: Callable[[str], None] = silent,
+) -> Story:
     """Tell the story: compute every chapter, write page and figures into `out`. Raises InputError, NumericalError."""
     page = Page(
         "rockref: the demonstration",
         "The block rocks, measured runs beside it, where the model fails, and what it lacks.",
     )
-    story = Story(folder, out, engine, page, report)
+    story = Story(folder, out, engine, page, report, detail)
     summary = page.add_section("In short")
     for chapter in CHAPTERS:
         chapter(story)

@@ -20,20 +20,29 @@ def demo(tmp_path_factory):
     command = [str(Path(sys.executable).with_name("rockref")), "demo", "--out", str(out)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
-    return out, done.stdout
+    return out, done.stdout, done.stderr
 
 
 def test_the_lines_that_matter_and_the_place_of_the_page(demo):
-    out, printed = demo
+    out, printed, _ = demo
     lines = [line for line in printed.splitlines() if line.startswith("- ")]
-    # Two lines about the model, four about each of two experiments; of one the verdict, six numbers, two errors.
-    assert len(lines) == 19
+    # One about the model, two about each of two experiments; of one the verdict, its sizes, the errors.
+    assert len(lines) == 8
+    assert len(printed.split("\n\n")[-1].splitlines()) == 2
     assert "main impacts at 0.5104" in lines[0]
     for name in EXPERIMENTS:
         assert any(line.startswith(f"- {name}: The model leaves the band") for line in lines)
     assert "gyro_misalignment is missing" in printed
-    assert "error on the held-out runs falls from" in lines[-1]
+    assert lines[-2].count(" rad (") == 6
+    assert "the error falls on the fit runs from" in lines[-1] and "on the held-out runs from" in lines[-1]
     assert f"The page: {out / 'index.html'}" in printed
+
+
+def test_without_a_terminal_a_stage_is_a_line(demo):
+    said = demo[2].splitlines()
+    assert all(line.startswith("... ") for line in said)
+    assert len(said) == 6
+    assert "objective" not in demo[2]
 
 
 def test_page_is_whole_small_and_asks_for_nothing(demo):
