@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -132,7 +132,7 @@ def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> li
         return no_answer(vector, f"gives none of {', '.join(RESULTS[vector.piece])}")
     said = wrong_shape(vector, out) if vector.piece == "simulate" else ""
     if said:
-        return no_answer(vector, said)
+        return rows_of_another_number(vector, out) or no_answer(vector, said)
     checks = [compare_one(name, vector, out, profile) for name in asked_for(vector, out)]
     if vector.piece == "simulate" and out.get("t") is not None:
         checks += rows_at_wrong_instants(vector, out["t"])
@@ -157,6 +157,27 @@ def wrong_shape(vector: Vector, out: dict[str, Any]) -> str:
         if found != shape:
             return f"{key} has shape {found}, not {shape}"
     return ""
+
+
+def rows_of_another_number(vector: Vector, out: dict[str, Any]) -> list[Check]:
+    """A failure of S2 where all rows are as they should be, but there are more or fewer; from it all others follow."""
+    if not shows(out, "W"):
+        return []
+    rows, found = len(output_steps(problem_of(vector.inputs))), np.shape(out["W"])[:1]
+    pad = {k: np.zeros((rows, *np.shape(out[k])[1:])) for k in ("W", "x", "Lambda", "F", "anchored") if shows(out, k)}
+    if any(np.shape(out[k])[:1] != found for k in pad) or wrong_shape(vector, pad):
+        return []
+    note = f"gives {found[0]} rows, not {rows}"
+    others = [replace(c, follows=True) for c in no_answer(vector, note)]
+    return [Check(vector.id, vector.layer, "S2", "t", "outside", float("inf"), note=note), *others]
+
+
+def shows(out: dict[str, Any], key: str) -> bool:
+    """Whether there are rows of a quantity, of one length."""
+    try:
+        return out.get(key) is not None and len(np.shape(out[key])) > 0
+    except ValueError:
+        return False
 
 
 def wrong_instants(got: Any, wanted: np.ndarray, step: float) -> str:

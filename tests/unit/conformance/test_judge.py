@@ -244,6 +244,13 @@ def test_rows_of_another_shape_speak_of_no_rule(key):
     assert set(v.rules.values()) <= {"no answer", "not shown", "pass", "fail"} and v.rules["S2"] == "no answer"
 
 
+def test_too_few_rows_are_the_fault_of_the_run():
+    law = NumpyEngine()
+    v = verdict(judge(Broken(lambda p: {k: vars(law.simulate(p))[k][:-1] for k in ("W", "x", "Lambda")}), QUICK))
+    assert v.rule == "S2" and "rows, not" in v.check.note
+    json.dumps(as_json(v), allow_nan=False)
+
+
 def ended(words):
     """The exit code of a command."""
     with pytest.raises(SystemExit) as end:
