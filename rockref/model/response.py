@@ -132,8 +132,12 @@ class Response:
         """
         import pandas
 
+        return pandas.DataFrame(self.columns("to_frame"))
+
+    def columns(self, asked: str = "columns") -> dict[str, np.ndarray]:
+        """The columns of `to_frame`, each (rows,), by name. Raises InputError (E-BATCH) for a batch, about `asked`."""
         if self.problem.batch:
-            raise InputError("E-BATCH", "to_frame", "was asked of a batch", "Index the response first: response[i].")
+            raise InputError("E-BATCH", asked, "was asked of a batch", "Index the response first: response[i].")
         columns = {"t_s": self.t}
         columns |= {f"w{a}_deg_s": self.crv[:, i] for i, a in enumerate("xyz")}
         columns |= {f"{a}_m": self.x[:, i] for i, a in enumerate("xyz")}
@@ -141,7 +145,7 @@ class Response:
         for i, name in enumerate(self.problem.points.names):
             columns |= {f"f{a}_{name}_N": self.F[:, i, j] for j, a in enumerate("xyz")}
             columns |= {f"contact_{name}": self.anchored[:, i], f"slip_{name}": self.sliding[:, i]}
-        return pandas.DataFrame(columns)
+        return columns
 
 
 def pick_state(state: State, index) -> State:

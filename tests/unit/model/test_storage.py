@@ -48,3 +48,18 @@ def test_a_missing_folder_is_named(tmp_path):
         storage.write_text(tmp_path / "nowhere" / "a.txt", "x")
     assert refused.value.code == "E-WRITE"
     assert "nowhere" in refused.value.where
+
+
+def test_pieces_are_asked_for_one_by_one_and_an_interruption_leaves_nothing(tmp_path):
+    path = tmp_path / "a.txt"
+    storage.write_pieces(path, iter([b"one ", b"two"]))
+    assert path.read_bytes() == b"one two"
+
+    def interrupted():
+        yield b"three"
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        storage.write_pieces(path, interrupted())
+    assert path.read_bytes() == b"one two"
+    assert os.listdir(tmp_path) == ["a.txt"]

@@ -1,6 +1,7 @@
 """A response as a file."""
 
 import gzip
+import hashlib
 from dataclasses import replace
 
 import numpy as np
@@ -64,3 +65,21 @@ def test_names_that_are_no_tables_are_refused_before_work(tmp_path, name):
     with pytest.raises(InputError) as error:
         check_name(tmp_path / name)
     assert error.value.code == "E-PATH"
+
+
+@pytest.mark.parametrize("rows", [1, 7, 1000])
+def test_the_file_is_what_pandas_would_write(tmp_path, response, monkeypatch, rows):
+    """Byte for byte, in however many pieces."""
+    from rockref.report import response_table
+
+    monkeypatch.setattr(response_table, "ROWS_A_PIECE", rows)
+    write_response(response, tmp_path / "r.csv")
+    frame = response.to_frame()
+    switches = [name for name in frame if frame[name].dtype == bool]
+    frame[switches] = frame[switches].astype("int8")
+    text = frame.to_csv(index=False, lineterminator="\n")
+    facts = write_response(response, tmp_path / "r.csv.gz")
+    assert (tmp_path / "r.csv").read_text() == text
+    data = (tmp_path / "r.csv.gz").read_bytes()
+    assert gzip.decompress(data).decode() == text
+    assert facts["sha256"] == hashlib.sha256(data).hexdigest()
