@@ -12,7 +12,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +41,7 @@ def main() -> None:
     given = parser.parse_args()
     found = {"machine": machine(), **numpy_alone(), **numpy_in_batch(), **peers(given.peers)}
     if has_numba():
-        found |= {**first_call(), **compiled(), **cores(), **growth(), **effects()}
+        found |= {**first_call(), **memory(), **compiled(), **cores(), **growth(), **effects()}
     else:
         say("numba is not installed (pip install 'rockref[fast]'): the compiled engine is left out")
     if not given.dry:
@@ -130,6 +129,37 @@ def _seconds(code: str, cache: str) -> float:
     return float(done.stdout)
 
 
+#: What a run may take at its peak [MB].
+MOST_MEMORY = 200
+
+
+def memory() -> dict:
+    """Peak memory [MB] of a process that makes a run of 10 s at 2 kHz: from Python, and by the command, with its file.
+
+    Loops that are on disk already: making machine code takes more, once.
+    """
+    api = "import rockref; rockref.simulate(rockref.Model.table_3_1(), 10.0, engine='numba')"
+    with tempfile.TemporaryDirectory() as folder:
+        out = str(Path(folder) / "run.csv")
+        words = ["-m", "rockref", "simulate", "--duration", "10", "--engine", "numba", "-o", out]
+        for arguments in (["-c", api], words):
+            _peak_memory(arguments)
+        found = {"memory_api_mb": _peak_memory(["-c", api]), "memory_command_mb": _peak_memory(words)}
+    for key, value in found.items():
+        say(f"{key:44} {value:14,.0f} (at most {MOST_MEMORY} asked)")
+    return found
+
+
+def _peak_memory(arguments: list[str]) -> float:
+    """Largest resident memory [MB] of a Python process with these arguments."""
+    code = (
+        "import resource, subprocess, sys; subprocess.run([sys.executable, *sys.argv[1:]], check=True, "
+        "stdout=subprocess.DEVNULL); print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024)"
+    )
+    done = subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=True)
+    return float(done.stdout)
+
+
 def growth() -> dict:
     """How the seconds of a run grow with duration, with points, and with the size of a batch."""
     from rockref.engines.compiled.batch import from_problems, run_batch
@@ -147,9 +177,8 @@ def growth() -> dict:
         problems = [tilted(i, 200 * STEP) for i in range(B)]
         batch, together = from_problems(problems), stack(problems)
         batches.append([B, seconds(lambda b=batch: run_batch(b)) / 200])
-        start = time.perf_counter()
-        law.simulate(together.replace(duration=20 * STEP))
-        by_law.append([B, (time.perf_counter() - start) / 20])
+        # The same 200 steps: a run ends with its last row, and at 2 kHz the first after the start is that of step 50.
+        by_law.append([B, seconds(lambda p=together: law.simulate(p)) / 200])
     say(f"one step of {BATCHES[-1]} blocks: numba {batches[-1][1]:.2e} s, numpy {by_law[-1][1]:.2e} s")
     return {
         "seconds_by_duration": durations, "seconds_by_points": points,

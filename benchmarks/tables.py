@@ -55,6 +55,15 @@ def table(found: dict) -> str:
             f"compiles for {found['first_call_s']:.0f} s; the first call of a later process takes "
             f"{found['first_call_of_a_later_process_s']:.1f} s.",
             "",
+            *(
+                [
+                    f"A run of 10 s at 2 kHz takes {found['memory_api_mb']:.0f} MB at its peak from Python, "
+                    f"{found['memory_command_mb']:.0f} MB as `rockref simulate -o` with its file.",
+                    "",
+                ]
+                if "memory_api_mb" in found
+                else []
+            ),
             "| duration [s] | compiled, one run [ms] |",
             "| ---: | ---: |",
             *(f"| {d:g} | {s * 1e3:.3g} |" for d, s in found["seconds_by_duration"]),
