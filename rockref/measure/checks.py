@@ -100,10 +100,11 @@ def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, ex
     return notices
 
 
-def check_faults(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, experiment: Experiment) -> None:
+def check_faults(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, experiment: Experiment) -> list[Notice]:
     """Refuse what only a fault of the logger explains, before it is taken for motion: E-SPIKE, E-DROPOUT.
 
-    t (N,) s; crv (N, 3) rad/s. What comes after the block has fallen over is not looked at.
+    Short dropouts are returned as notices (W-DROPOUT). t (N,) s; crv (N, 3) rad/s. What comes after the block has
+    fallen over is not looked at.
     """
     assert run.release_tilt is not None
     expected = rocking_rate(run.release_tilt, experiment.width, experiment.height)
@@ -113,7 +114,7 @@ def check_faults(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, experim
     names = [table.names[quantity] for quantity in RATES]
     check_wild(t[:stands], crv[:stands], wild[:stands], names, table.path)
     inside = np.abs(tilts(t, calm[:, 0], run)) <= FALLEN * math.atan2(experiment.width, experiment.height)
-    check_dropout(t, crv, np.logical_and.accumulate(inside), expected, table.path)
+    return check_dropout(t, crv, np.logical_and.accumulate(inside), expected, table.path)
 
 
 def samples_before_a_fall(t: np.ndarray, crv: np.ndarray, run: Run, experiment: Experiment) -> int:

@@ -325,7 +325,7 @@ def _load_run(run: Run, experiment: Experiment, notices: list[Notice]) -> Run:
         notices.extend(found)
     crv = _stack(columns, RATES)
     if release and crv is not None:
-        check_faults(t, crv, table, run, experiment)
+        notices.extend(check_faults(t, crv, table, run, experiment))
         stands = samples_before_a_fall(t, crv, run, experiment)
         if stands < len(t):
             what = f"the block falls over at {t[stands]:.2f} s"

@@ -185,7 +185,15 @@ def test_a_block_at_rest_is_no_dropout():
     t = np.arange(1000) * 1e-3
     crv = np.zeros((1000, 3))
     crv[300:700, 0] = 0.5 * np.sin(np.arange(400) * np.pi / 400)
-    check_dropout(t, crv, np.ones(1000, bool), 0.6, "run01.csv")
+    assert check_dropout(t, crv, np.ones(1000, bool), 0.6, "run01.csv") == []
+
+
+def test_a_short_dropout_is_remarked_on(folder, as_table, good_signal):
+    """Twenty milliseconds of one value spoil some windows, not the run."""
+    notices = load_experiment(edited(folder, as_table, good_signal, held(600, 610))).notices
+    said = [str(n) for n in notices if n.code == "W-DROPOUT"]
+    assert len(said) == 1
+    assert "run01.csv" in said[0] and "from 1.2 to 1.218 s" in said[0]
 
 
 def test_what_lasts_is_not_wild():
