@@ -58,7 +58,7 @@ def table(found: dict) -> str:
             *(
                 [
                     f"A run of 10 s at 2 kHz takes {found['memory_api_mb']:.0f} MB at its peak from Python, "
-                    f"{found['memory_command_mb']:.0f} MB as `rockref simulate -o` with its file.",
+                    f"{found['memory_command_mb']:.0f} MB as `rockref simulate -o out.csv` with its file.",
                     "",
                 ]
                 if "memory_api_mb" in found
