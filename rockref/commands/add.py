@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._results import folder_name
+
 
 def register(app: typer.Typer) -> None:
     """Add ``add`` to `app`."""
@@ -21,7 +23,10 @@ def add(
     output: Annotated[Path, typer.Option("--output", "-o", help="Where the new model goes.")] = Path(
         "with_effect.toml"
     ),
-    report: Annotated[Path | None, typer.Option("--report", help="Folder for page and figure.")] = None,
+    report: Annotated[
+        Path | None,
+        typer.Option("--report", parser=folder_name, metavar="FOLDER", help="Folder for page and figure."),
+    ] = None,
     seed: Annotated[int, typer.Option(help="Seed of the random restarts.")] = 0,
     workers: Annotated[int | None, typer.Option(help="Threads; default: one per core.")] = None,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
@@ -52,10 +57,10 @@ def add(
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
     from rockref.discover.diagnosis_record import plain
-    from rockref.report.output import made_folder
+    from rockref.report.output import made_folder, usable_folder
 
     given = named_model(model) if model is not None else None
-    folder = made_folder(report) if report is not None else None
+    folder = usable_folder(report) if report is not None else None
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = run_addition(effect, experiment, given, seed, workers, progress=say)
     found.model.save(output)
@@ -63,7 +68,7 @@ def add(
     if folder is not None:
         from rockref.report.addition_page import write_addition
 
-        written.append(write_addition(found, folder))
+        written.append(write_addition(found, made_folder(folder)))
     if as_json:
         record = found.to_dict() | {"written": [str(path) for path in written]}
         typer.echo(json.dumps(plain(record), indent=1, allow_nan=False))

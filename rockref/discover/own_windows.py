@@ -47,7 +47,7 @@ def run_own(batch: Batch, problems: Sequence[Problem], run_of: np.ndarray, out: 
         same.append(i) if same is not None else groups.append([i])
     for group in groups:
         lanes = np.flatnonzero(np.isin(run_of, group))
-        out[lanes] = stepped(side_by_side(batch, problems, run_of, lanes), batch.wanted[lanes], out[lanes])
+        out[lanes] = stepped(one_batch(batch, problems, run_of, lanes), batch.wanted[lanes], out[lanes])
     return out
 
 
@@ -67,7 +67,7 @@ def stepped(problem: Problem, wanted: np.ndarray, rows: np.ndarray) -> np.ndarra
     return rows
 
 
-def side_by_side(batch: Batch, problems: Sequence[Problem], run_of: np.ndarray, lanes: np.ndarray) -> Problem:
+def one_batch(batch: Batch, problems: Sequence[Problem], run_of: np.ndarray, lanes: np.ndarray) -> Problem:
     """The windows `lanes` as one batch of the law; its time is an array, one a window."""
     first = problems[int(run_of[lanes[0]])]
     body, props, state = batch.body[lanes], batch.props[lanes], batch.state[lanes]

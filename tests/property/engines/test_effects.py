@@ -14,10 +14,8 @@ from rockref.effects.catalogue import EFFECTS, in_step_order
 from rockref.engines.compiled import engine, slots
 from rockref.model.simulate import simulate as law
 from tests.property.engines.test_bits import assert_same_bits
+from tests.unit.engines.test_twins import EXACT
 
-#: Their text calls `power` or `exp`, whose last bit NumPy and the C library need not share.
-TRANSCENDENTAL = ("hertzian_contact", "load_dependent_friction", "stribeck_friction")
-EXACT = tuple(id for id in slots.IN_THE_STEP if id not in TRANSCENDENTAL)
 #: What a last bit may become over forty steps of stiff contact, relative to the largest number of its kind: each step
 #: hands an error on, grown by less than (w h)^2 + 1 < 1.1 for w = 3e4 1/s, so by less than 1.1^40 = 45; a point at the
 #: edge of its cone may add a slip of the same smallness.
@@ -52,7 +50,7 @@ def runs(draw, ids: tuple[str, ...]):
     return problem.replace(start=start, effects=tuple(draw(effects(ids))))
 
 
-@given(runs(EXACT))
+@given(runs(tuple(EXACT)))
 def test_the_law_s_bits(problem):
     assert_same_bits(law(problem), engine.simulate(problem))
 
