@@ -104,8 +104,8 @@ def check(problem: Problem) -> None:
         )
 
 
-#: No run is longer. Decided: 1e10 steps take the compiled engine an hour and the law weeks; a run of the source has
-#: 1e6. More is a slip of the keyboard.
+#: No run is longer. Decided: 1e10 steps take the compiled engine some twenty minutes and the law weeks; a run of the
+#: source has 1e6. More is a slip of the keyboard.
 MOST_STEPS = 1e10
 
 #: No response is larger [bytes]. Decided: what a desk machine still holds; 10 s of one block at 2 kHz are 1e7.
