@@ -17,6 +17,22 @@ def folder_name(text: str) -> Path:
     return Path(text)
 
 
+def usable_files(*paths: Path | None) -> None:
+    """Refuse files that could not be written at the end of long work, before it. Raises InputError E-WRITE."""
+    import os
+
+    from rockref.model.errors import InputError
+
+    for path in paths:
+        if path is None:
+            continue
+        into = path.absolute().parent
+        if path.is_dir():
+            raise InputError("E-WRITE", str(path), "is a folder", "Name a file.")
+        if not into.is_dir() or not os.access(into, os.W_OK | os.X_OK):
+            raise InputError("E-WRITE", str(path), f"{into} is no folder that can be written to", "Name another place.")
+
+
 def keep(text: str, output: Path | None, model: "Model", save_model: Path | None) -> list[Path]:
     """Write the record and the model where they are wanted; where they are now."""
     from rockref.model.storage import write_text

@@ -6,7 +6,14 @@ from pathlib import Path
 
 import typer
 
-from rockref.commands._results import keep, say_written
+from rockref.commands._results import keep, say_written, usable_files
+
+
+def usable(report: Path | None) -> Path | None:
+    """The folder of a page, if one is wanted; one that cannot be written to is refused before the work (E-WRITE)."""
+    from rockref.report.output import usable_folder
+
+    return None if report is None else usable_folder(report)
 
 
 def compare_tosses(path: Path, model: Sequence[str] | None, report: Path | None, as_json: bool) -> None:
@@ -17,17 +24,18 @@ def compare_tosses(path: Path, model: Sequence[str] | None, report: Path | None,
     from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_comparison
 
+    folder = usable(report)
     tosses = load_tosses(path)
     for notice in tosses.notices:
         typer.echo(f"rockref: {notice}", err=True)
     models, names = ([named_model(m) for m in model], labels(list(model))) if model else (None, None)
     record = compare(tosses, models, names).to_dict()
     written = []
-    if report is not None:
+    if folder is not None:
         from rockref.report.output import made_folder
         from rockref.report.toss_page import write_toss_comparison
 
-        written.append(write_toss_comparison(record, made_folder(report)))
+        written.append(write_toss_comparison(record, made_folder(folder)))
     if as_json:
         typer.echo(json.dumps(record | {"written": [str(p) for p in written]}, indent=1))
         return
@@ -46,6 +54,8 @@ def diagnose_tosses(
     from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_diagnosis
 
+    usable_files(output, save_model)
+    folder = usable(report)
     tosses = load_tosses(path)
     given = named_model(model) if model is not None else None
     with stages(f"diagnosing {path}", every_line=verbose) as say:
@@ -53,11 +63,11 @@ def diagnose_tosses(
     record = found.to_dict()
     text = json.dumps(record, indent=1)
     written = []
-    if report is not None:
+    if folder is not None:
         from rockref.report.output import made_folder
         from rockref.report.toss_page import write_toss_diagnosis
 
-        written.append(write_toss_diagnosis(record, made_folder(report)))
+        written.append(write_toss_diagnosis(record, made_folder(folder)))
     written += keep(text, output, found.model, save_model)
     if as_json:
         typer.echo(text)
@@ -76,6 +86,7 @@ def fit_to_tosses(
     from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_fit
 
+    usable_files(output)
     tosses = load_tosses(path)
     given = named_model(model) if model is not None else None
     with stages(f"fitting {path}", every_line=verbose) as say:
@@ -100,19 +111,21 @@ def add_to_model_of_tosses(
     from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_addition
 
+    usable_files(output)
+    folder = usable(report)
     tosses = load_tosses(path)
     given = named_model(model) if model is not None else None
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = add_to_tosses(effect, tosses, given, progress=say)
     found.after.model.save(output)
     record, written = found.to_dict(), [output]
-    if report is not None:
+    if folder is not None:
         from rockref.discover.tosses.compare import compare
         from rockref.report.output import made_folder
         from rockref.report.toss_page import write_toss_comparison
 
         models, names = [found.before.model, found.after.model], [f"without {effect}", f"with {effect}"]
-        written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(report)))
+        written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(folder)))
     if as_json:
         typer.echo(json.dumps(record | {"written": [str(p) for p in written]}, indent=1))
         return

@@ -12,7 +12,7 @@ from rockref.discover.tosses.diagnose import diagnose
 from rockref.measure.tosses import load_tosses
 from rockref.model.storage import write_text
 from rockref.report import toss_text
-from rockref.report.output import made_folder
+from rockref.report.output import made_folder, usable_folder
 from rockref.report.page import Page
 from rockref.report.toss_page import add_diagnosis, staircase_picture
 
@@ -28,11 +28,12 @@ def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[
     Raises
     ------
     InputError
-        E-FOLDER, where no tosses are named.
+        E-FOLDER, where no tosses are named; E-WRITE, before the work, for a folder that cannot be written to.
     """
     path = data or named_folder()
-    folder = made_folder(folder)
+    usable_folder(folder)
     tosses = load_tosses(path)
+    folder = made_folder(folder)
     say("stated values")
     before = compare(tosses).to_dict()
     only: dict[str, Any] = {"candidates": ("mass_eccentricity",), "stages": ((25, 2), (120, 2))} if quick else {}

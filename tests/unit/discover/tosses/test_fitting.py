@@ -82,3 +82,26 @@ def test_what_is_not_served_is_said(capsys, folder, tmp_path, words, code, said)
     assert ended == 2
     assert code in error and said in " ".join(error.split())
     assert not (tmp_path / "out").is_file()
+
+
+@pytest.mark.parametrize(
+    ("words", "work"),
+    [
+        (("compare", "FOLDER", "--report", "PLACE"), "compare.compare"),
+        (("diagnose", "FOLDER", "--report", "PLACE"), "diagnose.diagnose"),
+        (("diagnose", "FOLDER", "--save-model", "PLACE"), "diagnose.diagnose"),
+        (("diagnose", "FOLDER", "-o", "PLACE"), "diagnose.diagnose"),
+        (("fit", "FOLDER", "-o", "PLACE"), "fitting.fit_tosses"),
+        (("add", "mass_eccentricity", "FOLDER", "-o", "PLACE"), "fitting.add_to_tosses"),
+        (("add", "mass_eccentricity", "FOLDER", "--report", "PLACE"), "fitting.add_to_tosses"),
+        (("reproduce", "cube", "PLACE", "--data", "FOLDER"), "compare.compare"),
+    ],
+)
+def test_what_cannot_be_written_is_refused_before_the_work(capsys, folder, tmp_path, monkeypatch, words, work):
+    monkeypatch.setattr(f"rockref.discover.tosses.{work}", lambda *a, **k: pytest.fail("the work was begun"))
+    monkeypatch.setattr("rockref.report.cube_story.compare", lambda *a, **k: pytest.fail("the work was begun"))
+    (tmp_path / "file").write_text("here is no folder")
+    places = {"FOLDER": folder, "PLACE": tmp_path / "file" / "out"}
+    ended, _, error = run(capsys, *(places.get(word, word) for word in words))
+    assert ended == 2
+    assert "E-WRITE" in error and "folder" in error
