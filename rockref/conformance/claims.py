@@ -17,7 +17,7 @@ import numpy as np
 from rockref.conformance.asking import ANYTHING, as_mapping, has
 from rockref.conformance.compare import grade_of, in_bars
 from rockref.conformance.vectors import problem_of, read_bytes, value_of
-from rockref.model.problem import Problem
+from rockref.model.problem import Problem, State
 
 PIECES = ("effect", "sensor")
 ROWS = ("W", "x", "Lambda")
@@ -73,8 +73,24 @@ def claim_of(entry: dict[str, Any], sets: dict[str, Any]) -> Claim:
 def with_effect(problem: Problem, effect: Any) -> Problem:
     """The problem with an effect of the catalogue: body, points and start changed as it says, and its terms added."""
     block, points = effect.points(problem.block, problem.points)
-    start = effect.release(block, points, problem.start)
+    start = effect.release(block, points, with_new_points(problem.start, points.n))
     return replace(problem, block=block, points=points, start=start, effects=(effect,))
+
+
+def with_new_points(start: State, n: int) -> State:
+    """The start of a body that an effect gives points beyond those that it had: n of them, the new ones last.
+
+    The pose stays, and so does what the old points remember: s (..., n, 2), anchored, sliding (..., n). A new point has
+    touched nothing yet (T5). The forces of the last evaluation are those of another body, and are made anew.
+    """
+    more = n - np.shape(start.s)[-2]
+    if more == 0:
+        return start
+    new = State.at_rest(start.x, start.Lambda, more)
+    s = np.concatenate([start.s, new.s], axis=-2)
+    anchored = np.concatenate([start.anchored, new.anchored], axis=-1)
+    sliding = np.concatenate([start.sliding, new.sliding], axis=-1)
+    return replace(start, s=s, anchored=anchored, sliding=sliding, a=None, T=None, F=None)
 
 
 def ask(backend: Any, claim: Claim) -> dict[str, Any] | None:
@@ -95,10 +111,19 @@ def judge_claim(backend: Any, claim: Claim) -> ClaimCheck:
     """One effect of a backend that shows its piece."""
     try:
         answer = ask(backend, claim)
-        return ClaimCheck(claim.effect, "not shown") if answer is None else compare(claim, answer)
+        return ClaimCheck(claim.effect, "not shown") if answer is None else explained(claim, answer)
     except ANYTHING as e:  # the backend is a stranger's
         said = f"{type(e).__name__}: {e}".splitlines()[0][:200]
         return ClaimCheck(claim.effect, "outside", float("inf"), said)
+
+
+def explained(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
+    """One answer against its vector; one that is outside with the mistake that gives it, where one is known."""
+    from rockref.conformance.likely import likely  # which runs the law: only where something is wrong
+
+    check = compare(claim, answer)
+    words = likely(claim, answer) if check.failed and not check.note else ""
+    return replace(check, note=f"{check.worst:.3g} bars off, {words}") if words else check
 
 
 def compare(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:

@@ -17,7 +17,8 @@ import numpy as np
 from rockref.conformance import claims
 from rockref.conformance.maker import runs
 from rockref.conformance.maker.bars import FACTOR, ulp
-from rockref.conformance.maker.scenes import WINDOW_RATE, WINDOWS, scenes
+from rockref.conformance.maker.drawing import table_3_1
+from rockref.conformance.maker.scenes import WINDOW_RATE, WINDOWS, corners_only, scenes, standing
 from rockref.conformance.maker.small import rounded_up, stored
 from rockref.conformance.maker.trajectories import window_inputs
 from rockref.conformance.vectors import SCHEMA, problem_of
@@ -29,6 +30,10 @@ DURATION, MEMBERS = 2e-3, 8
 #: Where an effect is looked for, in this order; the first that resolves it well is taken.
 PLACES = (("table_3_1", 0.52), ("spinning", 0.415), ("table_3_1", 0.5), ("table_3_1", 0.0), ("two_coefficients", 0.3))
 ENOUGH, LEAST = 1e6, 100.0
+#: An effect that makes eight points of four is looked for where four corners come down flat on the plate, sliding and
+#: turning: each of the eight touches, carries and slides within the run, so that each of its numbers shows. Coming down
+#: at 0.6 m/s they go 0.2 mm deep, twice the height of the highest corner.
+OF_FOUR, FALLING, TURNING = ("foot_defects",), (0.125, 0.0625, -0.6), (0.0625, -0.03125, 0.5)
 #: A record for the sensor: 200 samples at 2 kHz of rates like those of the block [s, rad/s].
 T = np.arange(200) / 2000.0
 
@@ -46,6 +51,12 @@ def inputs_at(scene: str, instant: float) -> dict[str, Any]:
     """The inputs of a short run at an instant of a scene."""
     window = next(w for w in WINDOWS if (w.scene, w.instant) == (scene, instant))
     return window_inputs(window) | {"duration": DURATION, "output_rate": WINDOW_RATE}
+
+
+def four_falling() -> dict[str, Any]:
+    """The inputs of a short run of the block on four corners, 16 um above the plate and falling on it."""
+    q = standing(corners_only(table_3_1()), 2.0**-16, v=FALLING, W=TURNING)
+    return q | {"step": 1e-5, "duration": DURATION, "output_rate": WINDOW_RATE}
 
 
 def of_run(effect: Any, q: dict[str, Any]) -> tuple[dict[str, Any], float]:
@@ -89,6 +100,9 @@ def entry(number: int, kind: Any, sets: dict[str, Any]) -> dict[str, Any] | None
         expect, off = of_sensor(effect, crv)
         inputs: dict[str, Any] = {"t": T, "crv_deg_s": crv}
         made: tuple[Any, ...] = ("sensor", inputs, expect, off, "record")
+    elif kind.id in OF_FOUR:
+        q = four_falling()
+        made = ("effect", q, *of_run(effect, q), "four corners, falling")
     else:
         found = []
         for place in PLACES:
