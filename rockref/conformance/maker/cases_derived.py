@@ -39,7 +39,7 @@ def derived() -> Iterator[Case]:
         for i, q in enumerate(questions):
             flags = ("table 3.1",) if i == 0 else ("three sides",)
             fields = {k: v for k, v in FIELDS.items() if v[0] == rule}
-            yield Case(rule, "L0", "derived", q, fields, flags, branch={})
+            yield Case(rule, "L0", "derived", q, fields, flags)
 
 
 def release() -> Iterator[Case]:
@@ -48,7 +48,7 @@ def release() -> Iterator[Case]:
     uneven = base | {"K_N": base["K_N"] * np.array([1, 1.5, 1, 1.25, 0.75, 1, 1, 2])}
     for q, theta, flag in (
         (base, THETA_0, "table 3.1"),
-        (table_3_1(delta_long=(0.0, 2e-4, 1e-4, 0.0)), 0.09375, "internal pivot"),
+        (table_3_1(delta_long=(0.0, 2e-4, 1e-4, 0.0)), 0.09375, "uneven feet"),
         (uneven, 0.0625, "uneven stiffness"),
     ):
         inputs = {k: q[k] for k in ("mass", "P", "K_N")} | {"g": G, "theta_0": theta}

@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.maker import cases_alone, cases_body, cases_derived, cases_point, cases_short, cases_step
-from rockref.conformance.maker.answers import patterns
-from rockref.conformance.maker.arithmetic import converted
-from rockref.conformance.maker.bars import FIFTY, Barred, Case, barred
+from rockref.conformance.maker.bars import Barred, Case, barred
+from rockref.conformance.maker.branches import branch
 from rockref.conformance.maker.hunting import hunted
 from rockref.conformance.rules import BY_ID
 from rockref.conformance.vectors import SCHEMA, vector_of
@@ -86,19 +85,12 @@ def entry_of(case: Case, number: int, sets: dict[str, Any]) -> dict[str, Any]:
     entry["expect"] = {k: result_of(b, case.fields[k], "mpmath-50") for k, b in found.items()}
     for name, shown in case.instead.items():
         entry["expect"][name]["instead_of"] = shown
-    entry["branch"] = case.branch or pattern_of(case)
+    entry["branch"] = branch(case)
     if case.place is not None:
         entry["place"] = case.place
     if case.margin is not None:
         entry["margin"] = float(f"{case.margin:.3g}")
     return entry
-
-
-def pattern_of(case: Case) -> dict[str, Any]:
-    """What every foot does in every row of a short run, by fifty digits: open -, sticking s, sliding S."""
-    if case.piece != "simulate":
-        return {}
-    return {"rows": patterns({k: converted(v, FIFTY.number) for k, v in case.inputs.items()}, FIFTY)}
 
 
 def vectors(layer: str, refused: list[str]) -> tuple[dict[str, Any], Iterator[dict[str, Any]]]:
