@@ -14,7 +14,7 @@ from rockref.model.storage import write_text
 from rockref.report import toss_text
 from rockref.report.output import made_folder, usable_folder
 from rockref.report.page import Page
-from rockref.report.toss_page import add_diagnosis, staircase_picture
+from rockref.report.toss_page import add_diagnosis, add_stretches, staircase_picture, stretches_picture
 
 #: Where the tosses are if no folder is named.
 VARIABLE = "ROCKREF_CUBE_TOSSES"
@@ -50,10 +50,9 @@ def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[
     page.add_table(toss_text.errors_table(before))
     add_diagnosis(page, record)
     page.add_section("Where the error grows", "Before, and with the effects that were found; held-out tosses.")
-    for part in (before, after):
-        for row in part["rows"]:
-            if row["start"] == "flight" and row["use"] == "holdout":
-                page.add_table(toss_text.stretches_table(row))
+    failing = [r for part in (before, after) for r in part["rows"] if (r["start"], r["use"]) == ("flight", "holdout")]
+    add_stretches(page, failing)
+    (folder / "stretches.png").write_bytes(stretches_picture(failing))
     page.add_provenance({"tosses": len(tosses.tosses), "copies set aside": len(tosses.copies), "sha256": tosses.sha256})
     return page.write(folder / "index.html")
 

@@ -20,9 +20,7 @@ def write_toss_comparison(record: dict[str, Any], folder: Path) -> Path:
     page.add_section("How far off")
     page.add_table(toss_text.errors_table(record))
     page.add_section("Where")
-    for row in record["rows"]:
-        if row["start"] == "flight":
-            page.add_table(toss_text.stretches_table(row))
+    add_stretches(page, [r for r in record["rows"] if r["start"] == "flight"])
     page.add_section("What the tosses say by themselves")
     page.add_table(toss_text.measured_table(record["measured"]))
     page.add_provenance({"experiment": record["experiment"], "sha256 of the table": record["sha256"]})
@@ -48,7 +46,6 @@ def add_diagnosis(page: Page, record: dict[str, Any]) -> None:
     page.add_figure(
         staircase_picture(record),
         "Held-out error after each added effect; the dashed line is the floor that the starts' uncertainty sets.",
-        toss_text.staircase_table(record),
     )
     page.add_table(toss_text.staircase_table(record))
     said = sentences()
@@ -63,6 +60,63 @@ def add_diagnosis(page: Page, record: dict[str, Any]) -> None:
     last = record["staircase"][-1]
     rows = tuple((k, f"{v['value']:.5g}", v["unit"]) for k, v in last["parameters"].items())
     page.add_table(Table("Parameters of the last step", ("parameter", "value", "unit"), rows))
+
+
+def add_stretches(page: Page, rows: list[dict[str, Any]]) -> None:
+    """Where the errors of some rows of comparisons grow: a picture of the last use among them, and every table."""
+    use = rows[-1]["use"]
+    page.add_figure(
+        stretches_picture([row for row in rows if row["use"] == use]),
+        "How much the mean error grows over each part of a toss, and how much of its energy the toss loses there; "
+        f"{use} tosses, start from the flight.",
+    )
+    for row in rows:
+        page.add_table(toss_text.stretches_table(row))
+
+
+def stretches_picture(rows: list[dict[str, Any]]) -> bytes:
+    """PNG: bars by stretch of the growth of the errors and of the energy lost; one colour a model, measured in grey."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    names = [s["stretch"] for s in rows[0]["stretches"]]
+    bars: list[list[tuple[str, str, list[float]]]] = [[], [], []]
+    for row, color in zip(rows, (SECOND, INK, "#5b8c5a", "#7a4e8a"), strict=False):
+        for part, key in zip(bars, ("position_percent", "rotation_deg"), strict=False):
+            part.append((row["model"], color, [s["growth"][key] for s in row["stretches"]]))
+        bars[2].append((row["model"], color, [s["energy_lost"]["model_percent"] for s in row["stretches"]]))
+    bars[2].insert(0, ("measured", PALE, [s["energy_lost"]["measured_percent"] for s in rows[-1]["stretches"]]))
+    figure, axes = plt.subplots(1, 3, figsize=(10, 1.2 + 0.35 * len(names)), sharey=True, layout="constrained")
+    labels = (
+        "position error grows by, % of width",
+        "rotation error grows by, deg",
+        "energy lost, % of all that is lost",
+    )
+    for axis, part, label in zip(axes, bars, labels, strict=True):
+        thick = 0.8 / len(part)
+        for k, (name, color, values) in enumerate(part):
+            at = [i + (k - (len(part) - 1) / 2) * thick for i in range(len(names))]
+            axis.barh(at, values, thick, color=color, label=name)
+        axis.set_yticks(range(len(names)), names, fontsize=8)
+        axis.set_xlabel(label, fontsize=9)
+        for side in ("top", "right"):
+            axis.spines[side].set_visible(False)
+    axes[0].invert_yaxis()
+    figure.legend(
+        *axes[2].get_legend_handles_labels(), loc="outside upper center", ncols=len(bars[2]), frameon=False, fontsize=8
+    )
+    return _png(figure)
+
+
+def _png(figure: Any) -> bytes:
+    import matplotlib.pyplot as plt
+
+    out = io.BytesIO()
+    figure.savefig(out, format="png", dpi=110, metadata={"Software": None})
+    plt.close(figure)
+    return out.getvalue()
 
 
 def staircase_picture(record: dict[str, Any]) -> bytes:
@@ -91,7 +145,4 @@ def staircase_picture(record: dict[str, Any]) -> bytes:
             axis.spines[side].set_visible(False)
     axes[0].invert_yaxis()
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=4, frameon=False, fontsize=8)
-    out = io.BytesIO()
-    figure.savefig(out, format="png", dpi=110, metadata={"Software": None})
-    plt.close(figure)
-    return out.getvalue()
+    return _png(figure)

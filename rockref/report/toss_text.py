@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from rockref.discover.tosses.compare import PUBLISHED
+from rockref.discover.tosses.ledger import GAIN
 from rockref.report.page import Table
 from rockref.report.text import print_table
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-HEAD = ("", "start", "tosses", "position %", "median", "rotation deg", "median")
+HEAD = ("", "start", "tosses", "position %", "median (quartiles)", "rotation deg", "median (quartiles)")
 
 
-def error_cells(summary: dict[str, Any]) -> tuple[str, ...]:
-    """Mean ± deviation and median of position and rotation."""
-    p, r = summary["position_percent"], summary["rotation_deg"]
-    return (
-        f"{p['mean']:.1f} ± {p['sd']:.1f}", f"{p['median']:.1f}",
-        f"{r['mean']:.1f} ± {r['sd']:.1f}", f"{r['median']:.1f}",
-    )  # fmt: skip
+#: What flight arcs give: words, and the scale to a unit in which it can be read.
+ARCS = {f"g_{a}": (f"gravity, {a} (x against the throw)" if a == "x" else f"gravity, {a}", 1.0, "m/s2") for a in "xyz"}
+ARCS |= {f"centre_{a}": (f"centre of mass, {a}", 1e3, "mm") for a in "xyz"}
+
+
+def error_cells(summary: dict[str, Any], quartiles: bool = True) -> tuple[str, ...]:
+    """Mean ± deviation, median and quartiles of position and rotation."""
+    cells: list[str] = []
+    for a in (summary["position_percent"], summary["rotation_deg"]):
+        around = f" ({a['lower_quartile']:.1f} to {a['upper_quartile']:.1f})" if quartiles else ""
+        cells += [f"{a['mean']:.1f} ± {a['sd']:.1f}", f"{a['median']:.1f}{around}"]
+    return tuple(cells)
 
 
 def errors_table(record: dict[str, Any]) -> Table:
@@ -43,18 +50,34 @@ def stretches_table(row: dict[str, Any]) -> Table:
             s["stretch"], str(s["tosses"]), f"{s['frames_percent']:.0f}",
             f"{s['position_percent']:.1f}", f"{s['growth']['position_percent']:+.1f}",
             f"{s['rotation_deg']:.1f}", f"{s['growth']['rotation_deg']:+.1f}",
+            f"{s['energy_lost']['measured_percent']:.1f}", f"{s['energy_lost']['model_percent']:.1f}",
+            str(s["energy_lost"]["gains"]),
         )
         for s in row["stretches"]
     )  # fmt: skip
-    head = ("stretch", "tosses", "frames %", "position %", "grows by", "rotation deg", "grows by")
-    return Table(f"Where: {row['model']}, {row['use']} tosses, start from the {row['start']}", head, rows, "")
+    head = (
+        "stretch", "tosses", "frames %", "position %", "grows by", "rotation deg", "grows by", "energy lost %",
+        "model", "gain",
+    )  # fmt: skip
+    note = (
+        "Energy: share of what a toss loses altogether, by differences of poses, measured and in the model; gain: "
+        f"tosses whose measured energy rises over the stretch by more than {GAIN:.0%} of it."
+    )
+    return Table(f"Where: {row['model']}, {row['use']} tosses, start from the {row['start']}", head, rows, note)
+
+
+def with_error(value: float, se: float) -> str:
+    """A value with two digits of its standard error."""
+    digits = max(0, 1 - math.floor(math.log10(se))) if se > 0 else 3
+    return f"{value:.{digits}f} ± {se:.{digits}f}"
 
 
 def measured_table(found: dict[str, Any]) -> Table:
     """What the tosses say without a contact model."""
     rows = []
     for key, v in found.get("flight_arcs", {}).get("values", {}).items():
-        rows.append((f"flight arcs: {key}", f"{v['value']:.5g} ± {v['se']:.2g}", v["unit"]))
+        words, scale, unit = ARCS.get(key, (key, 1.0, v["unit"]))
+        rows.append((f"flight arcs: {words}", with_error(scale * v["value"], scale * v["se"]), unit))
     for name in ("stated_centre", "measured_centre"):
         part = found.get(name)
         if part is None:
@@ -62,13 +85,19 @@ def measured_table(found: dict[str, Any]) -> Table:
         words = name.replace("_", " ")
         rows.append((f"{words}: moment left in the impulse balance, over the mass",
                      f"{part['impulse_balance']['scatter']:.4g}", "m2/s"))  # fmt: skip
-        rows += [(f"{words}: inertia {a}", f"{v:.3g}", "kg m2") for a, v in part["inertia_kg_m2"].items()]
+        rows += [(f"{words}: inertia {a}", f"{1e3 * v:.2f}", "g m2") for a, v in part["inertia_kg_m2"].items()]
         for key, v in part["corner"]["values"].items():
-            rows.append((f"{words}: {key} of the corner", f"{v['value']:.3f} ± {v['se']:.2g}", "1"))
+            rows.append((f"{words}: {key} of the corner", with_error(v["value"], v["se"]), "1"))
         e = part["energy_change"]
         rows.append((f"{words}: impacts that gain kinetic energy", f"{e['gains']} of {e['tosses']}", ""))
+    e = found.get("energy_of_stated_velocities")
+    if e:
+        rows.append(("tosses that gain energy at the first impact, by stated velocities from frame to frame",
+                     f"{e['from_frame_to_frame']} of {e['tosses']}", ""))  # fmt: skip
+        rows.append(("the same from three frames before it to three after", f"{e['around']} of {e['tosses']}", ""))
+        rows.append(("the least that one loses there, of all it loses", f"{100 * e['least_loss_around']:.0f}", "%"))
     for key, v in found.get("sliding", {}).get("values", {}).items():
-        rows.append((f"friction of a face that slides flat, {key}", f"{v['value']:.3f} ± {v['se']:.2g}", "1"))
+        rows.append((f"friction of a face that slides flat, {key}", with_error(v["value"], v["se"]), "1"))
     return Table("Without a contact model", ("what", "value", "unit"), tuple(rows), "First impacts on one corner.")
 
 
@@ -79,7 +108,7 @@ def staircase_table(record: dict[str, Any]) -> Table:
         (
             "stated values",
             "",
-            *error_cells(first["flight"]),
+            *error_cells(first["flight"], quartiles=False),
             "",
             error_cells(first["raw"])[0],
             error_cells(first["raw"])[2],
@@ -90,8 +119,9 @@ def staircase_table(record: dict[str, Any]) -> Table:
         fall = f"{proof['mean']:.2f} ({proof['low']:.2f} to {proof['high']:.2f})"
         raw = error_cells(s["holdout"]["raw"])
         rows.append(
-            (s["added"].split(":")[0], s["verdict"], *error_cells(s["holdout"]["flight"]), fall, raw[0], raw[2])
-        )
+            (s["added"].split(":")[0], s["verdict"], *error_cells(s["holdout"]["flight"], quartiles=False), fall,
+             raw[0], raw[2])
+        )  # fmt: skip
     head = (
         "added",
         "verdict",
@@ -115,14 +145,14 @@ def staircase_table(record: dict[str, Any]) -> Table:
 
 def agreement_table(record: dict[str, Any]) -> Table:
     """Two ways to one quantity."""
-    rows = tuple(
-        (
-            a["quantity"], f"{a['with_contact_model']:.4g}", f"{a['without']:.4g} ± {a['standard_error']:.2g}",
-            a["unit"], a["how"],
-        )
-        for a in record["agreement"]
-    )  # fmt: skip
-    return Table("Two ways", ("quantity", "fit of the tosses", "without contact model", "unit", "how"), rows, "")
+    rows = []
+    for a in record["agreement"]:
+        # A thousandth of the unit is what a hand-sized block is measured in.
+        unit, scale = {"m": ("mm", 1e3), "kg m2": ("g m2", 1e3)}.get(a["unit"], (a["unit"], 1.0))
+        other = with_error(scale * a["without"], scale * a["standard_error"])
+        rows.append((a["quantity"], f"{scale * a['with_contact_model']:.3g}", other, unit, a["how"]))
+    head = ("quantity", "fit of the tosses", "without contact model", "unit", "how")
+    return Table("Two ways", head, tuple(rows), "")
 
 
 def print_toss_comparison(console: Console, record: dict[str, Any]) -> None:

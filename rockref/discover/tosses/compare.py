@@ -10,9 +10,10 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.tosses.body import frames_of, nominal_model, throw_frame
 from rockref.discover.tosses.errors import Errors, errors
+from rockref.discover.tosses.ledger import ledger
 from rockref.discover.tosses.predict import CLEARANCE, predict
 from rockref.discover.tosses.stretches import by_stretch, stretch_of
-from rockref.measure import toss_balance, toss_sliding
+from rockref.measure import toss_balance, toss_energy, toss_sliding
 from rockref.measure.experiment import USES
 from rockref.measure.flight import Poses, flight_frames, side_by_side
 from rockref.measure.tosses import Toss, Tosses
@@ -97,9 +98,9 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
     e = errors(found, poses, width)
     # Where a toss is in its course is said of the measurement, by the same drawn corners for every model.
     x, Lambda = frames_of(plain_law(model), throw_frame(poses)).to_body(poses.x, poses.Lambda)
-    return Row(
-        name, use, start, e, by_stretch(stretch_of(poses._replace(x=x, Lambda=Lambda), nominal_corners(model)), e)
-    )
+    where = stretch_of(poses._replace(x=x, Lambda=Lambda), nominal_corners(model))
+    energy = ledger(model, found, poses, where)
+    return Row(name, use, start, e, [s | {"energy_lost": energy[s["stretch"]]} for s in by_stretch(where, e)])
 
 
 def nominal_corners(model: Model) -> np.ndarray:
@@ -141,6 +142,10 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
                 "tosses": len(change),
             },
         }  # fmt: skip
+    if "measured_centre" in found:
+        J = np.array(list(found["measured_centre"]["inertia_kg_m2"].values())) / mass
+        first = flight_frames(own, P, CLEARANCE)
+        found["energy_of_stated_velocities"] = toss_energy.rises(chosen, first, centre, J, -g[2])
     return found
 
 
