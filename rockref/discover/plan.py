@@ -26,7 +26,6 @@ from rockref.discover.screen import PROBE
 from rockref.discover.search import MIDDLE
 from rockref.discover.windows import Cut, Series, series
 from rockref.effects.base import Effect
-from rockref.effects.catalogue import measured
 from rockref.measure.experiment import Experiment, Gyro, Run
 from rockref.measure.gyroscope import record
 from rockref.measure.impacts import main_impacts
@@ -196,8 +195,7 @@ def recorded(model: Model, release: Release, gyro: Gyro, seed: int, duration: fl
     response = simulate(
         model, duration=duration, output_rate=4000.0, engine="auto", theta_0=release.tilt, turned=release.turned
     )
-    seen = measured(model.active_effects(), response.t, response.W)
-    t, crv = record(response.t, seen, gyro, np.random.default_rng(seed))
+    t, crv = record(response.t, response.W, gyro, np.random.default_rng(seed), model.active_effects())
     return Run(
         id=str(release),
         file="",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -57,7 +57,7 @@ from rockref.effects.user import load_user
 from rockref.model.errors import InputError
 
 #: All effects in the order in which they act, however they are given: what makes the body, normal force and friction,
-#: forces of the points, loads, the plate, the release, and the gyroscope from the sensor to the recorder.
+#: forces of the points, loads, the plate, the release, and the gyroscope (whose own order `measured` keeps).
 IN_STEP_ORDER: tuple[type[Effect], ...] = (
     FootDefects, DimensionDeviation, RoundedFeet, MassEccentricity, InertiaDeviation,
     UnevenFootStiffness, UnevenFootDamping, UnevenFootFriction,
@@ -71,6 +71,11 @@ IN_STEP_ORDER: tuple[type[Effect], ...] = (
 
 #: Every effect by its id.
 EFFECTS: dict[str, type[Effect]] = {effect.id: effect for effect in IN_STEP_ORDER}
+
+#: Where effects of the sensor stand in the measured channel, which `analogue` and `digital` put in order: how the
+#: sensor sits, before its electronics; the recorder's clock, which says when a sample is taken; what is done to samples.
+#: A clock that came after the stops would interpolate across their corners, and show more than the range.
+MOUNTING, CLOCK, OF_SAMPLES = ("gyro_misalignment", "gyro_scale"), ("clock_error",), ("gyro_saturation",)
 
 #: Effects that only tosses know: a released block stands on its feet, and a gyroscope sees no pose. They are read and
 #: written like all others and act after them; what looks for effects in releases does not try them.
@@ -96,8 +101,8 @@ QUESTIONS: dict[str, tuple[type[Effect], ...]] = {
 }
 
 __all__ = [
-    "EFFECTS", "IN_STEP_ORDER", "NONE", "OF_TOSSES", "OWN", "QUESTIONS", "find", "from_table", "in_step_order",
-    "load_user", "measured", "own_effect", "parse", "to_table",
+    "EFFECTS", "IN_STEP_ORDER", "NONE", "OF_TOSSES", "OWN", "QUESTIONS", "analogue", "digital", "find", "from_table",
+    "in_step_order", "load_user", "measured", "own_effect", "parse", "to_table",
 ]  # fmt: skip
 
 
@@ -259,11 +264,41 @@ def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
     return tuple(sorted(effects, key=lambda effect: rank.get(effect.id, len(rank))))
 
 
+def analogue(
+    effects: Iterable[Effect],
+    t: np.ndarray,
+    crv: np.ndarray,
+    low_pass: Callable[[np.ndarray], np.ndarray] | None = None,
+) -> np.ndarray:
+    """What a sampler finds: crv (..., N, 3) [rad/s] at t (N,) [s], as the sensor gives it at the recorder's instants t.
+
+    Misalignment, scale, low_pass (that of a data sheet, if any), bandwidth and delay, bias and drift, a user's own, and
+    the clock: the recorder takes the sample of its time t at another one.
+    """
+    acting = in_step_order(effects)
+    for effect in (e for e in acting if e.id in MOUNTING):
+        crv = effect.sensor(t, crv)
+    if low_pass is not None:
+        crv = low_pass(crv)
+    for effect in (e for e in acting if e.id not in (*MOUNTING, *CLOCK, *OF_SAMPLES)):
+        crv = effect.sensor(t, crv)
+    for effect in (e for e in acting if e.id in CLOCK):
+        crv = effect.sensor(t, crv)
+    return crv
+
+
+def digital(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
+    """What becomes of the samples, noise included: crv (..., N, 3) [rad/s] at t (N,) [s], cut at the range."""
+    for effect in (e for e in in_step_order(effects) if e.id in OF_SAMPLES):
+        crv = effect.sensor(t, crv)
+    return crv
+
+
 def measured(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
     """What the gyroscope of these effects shows: crv (..., N, 3) [rad/s] at t (N,) [s], in the order of a real one.
 
-    Misalignment, scale, bandwidth, bias and drift, saturation, clock. Noise and quantisation are not here.
+    `analogue`, then `digital`. Noise and rounding belong to a data sheet and come between and after:
+    `rockref.measure.gyroscope.record`.
     """
-    for effect in in_step_order(effects):
-        crv = effect.sensor(t, crv)
-    return crv
+    effects = tuple(effects)
+    return digital(effects, t, analogue(effects, t, crv))

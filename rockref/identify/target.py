@@ -107,5 +107,5 @@ def twin(model: Model, step: float, seed: int | None, gyro: Gyro = GYRO, duratio
 
     response = run(model.problem(duration, step, 2000.0), engine="auto")
     rng = None if seed is None else np.random.default_rng(seed)
-    t, crv = record(response.t, response.W, gyro, rng)
+    t, crv = record(response.t, response.W, gyro, rng, model.active_effects())
     return target(f"twin {seed}", t, crv, gyro, model.parameters.theta_0)

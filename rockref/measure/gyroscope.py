@@ -1,13 +1,19 @@
-"""What a gyroscope makes of the body rates: low-pass, sampling, noise, saturation, quantisation; in that order."""
+"""What a gyroscope makes of the body rates: sensor effects, low-pass, sampling, noise, saturation, quantisation.
+
+`expected` and `record` are the measured channel: everything that simulates a record goes through them.
+"""
 
 from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rockref.effects.base import Effect
+from rockref.effects.catalogue import analogue, digital
 from rockref.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -106,20 +112,39 @@ def quantise(crv: np.ndarray, resolution: float) -> np.ndarray:
     return np.asarray(crv) if resolution == 0.0 else np.rint(np.asarray(crv) / resolution) * resolution
 
 
+def expected(t: np.ndarray, crv: np.ndarray, gyro: Gyro, effects: Iterable[Effect] = ()) -> np.ndarray:
+    """Return what is there to be sampled, (..., N, 3) rad/s at t (N,) s, of the rates crv: without noise and limits.
+
+    Misalignment, scale, the data sheet's low-pass, bandwidth and delay, bias and drift, clock. `t` is uniform, 2 kHz or
+    finer. Raises InputError E-STEP.
+    """
+    if len(t) < 2:
+        raise InputError("E-STEP", "argument t", "fewer than two samples", "Simulate for longer.")
+    step = float(t[-1] - t[0]) / (len(t) - 1)
+    return analogue(effects, t, crv, lambda rates: low_pass(rates, step, gyro.bandwidth))
+
+
+def limited(t: np.ndarray, crv: np.ndarray, gyro: Gyro, effects: Iterable[Effect] = ()) -> np.ndarray:
+    """Return samples crv (..., M, 3) rad/s at t (M,) s cut at the range of the effects and the data sheet."""
+    return saturate(digital(effects, t, crv), gyro.range)
+
+
 def record(
-    t: np.ndarray, crv: np.ndarray, gyro: Gyro, rng: np.random.Generator | None = None
+    t: np.ndarray,
+    crv: np.ndarray,
+    gyro: Gyro,
+    rng: np.random.Generator | None = None,
+    effects: Iterable[Effect] = (),
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return times (M,) s and rates (..., M, 3) rad/s as `gyro` would record the rates crv (..., N, 3) at t (N,) s.
 
-    `t` is uniform, 2 kHz or finer. Without `rng` there is no noise, and no quantisation either: the expected record.
-    Raises InputError E-STEP.
+    `t` is uniform, 2 kHz or finer; `effects` are those of the sensor. Without `rng` there is no noise, and no
+    quantisation either: the expected record. Raises InputError E-STEP.
     """
-    t = np.asarray(t, dtype=np.float64)
-    if len(t) < 2:
-        raise InputError("E-STEP", "argument t", "fewer than two samples", "Simulate for longer.")
-    smooth = low_pass(crv, float(t[-1] - t[0]) / (len(t) - 1), gyro.bandwidth)
+    t, effects = np.asarray(t, dtype=np.float64), tuple(effects)
+    smooth = expected(t, crv, gyro, effects)
     times = sample_times(float(t[0]), float(t[-1]), gyro.sample_rate)
     sampled = sample(t, smooth, times)
     if rng is None:
-        return times, saturate(sampled, gyro.range)
-    return times, quantise(saturate(add_noise(sampled, gyro.noise, rng), gyro.range), gyro.resolution)
+        return times, limited(times, sampled, gyro, effects)
+    return times, quantise(limited(times, add_noise(sampled, gyro.noise, rng), gyro, effects), gyro.resolution)

@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.effects.catalogue import measured
 from rockref.engines import chosen, run
 from rockref.measure.experiment import Experiment, Gyro, Run
-from rockref.measure.gyroscope import low_pass, sample, saturate
+from rockref.measure.gyroscope import expected, limited, sample
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem, stack
 from rockref.model.response import Response
@@ -38,15 +37,16 @@ class Prediction:
     response : Response
         The simulated motion, 4 kHz.
     crv : (N, 3) float64
-        Body rates after the gyroscope's low-pass and the model's sensor effects, at ``response.t``, rad/s.
-    range : float or None
-        The largest rate that the gyroscope shows, rad/s.
+        What is there to be sampled: body rates after the gyroscope's low-pass and the model's sensor effects, at
+        ``response.t``, rad/s; not yet cut at the largest rate that it shows.
+    gyro : Gyro
+        Its data sheet.
     """
 
     run: str
     response: Response = field(repr=False)
     crv: np.ndarray = field(repr=False)
-    range: float | None = None
+    gyro: Gyro = field(repr=False)
 
     @property
     def t(self) -> np.ndarray:
@@ -56,7 +56,8 @@ class Prediction:
     def at(self, times: np.ndarray) -> np.ndarray:
         """Return the rates at `times` (M,) s, (M, 3) rad/s: at rest before the release, NaN beyond the simulation."""
         times = np.asarray(times, dtype=np.float64)
-        rates = saturate(sample(self.t, self.crv, np.clip(times, self.t[0], self.t[-1])), self.range)
+        sampled = sample(self.t, self.crv, np.clip(times, self.t[0], self.t[-1]))
+        rates = limited(times, sampled, self.gyro, self.response.problem.effects)
         return np.where((times <= self.t[-1] + 1e-9)[:, np.newaxis], rates, np.nan)
 
 
@@ -93,17 +94,17 @@ def predict(
 ) -> list[Prediction]:
     """Return what `model` would have recorded in each of `runs`.
 
-    Sensor effects of the model act after the low-pass of the data sheet, before sampling. `releases` gives other
-    release values by run id. Raises InputError, NumericalError of the simulation.
+    Sensor effects of the model and the data sheet act in the order of a real gyroscope (`gyroscope.expected`, and
+    `gyroscope.limited` when it is sampled). `releases` gives other release values by run id. Raises InputError,
+    NumericalError of the simulation.
     """
     problems = [problem_of(model, run, (releases or {}).get(run.id), step) for run in runs]
     responses = solve(problems, engine, progress)
     effects = model.active_effects()
-    found = []
-    for one, response in zip(runs, responses, strict=True):
-        smooth = low_pass(response.W, 1.0 / FINE_RATE, gyro.bandwidth)
-        found.append(Prediction(one.id, response, measured(effects, response.t, smooth), gyro.range))
-    return found
+    return [
+        Prediction(one.id, response, expected(response.t, response.W, gyro, effects), gyro)
+        for one, response in zip(runs, responses, strict=True)
+    ]
 
 
 def solve(problems: list[Problem], engine: str, progress: Callable[[float], None] | None) -> list[Response]:

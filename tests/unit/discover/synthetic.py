@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 
 from rockref import Model, simulate
-from rockref.effects.catalogue import measured
 from rockref.measure import Experiment, Gyro, Run, record
 
 DEGREE = np.pi / 180.0
@@ -20,7 +19,7 @@ def recorded(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Times and rates of one release of the model, as the gyroscope shows it; without `rng` no noise."""
     response = simulate(model, duration=duration, output_rate=4000.0, engine="auto", theta_0=tilt, turned=turned)
-    return record(response.t, measured(model.active_effects(), response.t, response.W), GYRO, rng)
+    return record(response.t, response.W, GYRO, rng, model.active_effects())
 
 
 def experiment(

@@ -101,3 +101,12 @@ def test_a_simulated_release_sees_a_sensor_scale_to_a_fraction_of_a_per_cent():
     found = outlook(TABLE, known, [A], (kind,))
     assert found.limits["gyro_scale.x"]["limit"] < 0.02
     assert found.limits["gyro_scale.x"]["limit"] < found.limits["gyro_scale.z"]["limit"]
+
+
+def test_a_planned_record_is_that_of_a_real_gyroscope():
+    """Stops come after the filter and the noise: a flat top is flat, in all its samples at the same number."""
+    clipped = TABLE.replace(effects=(catalogue.find("gyro_saturation")(range=0.3),))
+    plain, cut = (planning.recorded(m, A, planning.GYRO, 3, 0.8).crv for m in (TABLE, clipped))
+    flat = np.rint(0.3 / planning.GYRO.resolution) * planning.GYRO.resolution
+    assert np.abs(plain).max() > 0.35
+    np.testing.assert_array_equal(cut, np.where(np.abs(plain) < 0.3, plain, np.sign(plain) * flat))

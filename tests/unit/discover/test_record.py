@@ -4,8 +4,15 @@ import numpy as np
 import pytest
 
 from rockref.discover.record import filter_coefficients, records
+from rockref.discover.windows import Sensor
+from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth
+from rockref.effects.sensor.gyro_drift import GyroDrift
+from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from rockref.effects.sensor.gyro_scale import GyroScale
 from rockref.engines.compiled.columns import STATE, W_
-from rockref.measure.gyroscope import low_pass
+from rockref.measure.experiment import Gyro
+from rockref.measure.gyroscope import low_pass, record
 
 RATE, PER, N = 1000.0, 2, 60
 STEP = 1 / RATE / PER
@@ -83,3 +90,24 @@ def test_nothing_stands_beyond_the_length_of_a_window(length):
         N, PER, np.zeros(1), 1 / RATE, np.zeros(3), np.zeros(3), np.inf,
     )  # fmt: skip
     assert np.all(out[0, length:] == 0.0) and np.all(np.any(out[0, 1:length] != 0.0, axis=1))
+
+
+def test_a_window_is_what_the_measured_channel_makes_of_it():
+    """All that a sensor may do but its clock, which windows have in their step: held to `gyroscope.record`."""
+    w, t = rates(7), np.arange(N * PER + 1) * STEP
+    sensor = Sensor(
+        turn=np.array([0.1, -0.2, 0.05]), skew=np.array([0.01, -0.02, 0.03]), scale=np.array([1.02, 0.97, 1.1]),
+        bias=np.array([0.02, -0.01, 0.03]), drift=np.array([0.3, 0.1, -0.2]), bandwidth=60.0, range=1.2,
+    )  # fmt: skip
+    effects = (
+        GyroMisalignment(*sensor.turn, *sensor.skew), GyroScale(*sensor.scale), GyroBandwidth(sensor.bandwidth),
+        GyroDrift(*sensor.bias, *sensor.drift), GyroSaturation(sensor.range),
+    )  # fmt: skip
+    _, expected = record(t, w, Gyro(RATE, 0.0, 300.0, 0.0), effects=effects)
+    found = records(
+        states(w), sensor.matrix(), filter_coefficients(STEP, 300.0), filter_coefficients(STEP, 60.0),
+        np.zeros(1, bool), np.full(1, N), N, PER, np.zeros(1), 1 / RATE, sensor.bias, sensor.drift, sensor.range,
+    )  # fmt: skip
+    assert np.abs(expected).max() == 1.2
+    # The two filters settle on the first rate one after the other, here and there: rounding of some hundred steps.
+    np.testing.assert_allclose(found[0], expected[:N], atol=1e-10)

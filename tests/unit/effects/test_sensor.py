@@ -1,13 +1,15 @@
 """What the gyroscope does, each against another way to the same signal."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from rockref import InputError
-from rockref.effects.catalogue import measured
+from rockref.effects.base import Effect
+from rockref.effects.catalogue import analogue, digital, measured
 from rockref.effects.sensor.clock_error import ClockError
 from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth
 from rockref.effects.sensor.gyro_drift import GyroDrift
@@ -100,15 +102,54 @@ def test_batches_ride_along():
             assert np.array_equal(both[i], effect.sensor(T, crv[i])), effect.id
 
 
+CHAIN = [
+    GyroMisalignment(0.1, 0.2, 0.3), GyroScale(1.1, 0.9, 1.2), GyroBandwidth(50.0),
+    GyroDrift(0.1, rate_y=1.0), ClockError(1.01), GyroSaturation(0.8),
+]  # fmt: skip
+
+
 def test_the_chain_is_that_of_a_real_gyroscope():
-    """Whatever the order in which they are named: misalignment, scale, bandwidth, drift, saturation, clock."""
+    """Whatever the order in which they are named: misalignment, scale, bandwidth, drift, the clock's instant, stops."""
     crv = tone(3.0)
-    chain = [
-        GyroMisalignment(0.1, 0.2, 0.3), GyroScale(1.1, 0.9, 1.2), GyroBandwidth(50.0),
-        GyroDrift(0.1, rate_y=1.0), GyroSaturation(0.8), ClockError(1.01),
-    ]  # fmt: skip
     by_hand = crv
-    for effect in chain:
+    for effect in CHAIN:
         by_hand = effect.sensor(T, by_hand)
-    assert np.array_equal(measured(chain[::-1], T, crv), by_hand)
-    assert not np.allclose(chain[0].sensor(T, chain[1].sensor(T, crv)), chain[1].sensor(T, chain[0].sensor(T, crv)))
+    assert np.array_equal(measured(CHAIN[::-1], T, crv), by_hand)
+    misalignment, scale = CHAIN[:2]
+    assert not np.allclose(misalignment.sensor(T, scale.sensor(T, crv)), scale.sensor(T, misalignment.sensor(T, crv)))
+
+
+def test_a_data_sheets_low_pass_acts_on_what_is_mounted_and_scaled():
+    seen = []
+    found = analogue(CHAIN, T, tone(3.0), lambda rates: seen.append(rates) or 0.5 * rates)
+    assert np.array_equal(seen[0], CHAIN[1].sensor(T, CHAIN[0].sensor(T, tone(3.0))))
+    halved = 0.5 * seen[0]
+    for effect in CHAIN[2:5]:
+        halved = effect.sensor(T, halved)
+    assert np.array_equal(found, halved)
+    assert np.array_equal(digital(CHAIN, T, found), np.clip(found, -0.8, 0.8)) and np.abs(found).max() > 0.8
+
+
+@pytest.mark.parametrize("rate", [0.98, 1.02])
+def test_no_clock_shows_more_than_the_range(rate):
+    """The corners of a flat top are not interpolated across: a sample is taken first and cut then."""
+    out = measured([ClockError(rate), GyroSaturation(0.4)], T, tone(40.0))
+    assert np.abs(out).max() == 0.4
+    inside = T * rate <= T[-1]
+    # Cubic between samples: (2 pi 40/2000)^4/384 of the tone, at the ends some ten times it.
+    assert out[inside] == pytest.approx(np.clip(tone(40.0 * rate)[inside], -0.4, 0.4), abs=1e-5)
+
+
+def test_a_users_own_sensor_acts_before_the_sample_is_taken():
+    """It sees the block's time and rates that are not cut, as the drift does."""
+
+    @dataclass(frozen=True)
+    class Hum(Effect):
+        id, question = "hum", "sensor"
+
+        def sensor(self, t, crv):
+            return crv + 0.5 * np.sin(300.0 * np.asarray(t))[:, None]
+
+    out = measured([GyroSaturation(0.4), Hum(), ClockError(1.01)], T, tone(3.0))
+    hummed = tone(3.0) + 0.5 * np.sin(300.0 * T)[:, None]
+    assert np.array_equal(out, np.clip(ClockError(1.01).sensor(T, hummed), -0.4, 0.4))

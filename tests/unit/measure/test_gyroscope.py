@@ -5,6 +5,12 @@ import math
 import numpy as np
 import pytest
 
+from rockref.effects.sensor.clock_error import ClockError
+from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth
+from rockref.effects.sensor.gyro_drift import GyroDrift
+from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from rockref.effects.sensor.gyro_scale import GyroScale
 from rockref.measure.experiment import Gyro
 from rockref.measure.gyroscope import (
     DAMPING,
@@ -154,6 +160,24 @@ def test_record_is_the_chain_in_order():
     assert np.abs(seen).max() == pytest.approx(0.4, abs=2.5e-4)
     _, expected = record(t, crv, gyro)
     assert np.array_equal(expected, saturate(smooth, 0.4))
+
+
+def test_record_with_sensor_effects_is_the_chain_in_order():
+    """Misalignment, scale, low-pass, bandwidth, drift, clock, sampling, noise, stops, rounding."""
+    gyro = Gyro(sample_rate=1000.0, noise=1e-2, bandwidth=300.0, resolution=5e-4, range=0.5)
+    turn, scale, slow = GyroMisalignment(0.1, 0.2, 0.3), GyroScale(1.1, 0.9, 1.2), GyroBandwidth(60.0)
+    drift, clock, stops = GyroDrift(0.05, rate_y=0.1), ClockError(0.99), GyroSaturation(0.4)
+    t = np.arange(0.0, 1.0, 0.0005)
+    crv = np.stack((0.6 * np.sin(9.0 * t), 0.5 * np.cos(40.0 * t), 0 * t), axis=-1)
+    times, seen = record(t, crv, gyro, np.random.default_rng(5), [stops, clock, drift, slow, scale, turn])
+    rates = low_pass(scale.sensor(t, turn.sensor(t, crv)), 0.0005, 300.0)
+    for effect in (slow, drift, clock):
+        rates = effect.sensor(t, rates)
+    noisy = add_noise(rates[::2], 1e-2, np.random.default_rng(5))
+    assert np.array_equal(seen, quantise(np.clip(noisy, -0.4, 0.4), 5e-4))
+    # The stops are the last but rounding: noise does not stand on a flat top, nor does the filter round its corners.
+    assert np.sum(np.abs(seen) == 0.4) > 100 and np.abs(seen).max() == 0.4
+    assert len(times) == len(seen)
 
 
 def test_record_is_repeated_by_its_seed():

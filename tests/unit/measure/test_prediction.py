@@ -7,6 +7,10 @@ import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.effects.sensor.clock_error import ClockError
+from rockref.effects.sensor.gyro_drift import GyroDrift
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from rockref.effects.sensor.gyro_scale import GyroScale
 from rockref.measure import Experiment, Gyro, Run, record
 from rockref.measure.prediction import FINE_RATE, gyro_of, predict, problem_of, solve
 from rockref.model.errors import InputError
@@ -58,6 +62,15 @@ def test_release_values_are_replaced_by_run():
 def test_range_cuts_the_rates():
     narrow = replace(GYRO, range=0.1)
     assert np.abs(predict(MODEL, [a_run(0.5)], narrow)[0].at(np.arange(500) / 1000.0)).max() == pytest.approx(0.1)
+
+
+def test_sensor_effects_act_in_the_order_of_a_real_gyroscope():
+    """What is predicted is what the gyroscope would record; between its samples no more than the range is shown."""
+    effects = (GyroSaturation(0.2), GyroScale(1.02, 0.98, 1.02), GyroDrift(0.01), ClockError(1.01))
+    found = predict(MODEL.replace(effects=effects), [a_run(0.6)], GYRO)[0]
+    t, crv = record(found.t, found.response.W, GYRO, effects=effects)
+    assert found.at(t) == pytest.approx(crv, abs=1e-12) and np.abs(crv).max() == 0.2
+    assert np.abs(found.at(np.arange(0.0, 0.6, 3.7e-4))).max() == 0.2
 
 
 def test_batch_gives_the_bits_of_single_runs():
