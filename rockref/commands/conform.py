@@ -2,17 +2,41 @@
 
 import json
 import sys
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from typer.core import TyperCommand
 
 ACTIONS = ("exe", "export", "answer", "serve", "judge", "zoo", "example")
 
 
+class WithProgram(TyperCommand):
+    """A command after whose `exe` a program stands with options of its own."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the words of the command line; those of the program are left to it."""
+        own = {o for p in self.params for o in (*p.opts, *p.secondary_opts) if o.startswith("-")}
+        return super().parse_args(ctx, parted(args, own | set(ctx.help_option_names)))
+
+
+def parted(args: list[str], own: set[str]) -> list[str]:
+    """The words with "--" before the first option after `exe` that is not among `own`: from there on they are the
+    program's. A long option that looks like a slip in writing one of ours is left for the parser to refuse."""
+    if "exe" not in args or "--" in args:
+        return args
+    for i in range(args.index("exe") + 2, len(args)):
+        name = args[i].partition("=")[0]
+        if name.startswith("-") and name not in own:
+            slip = name.startswith("--") and get_close_matches(name, own, cutoff=0.8)
+            return args if slip else [*args[:i], "--", *args[i:]]
+    return args
+
+
 def register(app: typer.Typer) -> None:
     """Add ``conform`` to `app`."""
-    app.command("conform")(conform)
+    app.command("conform", cls=WithProgram)(conform)
 
 
 def conform(
@@ -43,7 +67,8 @@ def conform(
     TARGET is numpy, numba, path/to/file.py:Class, package:Class, the name of an entry point, or one of
     exe (a program that speaks JSON lines), export and judge (questions and answers as files), answer and serve
     (a Python backend as file or as program), zoo (the judge judged by planted mistakes), example (a backend to start
-    from: python or c).
+    from: python or c). From the first option that is none of those below, words after exe PROGRAM are the program's;
+    after -- all are.
     Exit code 1 where the backend falls short.
 
     \b
@@ -52,6 +77,7 @@ def conform(
       rockref conform numba --html verdict.html
       rockref conform examples/backend_numpy.py:Backend --quick
       rockref conform exe ./backend --timeout 60
+      rockref conform exe --quick python3 -u backend.py
       rockref conform export --output requests.jsonl
       rockref conform judge responses.jsonl --json
       rockref conform example c --output mine.c

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from rockref import cli
+from rockref.commands.conform import parted
 from rockref.conformance import in_words, vectors
 from rockref.conformance.executable import Executable, Misbehaved
 from rockref.conformance.judge import judge
@@ -223,3 +225,45 @@ def test_where_nothing_is_answered_no_rule_is_blamed(tmp_path):
     v = verdict(judge(backend, ["L1"]))
     backend.close()
     assert v.status == "FAIL" and v.rule is None and "No question was answered" in v.says
+
+
+def ended(words):
+    """The exit code of a command."""
+    with pytest.raises(SystemExit) as end:
+        cli.main(words)
+    return end.value.code
+
+
+def test_a_program_may_have_options_of_its_own(tmp_path, capsys):
+    law = "from rockref.conformance.jsonlines import serve; from rockref.conformance.law_backend import NumpyEngine; "
+    asked = ["conform", "exe", "--layers", "L7", sys.executable, "-W", "ignore", "-c", law + "serve(NumpyEngine())"]
+    assert ended(asked) == 0
+    assert "PASS" in capsys.readouterr().out
+    # Ours may stand behind the program too, as long as it has had none of its own.
+    assert ended(["conform", "exe", sys.executable, "--layers", "L7", "-c", law + "serve(NumpyEngine())"]) == 0
+    assert "layers L7" in capsys.readouterr().out
+
+
+OWN = {"--quick", "--timeout", "--output", "-o", "--json"}
+
+
+@pytest.mark.parametrize(
+    "words, found",
+    [
+        ("exe ./mine --quick", "exe ./mine --quick"),
+        ("exe ./mine --timeout=60 -o out", "exe ./mine --timeout=60 -o out"),
+        ("--quick exe python3 -u mine.py --json", "--quick exe python3 -- -u mine.py --json"),
+        ("exe --quick python3 -u mine.py", "exe --quick python3 -- -u mine.py"),
+        ("exe ./mine -- --quick -u", "exe ./mine -- --quick -u"),
+        ("exe ./mine --quik", "exe ./mine --quik"),  # a slip: the parser says so
+        ("exe ./mine --depth=3", "exe ./mine -- --depth=3"),
+        ("numpy --nonsense", "numpy --nonsense"),
+    ],
+)
+def test_words_from_the_first_strange_option_on_are_the_programs(words, found):
+    assert " ".join(parted(words.split(), OWN)) == found
+
+
+def test_a_slip_in_an_option_of_ours_is_told(capsys):
+    assert ended(["conform", "exe", "./mine", "--quik"]) == 2
+    assert "--quik" in capsys.readouterr().err
