@@ -47,7 +47,7 @@ def diagnose_tosses(
     path: Path, model: str | None, report: Path | None, output: Path | None, save_model: Path | None, verbose: bool,
     as_json: bool,
 ) -> None:  # fmt: skip
-    """Print what is missing in the model of tosses."""
+    """Print what is missing in the model of tosses; exit code 1 if a gate fails."""
     from rockref.commands._models import named_model
     from rockref.commands._stages import console, stages
     from rockref.discover.tosses.diagnose import diagnose
@@ -71,9 +71,11 @@ def diagnose_tosses(
     written += keep(text, output, found.model, save_model)
     if as_json:
         typer.echo(text)
-        return
-    print_toss_diagnosis(console(), record)
-    say_written(written)
+    else:
+        print_toss_diagnosis(console(), record)
+        say_written(written)
+    if record["verdict"] == "not_trustworthy":
+        raise typer.Exit(1)
 
 
 def fit_to_tosses(

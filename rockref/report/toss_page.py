@@ -56,6 +56,13 @@ def add_diagnosis(page: Page, record: dict[str, Any]) -> None:
     )
     page.add_table(toss_text.agreement_table(record))
     page.add_table(toss_text.measured_table(record["measured_without_contact_model"]))
+    page.add_section(
+        "What these tosses can tell",
+        "Cosines near one: what one effect does to these tosses the other can do too, the law's numbers moving along.",
+    )
+    if record["confusion"]:
+        page.add_table(toss_text.confusion_table(record))
+    page.add_table(toss_text.gates_table(record))
     page.add_section("The numbers")
     last = record["staircase"][-1]
     rows = tuple((k, f"{v['value']:.5g}", v["unit"]) for k, v in last["parameters"].items())

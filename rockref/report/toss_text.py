@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rockref.discover.tosses.compare import PUBLISHED
 from rockref.discover.tosses.ledger import GAIN
+from rockref.report.diagnosis_text import confusion_table
 from rockref.report.page import Table
 from rockref.report.text import print_table
 
@@ -171,8 +172,19 @@ def print_toss_diagnosis(console: Console, record: dict[str, Any]) -> None:
     console.print(f"{record['verdict']}: {record['sentence']}", style="bold", markup=False, highlight=False)
     print_table(console, staircase_table(record))
     print_table(console, agreement_table(record))
+    if record["confusion"]:
+        print_table(console, confusion_table(record))
     print_gates(console, record)
     console.print(f"  {record['seconds']:.0f} s", highlight=False)
+
+
+def gates_table(record: dict[str, Any]) -> Table:
+    """What the gates say."""
+    rows = tuple(
+        (g["name"], f"{g['value']:.3g}", f"{g['limit']:g}", "passed" if g["passed"] else "not passed")
+        for g in record["gates"]
+    )
+    return Table("Gates", ("gate", "value", "limit", "state"), rows)
 
 
 def parameters_table(record: dict[str, Any]) -> Table:

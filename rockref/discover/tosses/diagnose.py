@@ -16,7 +16,7 @@ from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.first_guess import first_guesses
 from rockref.discover.tosses.fit import HORIZONS, TossFit
 from rockref.discover.tosses.fitting import at_values, unfitted
-from rockref.discover.tosses.gates import floor_of, paired, step_small, total
+from rockref.discover.tosses.gates import floor_of, off_bounds, paired, step_small, total, uses_agree
 from rockref.discover.tosses.parameters import CANDIDATES, apply
 from rockref.discover.tosses.predict import predict
 from rockref.discover.tosses.together import STAGES, Stair, all_together, way_down
@@ -80,6 +80,7 @@ class TossDiagnosis:
     gates: list[dict[str, Any]]
     seconds: float
     not_needed: tuple[str, ...] = ()
+    confusion: dict[str, dict[str, float]] = field(default_factory=dict)
 
     @property
     def model(self) -> Model:
@@ -101,6 +102,7 @@ class TossDiagnosis:
             "floor": self.floor,
             "measured_without_contact_model": self.measured,
             "agreement": self.agreement,
+            "confusion": self.confusion,
             "gates": self.gates,
             "seconds": round(self.seconds, 1),
             "sha256": self.tosses.sha256,
@@ -156,16 +158,20 @@ def diagnose(
     fit = TossFit(base, tuple(own), poses, tosses.width, log=say)
     law = Stair(fit, *fit.run(at_values(fit.parameters, own), FIRST_ITERATIONS))
     steps = [Step("", law.fit, law.z)]
+    confusion: dict[str, dict[str, float]] = {}
     others = [id for id in (candidates or tuple(CANDIDATES)) if id not in own]
     if not at_the_floor(steps[0], say):
         say("all candidates together")
         full = all_together(law, others, first_guesses(found, base), stages)
         say("the way down")
-        steps = rungs(way_down(full, tuple(own), say), law, say)
+        stairs = way_down(full, tuple(own), say)
+        confusion = stairs[0].confusion
+        steps = rungs(stairs, law, say)
     held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
     say("the held-out tosses")
     result = conclude(tosses, given, steps, poses, held, found, begun)
-    return replace(result, not_needed=tuple(id for id in others if id not in steps[-1].fit.effects))
+    not_needed = tuple(id for id in others if id not in steps[-1].fit.effects)
+    return replace(result, not_needed=not_needed, confusion=confusion)
 
 
 def rungs(stairs: list[Stair], law: Stair, say: Callable[[str], None]) -> list[Step]:
@@ -212,11 +218,19 @@ def conclude(
         step.proof = paired(before, step.holdout["flight"])
         step.verdict = word(step)
     proven = tuple(s.effect for s in steps[1:] if s.verdict in ("named", "class"))
-    verdict, sentence = words(steps, proven)
     last = steps[-1]
+    assert last.fitted is not None
+    checks = [
+        step_small(last.model, held, tosses.width), off_bounds(last.fit, last.z),
+        uses_agree(last.fitted, last.holdout["flight"]),
+    ]  # fmt: skip
+    verdict, sentence = words(steps, proven)
+    failed = [gate["name"] for gate in checks if not gate["passed"]]
+    if failed:
+        verdict, sentence = "not_trustworthy", f"Not to be trusted: {', '.join(failed)} not passed. {sentence}"
     return TossDiagnosis(
         tosses, verdict, proven, sentence, steps, nominal, floor_of(last.model, held, tosses.width), found,
-        agreement(last, found, last.fit.base), [step_small(last.model, held, tosses.width)],
+        agreement(last, found, last.fit.base), checks,
         time.perf_counter() - begun,
     )  # fmt: skip
 

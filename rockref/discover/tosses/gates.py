@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.tosses import descent
 from rockref.discover.tosses.errors import Errors, errors
-from rockref.discover.tosses.fit import drawn_starts
+from rockref.discover.tosses.fit import TossFit, drawn_starts
 from rockref.discover.tosses.predict import STEPS_A_FRAME, predict, simulated
 from rockref.measure.flight import Poses, displaced
 
@@ -59,3 +60,26 @@ def step_small(model: Model, poses: Poses, width: float) -> dict[str, Any]:
     change = abs(total(fine) - total(usual)) / max(total(usual), 1.0)
     # Limit, decided: a fiftieth of the error is below every bootstrap interval of the staircase.
     return {"name": "step_small", "passed": bool(change < 0.02), "value": round(float(change), 5), "limit": 0.02}
+
+
+def off_bounds(fit: TossFit, z: np.ndarray) -> dict[str, Any]:
+    """The gate: whether every number ended inside what its prior and its quantity allow; value: how many did not.
+
+    A number that ends where its effect is absent is no bound that was reached.
+    """
+    low, high = descent.limits(fit.parameters)
+    stuck = ((z <= low) | (z >= high)) & (z != 0)
+    names = [p.name for p, s in zip(fit.parameters, stuck, strict=True) if s]
+    return {"name": "off_bounds", "passed": not names, "value": float(len(names)), "limit": 0.0, "at_bounds": names}
+
+
+def uses_agree(fitted: Errors, held: Errors) -> dict[str, Any]:
+    """The gate: whether held-out tosses are predicted as well as those of the fit, in standard errors of the means.
+
+    A fit with more numbers than its tosses bear would be better on its own tosses alone.
+    """
+    a, b = (100 * e.position + e.rotation for e in (fitted, held))
+    error = float(np.sqrt(np.var(a) / len(a) + np.var(b) / len(b)))
+    # Limit, decided: one in seven hundred by luck; a toss that ends on another face makes the tails heavy.
+    apart = float(np.mean(b) - np.mean(a)) / max(error, 1e-12)
+    return {"name": "uses_agree", "passed": bool(apart < 3.0), "value": round(apart, 3), "limit": 3.0}

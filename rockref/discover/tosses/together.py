@@ -12,6 +12,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from rockref.discover.information import eliminated
+from rockref.discover.plan import cosines
 from rockref.discover.tosses import descent
 from rockref.discover.tosses.first_guess import guessed
 from rockref.discover.tosses.fit import HORIZONS, TossFit, cut
@@ -38,12 +40,14 @@ class Stair:
     """A fitted model on the way down; objectives have the weights of the way's first model.
 
     costs : by how much the objective rises without an effect, the others having moved; of the effects that were tried.
+    confusion : how alike every two effects are to these tosses, see `alike`; of the first model of a way down.
     """
 
     fit: TossFit
     z: np.ndarray
     objective: float
     costs: dict[str, float] = field(default_factory=dict)
+    confusion: dict[str, dict[str, float]] = field(default_factory=dict)
 
     def own(self, effect: str) -> np.ndarray:
         """Which numbers are those of an effect."""
@@ -80,20 +84,22 @@ def way_down(full: Stair, keep: Sequence[str], say: Callable[[str], None]) -> li
     """The models from the one of which every effect is needed to the one that has only the effects in `keep`.
 
     The least needed effect leaves first; what it is worth is its cost, less what luck gives to as many numbers. The
-    costs that the first model comes with are those beside all the effects of `full`.
+    costs and the confusion that the first model comes with are those of all the effects of `full`.
     """
     poses = cut(full.fit.poses, HORIZONS[-1])
     weight = full.fit.frame_weights(full.z, poses)
     stair = replace(full, objective=full.fit.objective(full.z, full.fit.residual(full.z, poses), weight))
     stairs: list[Stair] = []
+    confusion: dict[str, dict[str, float]] = {}
     while True:
         going = [id for id in stair.fit.effects if id not in keep]
         if not going:
             stairs.append(stair)
             first = needed(stairs)
-            stairs[first] = replace(stairs[first], costs=stairs[0].costs)
+            stairs[first] = replace(stairs[first], costs=stairs[0].costs, confusion=confusion)
             return way_up(stairs[first:], poses, weight)
         slopes = stair.fit.slopes(stair.z, poses, weight)
+        confusion = confusion or alike(stair, slopes)
         # At the first step all are tried: what each is worth beside all the others.
         likely = going if not stairs else sorted(going, key=lambda id: _worth(stair, id, slopes))[:TRIED]
         without = {id: taken_away(stair, id, slopes, poses, weight) for id in likely}
@@ -103,6 +109,23 @@ def way_down(full: Stair, keep: Sequence[str], say: Callable[[str], None]) -> li
         least = min(without, key=lambda id: stair.costs[id] - luck * len(stair.own(id)))
         say(f"  without {least}: {stair.objective:.3f} -> {without[least].objective:.3f}")
         stair = settled(without[least], poses, weight)
+
+
+def alike(stair: Stair, slopes: descent.Slopes) -> dict[str, dict[str, float]]:
+    """Cosines of every two effects, linearised at a model that has them all, the law's own numbers fitted along.
+
+    Near one: these tosses cannot tell the two apart. The same measure as `rockref.discover.on_this_data` has.
+    """
+    ids = stair.fit.effects
+    H, g = slopes.normal_equations(stair.z, STEEP[-1])
+    own = [stair.own(id) for id in ids]
+    law = np.setdiff1d(np.arange(len(stair.z)), np.concatenate(own) if own else [])
+    out = np.isin(np.arange(len(stair.z)), law)
+    # The priors are in the normal equations already.
+    S, _ = eliminated(H, g, out, np.full(len(g), np.inf))
+    place = np.cumsum(~out) - 1
+    table = np.round(cosines((S + S.T) / 2, [place[b] for b in own]), 3).tolist()
+    return {a: dict(zip(ids, row, strict=True)) for a, row in zip(ids, table, strict=True)}
 
 
 def needed(stairs: Sequence[Stair]) -> int:

@@ -1,11 +1,14 @@
 """Fits and staircases of tosses with known truth."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from rockref.discover.tosses.descent import limits
 from rockref.discover.tosses.diagnose import Step, word
 from rockref.discover.tosses.errors import Errors
-from rockref.discover.tosses.gates import paired
+from rockref.discover.tosses.gates import off_bounds, paired, uses_agree
 from rockref.discover.tosses.parameters import CANDIDATES, apply, effect_parameters, law_parameters
 from rockref.effects import catalogue
 from tests.tosses import stated
@@ -39,6 +42,24 @@ def test_the_paired_interval_sees_what_is_common_to_all_tosses():
     assert sure["low"] == sure["high"] == pytest.approx(1.0)
     unsure = paired(made_errors(position, rng.permutation(rotation)), made_errors(position, rotation))
     assert unsure["low"] < 0 < unsure["high"]
+
+
+def test_a_fit_that_is_better_on_its_own_tosses_alone_is_not_passed():
+    rng = np.random.default_rng(1)
+    position, rotation = rng.lognormal(size=(2, 200)) / 100, rng.lognormal(size=(2, 200))
+    fitted = made_errors(position[0], rotation[0])
+    assert uses_agree(fitted, made_errors(position[1], rotation[1]))["passed"]
+    found = uses_agree(fitted, made_errors(2 * position[1], 2 * rotation[1]))
+    assert not found["passed"] and found["value"] > found["limit"]
+
+
+def test_a_number_at_its_bound_is_named_and_one_at_its_absence_is_not():
+    fit = SimpleNamespace(parameters=effect_parameters("rounded_corners") + effect_parameters("gravity_deviation"))
+    low, high = limits(fit.parameters)
+    # A radius of zero is no radius: the least that it can be is where the effect is absent.
+    assert low[0] == 0 and off_bounds(fit, np.array([0.0, high[1] / 2]))["passed"]
+    found = off_bounds(fit, np.array([high[0], low[1]]))
+    assert not found["passed"] and found["at_bounds"] == ["rounded_corners.radius", "gravity_deviation.scale"]
 
 
 @pytest.mark.parametrize(

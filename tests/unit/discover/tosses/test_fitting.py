@@ -1,6 +1,7 @@
 """`fit` and `add` on tosses with known truth, through the commands."""
 
 import json
+from types import SimpleNamespace
 
 import pytest
 
@@ -105,3 +106,11 @@ def test_what_cannot_be_written_is_refused_before_the_work(capsys, folder, tmp_p
     ended, _, error = run(capsys, *(places.get(word, word) for word in words))
     assert ended == 2
     assert "E-WRITE" in error and "folder" in error
+
+
+@pytest.mark.parametrize(("verdict", "code"), [("not_trustworthy", 1), ("none", 0), ("named", 0)])
+def test_a_diagnosis_that_is_not_to_be_trusted_ends_with_one(capsys, folder, monkeypatch, verdict, code):
+    found = SimpleNamespace(to_dict=lambda: {"verdict": verdict}, model=stated())
+    monkeypatch.setattr("rockref.discover.tosses.diagnose.diagnose", lambda *a, **k: found)
+    ended, out, _ = run(capsys, "diagnose", folder, "--json")
+    assert ended == code and json.loads(out)["verdict"] == verdict

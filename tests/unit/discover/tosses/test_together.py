@@ -105,3 +105,14 @@ def test_a_number_must_pay_for_its_luck(full):
 
     assert needed([stair(6, 1.0), stair(5, 1.0 + LUCK / 2), stair(4, 1.0 + 4 * LUCK)]) == 1
     assert together.STAGES[-1][0] == max(frames for frames, _ in together.STAGES)
+
+
+def test_two_effects_that_do_the_same_are_said_to_be_alike(full):
+    found = together.alike(full, full.fit.slopes(full.z, full.fit.poses, None))
+    assert list(found) == ["a", "b", "c"] and found["a"]["a"] == 1.0
+    # b is a but for a twentieth; c shares nothing with either.
+    assert 0.99 < found["a"]["b"] == found["b"]["a"] <= 1.0
+    assert found["a"]["c"] == pytest.approx(0.0, abs=1e-3)
+    first = way_down(full, (), lambda line: None)[0]
+    # The confusion is that of all effects, also where the way begins lower.
+    assert "c" not in first.fit.effects and first.confusion == found
