@@ -28,7 +28,8 @@ TRADE_OFF = 0.9
 class Identifiability:
     """names (Z,); values and errors (Z,) one standard deviation, in the genes' units; correlation (Z, Z);
     pairs: (name, name, correlation) of those that trade off; weakest: the combination that the data see least, by
-    name."""
+    name; at_floor: whether the residual is the noise. Above the floor the fit stands in the wrong valley, or the model
+    is wrong, and the errors say only how sharp that valley is."""
 
     names: tuple[str, ...]
     values: np.ndarray
@@ -36,6 +37,7 @@ class Identifiability:
     correlation: np.ndarray
     pairs: tuple[tuple[str, str, float], ...]
     weakest: dict[str, float]
+    at_floor: bool = True
 
     def digits(self) -> dict[str, float]:
         """Errors in parts of the last significant digit of Table 3.1, for the unknowns that it has."""
@@ -44,8 +46,8 @@ class Identifiability:
         return {n: float(e / last[o]) for n, o, e in zip(self.names, owners, self.errors, strict=True) if o in last}
 
     def determined(self) -> dict[str, bool]:
-        """Whether an unknown is known within half its last digit, two standard deviations."""
-        return {name: 2 * error < 0.5 for name, error in self.digits().items()}
+        """Whether an unknown is known within half its last digit, two standard deviations; none above the floor."""
+        return {name: self.at_floor and 2 * error < 0.5 for name, error in self.digits().items()}
 
 
 def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> Identifiability:
@@ -71,7 +73,7 @@ def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> I
     order = np.argsort(-np.abs(v[:, 0]))
     weakest = {names[i]: float(v[i, 0]) for i in order if abs(v[i, 0]) > 0.1}
     pairs.sort(key=lambda p: -abs(p[2]))
-    return Identifiability(names, values, sd * slopes, correlation, tuple(pairs), weakest)
+    return Identifiability(names, values, sd * slopes, correlation, tuple(pairs), weakest, end.at_floor)
 
 
 def profile(

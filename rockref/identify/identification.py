@@ -38,7 +38,7 @@ class Identified:
     @property
     def at_floor(self) -> bool:
         """Whether the residual is the noise."""
-        return self.polished.chi2 < FLOOR
+        return self.polished.at_floor
 
 
 def identify(

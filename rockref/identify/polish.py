@@ -28,6 +28,8 @@ CHANGES = (3.0, 1.0, 0.3)
 SMALLEST, LARGEST, FIRST = 2e-4, 0.04, 1e-3
 #: Levenberg-Marquardt: first damping, factors that are tried, most steps of one descent, least relative gain (decided).
 DAMPING, FACTORS, STEPS, LEAST_GAIN = 1e-2, (0.04, 0.2, 1.0, 5.0, 25.0), 12, 1e-3
+#: Factor from one row of dampings to the next one, beginning one factor above its end.
+BEYOND_ALL = FACTORS[-1] * 5.0 / FACTORS[0]
 #: Shifts of one unknown in a long move, how many of the best places are descended from and with how many steps, and
 #: most rounds of moves. Decided: a twentieth of a range is beyond a dent, two fifths reach anywhere in three rounds.
 SHIFTS, PLACES, SHORT, MOVES = (-0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4), 4, 5, 4
@@ -77,6 +79,11 @@ class Polished:
     names: tuple[str, ...]
     alike: np.ndarray
 
+    @property
+    def at_floor(self) -> bool:
+        """Whether the residual is the noise."""
+        return self.chi2 < FLOOR
+
 
 @dataclass(frozen=True, eq=False)
 class _Place:
@@ -125,9 +132,10 @@ class _Descent:
 
     def descend(self, at: _Place, change: float, steps: int | None = None) -> _Place:
         """Levenberg-Marquardt from `at`, five dampings a step side by side."""
-        damping, h = DAMPING, None
+        damping, J, h = DAMPING, None, None
         for _ in range(self.steps if steps is None else steps):
-            J, h = self.slopes(at.z, change, h)
+            if J is None:
+                J, h = self.slopes(at.z, change, h)
             trials = np.array([damped_step(J, at.r, at.z, damping * f) for f in FACTORS])
             rs = self.residuals(trials)
             chi2 = mean_squares(rs)
@@ -135,11 +143,12 @@ class _Descent:
             if not chi2[k] < at.chi2:
                 if damping > 1e4:
                     break
-                damping *= FACTORS[-1]
+                # The same slopes with dampings that are all larger than those that were tried.
+                damping *= BEYOND_ALL
                 continue
             gain = 1 - chi2[k] / at.chi2
             damping = max(1e-9, 0.3 * damping * FACTORS[k])
-            at = _Place(trials[k], rs[k], float(chi2[k]))
+            at, J = _Place(trials[k], rs[k], float(chi2[k])), None
             self.report(at.chi2)
             if gain < LEAST_GAIN:
                 break

@@ -63,14 +63,17 @@ def residuals(
 ) -> np.ndarray:
     """(B, M) simulated minus recorded crv over the noise, up to the second main impact, for unknowns zs (B, Z).
 
-    Target by target, axis by axis; NaN where a run is lost.
+    Target by target, axis by axis; NaN where a run is lost. Rows that differ in the release angle of another target
+    alone are one simulation of this one.
     """
     unknowns, columns = Unknowns(space, targets), []
     for k, target in enumerate(targets):
-        t, crv = releases(space, target, [unknowns.chromosome(z, k) for z in zs], step, workers)
+        every = np.array([unknowns.chromosome(z, k) for z in zs])
+        distinct, which = np.unique(every, axis=0, return_inverse=True)
+        t, crv = releases(space, target, list(distinct), step, workers)
         n = int(np.searchsorted(target.t, target.until))
-        seen = np.stack([[np.interp(target.t[:n], t, crv[b, :, j]) for j in range(3)] for b in range(len(zs))])
-        columns.append(((seen - target.crv[:n].T) / target.gyro.noise).reshape(len(zs), -1))
+        seen = np.stack([[np.interp(target.t[:n], t, run[:, j]) for j in range(3)] for run in crv])
+        columns.append(((seen - target.crv[:n].T) / target.gyro.noise).reshape(len(distinct), -1)[which.ravel()])
     return np.concatenate(columns, axis=-1)
 
 

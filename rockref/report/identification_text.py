@@ -29,7 +29,11 @@ def sentences(result: dict[str, Any]) -> list[str]:
         f"(mean square of the residual over the noise: {squares['chi2']:.3g})."
     ]
     unknown = [name for name, known in squares["determined"].items() if not known]
-    if unknown:
+    if not squares["at_noise_floor"]:
+        text.append(
+            "Above the noise floor nothing is determined: this is a wrong valley, or the model lacks something."
+        )
+    elif unknown:
         text.append(f"Not determined within half the last digit of Table 3.1: {', '.join(unknown)}.")
     for a, b, r in squares["trade_offs"][:6]:
         text.append(f"{a} and {b} trade off (correlation {r:+.2f}).")

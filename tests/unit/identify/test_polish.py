@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rockref.identify import unknowns
 from rockref.identify.genes import chromosome, model_of, space_12
 from rockref.identify.identifiability import identifiability, profile
-from rockref.identify.polish import NEARLY, Effort, narrowed, polish, with_genes
+from rockref.identify.polish import BEYOND_ALL, FACTORS, NEARLY, Effort, _Descent, narrowed, polish, with_genes
 from rockref.identify.runs import run_error
-from rockref.identify.target import target
+from rockref.identify.target import seen_until, target
 from rockref.identify.unknowns import Unknowns, residuals, signal_costs
 from rockref.model.parameters import TABLE_3_1
 
@@ -83,6 +84,13 @@ def test_an_unknown_that_does_nothing_is_found_out(space, end, noisy_twin):
     assert not known.determined()[known.names[0]]
 
 
+def test_above_the_noise_floor_nothing_is_determined(space, end, noisy_twin):
+    """A sharp valley is not the right one: a twin that stuck at 1.4 times the noise had small errors, all wrong."""
+    assert end.at_floor and any(identifiability(space, [noisy_twin], end).determined().values())
+    stuck = replace(end, chi2=1.39)
+    assert not stuck.at_floor and not any(identifiability(space, [noisy_twin], stuck).determined().values())
+
+
 def test_unknowns_that_act_alike_are_named_as_a_pair(space, end, noisy_twin):
     alike = replace(end, jacobian=end.jacobian.copy())
     alike.jacobian[:, 1] = alike.jacobian[:, 0] * 1.7 + 1e-3 * alike.jacobian[:, 2]
@@ -103,6 +111,45 @@ def test_every_run_has_its_own_release_angle(space, truth, table_3_1, noisy_twin
     z[-1] += 0.1
     r = residuals(space, [noisy_twin, noisy_twin], z[None])[0].reshape(2, -1)
     assert np.mean(np.square(r[1])) > 10 * np.mean(np.square(r[0]))
+
+
+def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monkeypatch):
+    """Slopes of two runs with eleven shared numbers: two simulations for each of these, two for the own angle, one."""
+    asked = []
+    whole = unknowns.releases
+
+    def counted(space, target, chromosomes, *more):
+        asked.append(len(chromosomes))
+        return whole(space, target, chromosomes, *more)
+
+    seen = seen_until(noisy_twin, 0.0)
+    z = Unknowns(space, [seen] * 2).z(truth)
+    zs = np.array([z, *(z + s * 1e-3 * row for s in (1, -1) for row in np.eye(len(z)))])
+    alone = [residuals(space, [seen] * 2, row[None])[0] for row in zs[[0, 3, -1]]]
+    monkeypatch.setattr(unknowns, "releases", counted)
+    together = residuals(space, [seen] * 2, zs)
+    assert asked == [25, 25] and len(zs) == 27
+    np.testing.assert_array_equal(together[[0, 3, -1]], alone)
+
+
+def test_where_no_step_gains_the_slopes_are_not_taken_again():
+    """At the bottom of a bowl: slopes over two step sizes, then dampings alone, each larger than those before."""
+
+    class Bowl(_Descent):
+        slopes_taken, tried = 0, 0
+
+        def residuals(self, zs):
+            self.tried += len(zs)
+            return 1.0 + np.sum(np.square(zs - 0.5), axis=1, keepdims=True)
+
+        def jacobian(self, z, h):
+            self.slopes_taken += 1
+            return super().jacobian(z, h)
+
+    bowl = Bowl(None)
+    end = bowl.descend(bowl.place(np.full(3, 0.5)), 1.0)
+    assert bowl.slopes_taken == 2 and bowl.tried == 1 + 2 * 6 + 3 * len(FACTORS)
+    assert end.chi2 == 1.0 and FACTORS[0] * BEYOND_ALL > FACTORS[-1]
 
 
 def test_signal_costs_are_the_mean_squares(space, truth, noisy_twin):
