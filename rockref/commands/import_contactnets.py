@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._results import folder_name
+
 
 def register(app: typer.Typer) -> None:
     """Add ``import`` to `app`."""
@@ -14,7 +16,12 @@ def register(app: typer.Typer) -> None:
 def import_(
     kind: Annotated[str, typer.Argument(help="What is imported: contactnets.")],
     source: Annotated[Path, typer.Argument(help="A clone of github.com/DAIRLab/contact-nets, or its .pt files.")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="Folder for the tosses.")],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output", "-o", parser=folder_name, metavar="FOLDER", help="Folder for the tosses; a new or empty one."
+        ),
+    ],
 ) -> None:
     """Make a folder of tosses from a clone of a public repository.
 

@@ -39,8 +39,10 @@ def import_contactnets(source: Path, folder: Path) -> tuple[int, int]:
     Raises
     ------
     InputError
-        E-FOLDER, where there are no such files; E-FILE, E-SHAPE, for one that is no toss.
+        E-FOLDER, where there are no such files; E-FILE, E-SHAPE, for one that is no toss; E-WRITE, for a folder that
+        holds files of others: a ``README.md`` that is there stays as it is.
     """
+    own_folder(folder)
     where = source / INSIDE if (source / INSIDE).is_dir() else source
     paths = sorted((p for p in where.glob("*.pt") if p.stem.isdigit()), key=lambda p: int(p.stem))
     if not paths:
@@ -63,6 +65,22 @@ def import_contactnets(source: Path, folder: Path) -> tuple[int, int]:
         README.format(tosses=len(tables), copies=copies, half=CUBE_WIDTH / 2, rate=FRAME_RATE),
     )
     return len(tables), copies
+
+
+def own_folder(folder: Path) -> None:
+    """Refuse a folder that is none, or has files that are not those of an import. Raises InputError E-WRITE."""
+    if not folder.exists():
+        return
+    others = [] if folder.is_dir() else [folder.name]
+    if folder.is_dir():
+        others = sorted(p.name for p in folder.iterdir() if p.name not in (TABLES[0], "README.md"))
+        readme = folder / "README.md"
+        if readme.is_file() and not readme.read_bytes().startswith(README.splitlines()[0].encode()):
+            others.append("README.md")
+    if others:
+        raise InputError(
+            "E-WRITE", str(folder), f"holds something else already ({others[0]})", "Name a new or an empty folder."
+        )
 
 
 def toss_of(path: Path) -> np.ndarray:

@@ -8,6 +8,7 @@ import zipfile
 import numpy as np
 import pytest
 
+from rockref import cli
 from rockref.measure.contactnets import import_contactnets
 from rockref.measure.tensorfile import MAGIC, read_tensor
 from rockref.measure.tosses import CUBE_WIDTH, load_tosses
@@ -147,3 +148,25 @@ def test_a_folder_without_tosses_is_refused(tmp_path):
         import_contactnets(tmp_path, tmp_path / "out")
     assert e.value.code == "E-FOLDER"
     assert not (tmp_path / "out").exists()
+
+
+def test_files_that_are_there_already_stay_as_they_are(tmp_path):
+    rows = np.zeros((1, 8, 19))
+    rows[..., 3] = 1.0
+    clone, project = tmp_path / "clone", tmp_path / "project"
+    clone.mkdir(), project.mkdir()
+    archive(clone / "0.pt", rows)
+    (project / "README.md").write_text("# mine")
+    for place in (project, project / "README.md"):
+        with pytest.raises(InputError) as e:
+            import_contactnets(clone, place)
+        assert e.value.code == "E-WRITE" and "README.md" in str(e.value)
+    assert (project / "README.md").read_text() == "# mine" and len(list(project.iterdir())) == 1
+    # The folder of an import may be made again.
+    assert import_contactnets(clone, tmp_path / "out") == import_contactnets(clone, tmp_path / "out") == (1, 0)
+
+
+def test_an_empty_word_is_no_folder(capsys, tmp_path):
+    with pytest.raises(SystemExit) as end:
+        cli.main(["import", "contactnets", str(tmp_path), "-o", ""])
+    assert end.value.code == 2 and "is empty" in capsys.readouterr().err
