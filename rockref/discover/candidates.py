@@ -17,6 +17,7 @@ from rockref.effects.loads.base_vibration import BaseVibration
 #: value. name -> spread (decided: a factor of about two).
 SHAPES = {
     ("adhesion", "range"): 0.5,
+    ("gyro_bandwidth", "damping"): 0.5,
     ("hertzian_contact", "reference"): 0.5,
     ("stribeck_friction", "velocity"): 0.7,
     ("lingering_wire_pull", "tau"): 0.5,
@@ -29,6 +30,7 @@ FIXED = {
     ("cable_restraint", "height"),
     ("base_vibration", "phase"),
     ("quadratic_drag", "c_v"),
+    ("gyro_bandwidth", "delay"),
 }
 #: Positive factors: found on a logarithmic scale about the value at which they are absent. effect -> spread.
 FACTORS = {
@@ -37,8 +39,8 @@ FACTORS = {
     "uneven_foot_friction": 0.3,
     "stribeck_friction": 0.4,
 }
-#: Effects that are absent at infinity: found as the inverse of their parameter (as a user's own that are).
-INVERSE = ("gyro_bandwidth", "gyro_saturation")
+#: Parameters that are absent at infinity: found as their inverse (as a user's own that are).
+INVERSE = ("gyro_bandwidth.frequency", "gyro_saturation.range")
 #: Parameters that are typically none, and what counts as their typical size (decided: half a kilogram more at one
 #: corner makes products of inertia of 0.02 with the long axis; axes half a degree from square).
 SELDOM = {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
@@ -122,7 +124,7 @@ def is_inverse(name: str) -> bool:
     """Whether a parameter, by its name in a fit ("gyro_bandwidth.frequency"), is found as its inverse."""
     id, _, key = name.partition(".")
     q = catalogue.OWN[id].quantities.get(key) if id in catalogue.OWN else None
-    return id in INVERSE or (q is not None and q.absent == math.inf)
+    return name in INVERSE or (q is not None and q.absent == math.inf)
 
 
 def inverse_setter(kind: type[Effect], key: str):

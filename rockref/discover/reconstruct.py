@@ -5,7 +5,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from rockref.measure.gyroscope import DAMPING, natural_frequency
+from rockref.effects.sensor.gyro_bandwidth import natural_frequency
 
 #: Noise-to-signal power of the regularised inverse filter. Decided: the white noise of a gyroscope is some 1e-3 of
 #: the clatter's amplitude, 1e-6 of its power, in the band that matters; above that band the inverse is cut.
@@ -15,10 +15,11 @@ REGULARISATION = 1e-3
 HALF_WIDTH = 8
 
 
-def undo_low_pass(crv: np.ndarray, rate: float, bandwidths: tuple[float, ...]) -> np.ndarray:
+def undo_low_pass(crv: np.ndarray, rate: float, filters: tuple[tuple[float, float], ...]) -> np.ndarray:
     """True rates from a record behind second-order low-passes, (N, 3) -> (N, 3) [rad/s].
 
-    Zero-phase Wiener inverse conj(H) / (|H|^2 + r) on the mirrored record; rate and bandwidths [Hz].
+    Zero-phase Wiener inverse conj(H) / (|H|^2 + r) on the mirrored record; rate [Hz];
+    filters: bandwidth [Hz] and damping of each.
     """
     n = len(crv)
     pad = min(n - 1, int(rate / 2))
@@ -27,9 +28,9 @@ def undo_low_pass(crv: np.ndarray, rate: float, bandwidths: tuple[float, ...]) -
     whole = np.concatenate([start, crv, end])
     s = 2j * np.pi * np.fft.rfftfreq(len(whole), 1 / rate)
     H = np.ones_like(s)
-    for bandwidth in bandwidths:
-        omega = natural_frequency(bandwidth)
-        H = H * omega**2 / (s * s + 2 * DAMPING * omega * s + omega**2)
+    for bandwidth, damping in filters:
+        omega = natural_frequency(bandwidth, damping)
+        H = H * omega**2 / (s * s + 2 * damping * omega * s + omega**2)
     G = np.conj(H) / (np.abs(H) ** 2 + REGULARISATION) * (1 + REGULARISATION)
     return np.fft.irfft(np.fft.rfft(whole, axis=0) * G[:, None], len(whole), axis=0)[pad : pad + n]
 

@@ -7,19 +7,21 @@ from functools import lru_cache
 import numba
 import numpy as np
 
-from rockref.measure.gyroscope import DAMPING, natural_frequency
+from rockref.effects.sensor.gyro_bandwidth import DAMPING, natural_frequency
 
 #: What stands for a rate that is no number [rad/s]: far outside every record, so that the window counts as lost.
 LOST = 1e3
 
 
 @lru_cache(maxsize=256)
-def filter_coefficients(step: float, bandwidth: float) -> tuple[float, float, float, float, float]:
+def filter_coefficients(
+    step: float, bandwidth: float, damping: float = DAMPING
+) -> tuple[float, float, float, float, float]:
     """b0, b1, b2, a1, a2 of the second-order low-pass of `rockref.measure.gyroscope.low_pass` (first-order hold)."""
     from scipy.signal import cont2discrete
 
-    omega = natural_frequency(bandwidth)
-    b, a, _ = cont2discrete(([omega**2], [1.0, 2 * DAMPING * omega, omega**2]), step, method="foh")
+    omega = natural_frequency(bandwidth, damping)
+    b, a, _ = cont2discrete(([omega**2], [1.0, 2 * damping * omega, omega**2]), step, method="foh")
     b = np.squeeze(b)
     return float(b[0]), float(b[1]), float(b[2]), float(a[1]), float(a[2])
 

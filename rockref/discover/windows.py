@@ -26,6 +26,7 @@ from rockref.discover.reconstruct import (
     yaw_since_touch,
 )
 from rockref.discover.record import filter_coefficients, records
+from rockref.effects.sensor.gyro_bandwidth import DAMPING
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
@@ -84,8 +85,8 @@ class Sensor:
 
     turn : rotation vector of a misalignment [rad]; skew : xy, xz, yz of axes that are not square [rad]
     scale : of each axis; bias [rad/s]; drift [rad/s2]
-    bandwidth : [Hz] of a further low-pass, inf for none; range : [rad/s] at which it saturates; clock : seconds of the
-    block per second of the device.
+    bandwidth, damping : [Hz] and [1] of a further low-pass, inf for none; range : [rad/s] at which it saturates
+    clock : seconds of the block per second of the device
     """
 
     turn: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -94,6 +95,7 @@ class Sensor:
     bias: np.ndarray = field(default_factory=lambda: np.zeros(3))
     drift: np.ndarray = field(default_factory=lambda: np.zeros(3))
     bandwidth: float = np.inf
+    damping: float = DAMPING
     range: float = np.inf
     clock: float = 1.0
 
@@ -105,7 +107,10 @@ class Sensor:
 
 
 def sensor_of(model: Model) -> Sensor:
-    """The sensor effects of a model as one Sensor."""
+    """The sensor effects of a model as one Sensor. Raises InputError (E-TWIN) for a delay, which windows do not know.
+
+    A window begins where the record says that the block was at that instant.
+    """
     values: dict = {}
     for e in model.effects:
         v = e.values()
@@ -118,7 +123,10 @@ def sensor_of(model: Model) -> Sensor:
             values["bias"] = np.array([v["bias_x"], v["bias_y"], v["bias_z"]])
             values["drift"] = np.array([v["rate_x"], v["rate_y"], v["rate_z"]])
         elif e.id == "gyro_bandwidth":
-            values["bandwidth"] = v["frequency"]
+            values["bandwidth"], values["damping"] = v["frequency"], v["damping"]
+            if v["delay"]:
+                cure = "Take the delay off the times of the records first, and out of the model."
+                raise InputError("E-TWIN", f"effect {e.id}", "has a delay: windows begin where the record says", cure)
         elif e.id == "gyro_saturation":
             values["range"] = v["range"]
         elif e.id == "clock_error":
@@ -151,8 +159,8 @@ def true_rates(crv: np.ndarray, t: np.ndarray, rate: float, bandwidth: float, se
     Sample k of the device stands at t_k * clock in the block's own time.
     """
     w = crv - sensor.bias - sensor.drift * t[:, None]
-    bandwidths = (bandwidth,) if not np.isfinite(sensor.bandwidth) else (bandwidth, sensor.bandwidth)
-    return undo_low_pass(w, rate, bandwidths) @ np.linalg.inv(sensor.matrix()).T
+    own = ((sensor.bandwidth, sensor.damping),) if np.isfinite(sensor.bandwidth) else ()
+    return undo_low_pass(w, rate, ((bandwidth, DAMPING), *own)) @ np.linalg.inv(sensor.matrix()).T
 
 
 class Series:
@@ -200,7 +208,7 @@ class Series:
 
     def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
         """True rates of run i and the smoothed ones; kept for the sensors that were seen last."""
-        names = ("turn", "skew", "scale", "bias", "drift", "bandwidth")
+        names = ("turn", "skew", "scale", "bias", "drift", "bandwidth", "damping")
         key = (i, *(np.asarray(getattr(sensor, n), float).tobytes() for n in names))
         if key not in self._rates:
             if len(self._rates) > 64:
@@ -312,7 +320,7 @@ class Series:
         follows = np.zeros(len(which), bool)
         slow = None
         if np.isfinite(s.bandwidth):
-            slow = filter_coefficients(step, s.bandwidth)
+            slow = filter_coefficients(step, s.bandwidth, s.damping)
             same_run = self.run_of[which[:-1]] == self.run_of[which[1:]]
             follows[1:] = (self.stop[which[:-1]] == self.start[which[1:]]) & same_run
         return records(

@@ -73,7 +73,7 @@ IN_STEP_ORDER: tuple[type[Effect], ...] = (
 EFFECTS: dict[str, type[Effect]] = {effect.id: effect for effect in IN_STEP_ORDER}
 
 #: Where effects of the sensor stand in the measured channel, which `analogue` and `digital` put in order: how the
-#: sensor sits, before its electronics; the recorder's clock, which says when a sample is taken; what is done to samples.
+#: sensor sits, before its electronics; the recorder's clock, which says when a sample is taken; what cuts the samples.
 #: A clock that came after the stops would interpolate across their corners, and show more than the range.
 MOUNTING, CLOCK, OF_SAMPLES = ("gyro_misalignment", "gyro_scale"), ("clock_error",), ("gyro_saturation",)
 

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import cmath
-import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -14,25 +13,14 @@ import numpy as np
 
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import analogue, digital
+from rockref.effects.sensor.gyro_bandwidth import DAMPING, natural_frequency
 from rockref.model.errors import InputError
 
 if TYPE_CHECKING:
     from rockref.measure.experiment import Gyro
 
-# decided: the damping of a second-order Butterworth filter, the flattest; data sheets give the bandwidth only.
-DAMPING = 1.0 / math.sqrt(2.0)
 # decided: at 2 kHz the signal between samples is a straight line to a thousandth over a contact of 1.5 ms.
 COARSEST_STEP = 5e-4
-
-
-def natural_frequency(bandwidth: float, damping: float = DAMPING) -> float:
-    """Return the undamped angular frequency, rad/s, of a second-order low-pass whose -3 dB point is `bandwidth` Hz."""
-    if bandwidth <= 0.0 or damping <= 0.0:
-        cure = "Give positive numbers."
-        raise InputError("E-RANGE", "arguments bandwidth, damping", f"{bandwidth:g} Hz and {damping:g}", cure)
-    # |H|^2 = 1/((1 - r^2)^2 + (2 d r)^2) = 1/2 is a quadratic in r^2, with r = frequency/natural frequency.
-    b = 1.0 - 2.0 * damping**2
-    return 2.0 * math.pi * bandwidth / math.sqrt(b + math.sqrt(b * b + 1.0))
 
 
 def low_pass(crv: np.ndarray, step: float, bandwidth: float, damping: float = DAMPING) -> np.ndarray:

@@ -114,8 +114,9 @@ def number(value: float | None) -> float | str | None:
 
 
 def words(effect: Effect) -> str:
-    """The effect as it is written on the command line."""
-    values = ",".join(f"{name}={value:g}" for name, value in effect.values().items() if value is not None)
+    """The effect as it is written on the command line; what stands at its absent value needs no word."""
+    shown = {name: value for name, value in effect.values().items() if value != effect.quantities[name].absent}
+    values = ",".join(f"{name}={value:g}" for name, value in shown.items())
     return f"{effect.file or effect.id}:{values}" if values else effect.file or effect.id
 
 

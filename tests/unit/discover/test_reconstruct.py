@@ -14,6 +14,7 @@ from rockref.discover.reconstruct import (
     undo_low_pass,
     yaw_since_touch,
 )
+from rockref.effects.sensor.gyro_bandwidth import DAMPING
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
@@ -54,7 +55,7 @@ def test_low_pass_undone():
     t = np.arange(4000) * 5e-4
     w = np.stack([np.sin(2 * np.pi * f * t) for f in (3.0, 20.0, 60.0)], axis=1)
     seen = low_pass(w, 5e-4, 300.0)[::2]
-    found = undo_low_pass(seen, 1000.0, (300.0,))
+    found = undo_low_pass(seen, 1000.0, ((300.0, DAMPING),))
     inside = slice(200, -200)
     # The filter delays by 0.75 ms and that is gone; what is left is the first-order hold against the filter's own law.
     assert np.abs(found - w[::2])[inside].max() < 0.02

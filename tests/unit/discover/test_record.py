@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from rockref import InputError, Model
+from rockref.discover.candidates import parameters_of
 from rockref.discover.record import filter_coefficients, records
-from rockref.discover.windows import Sensor
+from rockref.discover.windows import Sensor, sensor_of
 from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth
 from rockref.effects.sensor.gyro_drift import GyroDrift
 from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
@@ -111,3 +113,13 @@ def test_a_window_is_what_the_measured_channel_makes_of_it():
     assert np.abs(expected).max() == 1.2
     # The two filters settle on the first rate one after the other, here and there: rounding of some hundred steps.
     np.testing.assert_allclose(found[0], expected[:N], atol=1e-10)
+
+
+def test_windows_refuse_a_delay_and_no_fit_moves_one():
+    """A delay is the release at another instant; nobody looks for it, and it is not passed over in silence."""
+    late = Model.table_3_1().replace(effects=(GyroBandwidth(60.0, delay=2e-3),))
+    with pytest.raises(InputError, match="has a delay") as caught:
+        sensor_of(late)
+    assert caught.value.code == "E-TWIN"
+    assert sensor_of(late.replace(effects=(GyroBandwidth(60.0),))).bandwidth == 60.0
+    assert [p.name for p in parameters_of(GyroBandwidth, 1)] == ["gyro_bandwidth.frequency", "gyro_bandwidth.damping"]

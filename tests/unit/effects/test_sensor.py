@@ -11,7 +11,7 @@ from rockref import InputError
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import analogue, digital, measured
 from rockref.effects.sensor.clock_error import ClockError
-from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth
+from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth, natural_frequency
 from rockref.effects.sensor.gyro_drift import GyroDrift
 from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
 from rockref.effects.sensor.gyro_saturation import GyroSaturation
@@ -60,12 +60,61 @@ def test_bandwidth_follows_its_transfer_function(f):
         assert np.std(out[late, 0]) / np.std(tone(f)[late, 0]) == pytest.approx(1 / math.sqrt(2), rel=1e-3)
 
 
+@pytest.mark.parametrize("damping", [0.5, 1.0, 5.0])
+def test_damping_shapes_the_filter_and_keeps_the_bandwidth(damping):
+    """A tone at the bandwidth comes out with half its power, and late by the angle of the transfer function there."""
+    out = GyroBandwidth(20.0, damping).sensor(T, tone(20.0))
+    ratio = 2 * math.pi * 20.0 / natural_frequency(20.0, damping)
+    late = T > 1.5  # the slowest pole, of damping 5, has exp(-2 pi 20) there
+    expected = math.sqrt(0.5) * tone(20.0, -math.atan2(2 * damping * ratio, 1 - ratio**2))
+    assert out[late] == pytest.approx(expected[late], abs=(2 * math.pi * 20.0 / 2000) ** 2 / 12)
+
+
+def test_far_above_one_damping_is_a_filter_of_first_order():
+    """1/(1 + i f/f_c); what is left of the second pole falls with the square of the damping."""
+    ratio = 0.5
+    first = 1 / (1 + 1j * ratio)
+    apart = []
+    for damping in (5.0, 50.0):
+        s = 1j * ratio * 2 * math.pi * 20.0 / natural_frequency(20.0, damping)
+        apart.append(abs(1 / (s * s + 2 * damping * s + 1) - first))
+    assert apart[0] < 0.006 and apart[1] == pytest.approx(apart[0] / 100, rel=0.05)
+
+
 def test_bandwidth_is_settled_on_the_first_sample_and_wants_even_rows():
     flat = np.full((100, 3), 0.3)
     assert GyroBandwidth(20.0).sensor(T[:100], flat) == pytest.approx(flat, abs=1e-12)
     uneven = np.concatenate([T[:50], T[60:110]])
     with pytest.raises(InputError, match="even spacing"):
         GyroBandwidth(20.0).sensor(uneven, flat)
+
+
+@pytest.mark.parametrize("f", [5.0, 60.0])
+def test_delay_is_a_phase_that_grows_with_the_frequency(f):
+    """H = exp(-i w tau) times the low-pass; alone it leaves sizes as they are."""
+    tau, cutoff = 3.3e-3, 20.0
+    late = T > 1.0
+    alone = GyroBandwidth(delay=tau).sensor(T, tone(f))
+    # Cubic between samples: (2 pi f/2000)^4/384 of the tone, at the ends some ten times it.
+    assert alone[late] == pytest.approx(tone(f, -2 * math.pi * f * tau)[late], abs=1e-5)
+    both = GyroBandwidth(cutoff, delay=tau).sensor(T, tone(f))
+    H = np.exp(-2j * math.pi * f * tau) / (1 - (f / cutoff) ** 2 + 1j * math.sqrt(2) * f / cutoff)
+    expected = abs(H) * tone(f, np.angle(H))
+    # The low-pass takes the signal as straight between samples: (2 pi f h)^2/12 of it.
+    assert both[late] == pytest.approx(expected[late], abs=(2 * math.pi * f / 2000) ** 2 / 12 + 1e-5)
+
+
+def test_a_delay_shows_a_ramp_late_and_holds_the_first_row_until_then():
+    ramp = 0.2 + np.outer(T, (3.0, -1.0, 0.5))
+    out = GyroBandwidth(delay=0.01).sensor(T, ramp)
+    assert out == pytest.approx(0.2 + np.outer(np.maximum(T - 0.01, 0), (3.0, -1.0, 0.5)), abs=1e-12)
+    assert GyroBandwidth(delay=0.0).is_absent() and not GyroBandwidth(delay=1e-4).is_absent()
+
+
+def test_a_delay_comes_before_the_bias_and_its_drift():
+    """The bias of a sensor that is late does not begin late."""
+    out = measured([GyroDrift(rate_x=1.0), GyroBandwidth(delay=0.01)], T, np.zeros((4000, 3)))
+    assert np.array_equal(out[:, 0], T)
 
 
 def test_drift_is_bias_and_slope():
