@@ -95,7 +95,15 @@ def measured_table(found: dict[str, Any]) -> Table:
     if e:
         rows.append(("tosses that gain energy at the first impact, by stated velocities from frame to frame",
                      f"{e['from_frame_to_frame']} of {e['tosses']}", ""))  # fmt: skip
-        rows.append(("the same from three frames before it to three after", f"{e['around']} of {e['tosses']}", ""))
+        most, quiet = (f"{100 * e[key]:.1f}" for key in ("largest", "largest_in_flight"))
+        rows.append(("the most that one gains so, of all it loses; in free flight", f"{most}; {quiet}", "%"))
+        rows.append(
+            (
+                "tosses that gain energy from three frames before it to three after",
+                f"{e['around']} of {e['tosses']}",
+                "",
+            )
+        )
         rows.append(("the least that one loses there, of all it loses", f"{100 * e['least_loss_around']:.0f}", "%"))
     for key, v in found.get("sliding", {}).get("values", {}).items():
         rows.append((f"friction of a face that slides flat, {key}", with_error(v["value"], v["se"]), "1"))

@@ -70,6 +70,7 @@ def test_a_rise_between_two_frames_is_not_one_around_the_impact():
     filtered.W[6, 0] = 4.2
     found = rises([smooth, filtered], np.array([6, 6]), np.zeros(3), J, 9.81)
     assert found["tosses"] == 2 and found["from_frame_to_frame"] == 1 and found["around"] == 0
+    assert found["largest_in_flight"] == 0.0 < found["largest"]
     assert found["least_loss_around"] == pytest.approx(1.0)
     assert stated_energy(smooth, np.zeros(3), J, 9.81)[0] == pytest.approx(2e-3 * 16 / 2)
     assert rises([Toss("0", "0", "fit", smooth.t, smooth.x, smooth.Lambda)], np.array([6]), np.zeros(3), J, 9.81) == {}
