@@ -10,7 +10,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
@@ -55,6 +55,29 @@ class Campaign:
                 self.executor = executor = self.make()
                 assert executor is not None
         return [result for i in range(len(pieces)) for result in done[i]]
+
+    def as_done(self, function: Callable[..., Sequence], shared: tuple, items: Sequence) -> Iterator[tuple[int, Any]]:
+        """(index, result) of each item, `function(*shared, [item])[0]`, as it is done: no worker waits for another."""
+        left = list(range(len(items)))
+        if self.executor is None:
+            for i in left:
+                yield i, function(*shared, [items[i]])[0]
+            return
+        for attempt in range(ATTEMPTS):
+            try:
+                jobs = {self.executor.submit(function, *shared, [items[i]]): i for i in left}
+                for job in as_completed(jobs):
+                    result = job.result()[0]
+                    left.remove(jobs[job])
+                    yield jobs[job], result
+                return
+            except BrokenProcessPool:
+                # As above: what is done has been handed out, the rest goes to new workers.
+                if attempt == ATTEMPTS - 1:
+                    raise
+                self.close()
+                self.executor = self.make()
+                assert self.executor is not None
 
     def close(self) -> None:
         """Let the workers go."""

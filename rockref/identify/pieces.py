@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -43,16 +43,16 @@ class Pieces:
         self,
         name: str,
         keys: Sequence[Hashable],
-        make: Callable[[list], Sequence[dict[str, Any]]],
-        together: int,
+        make: Callable[[list], Iterable[tuple[int, dict[str, Any]]]],
         of: Any = None,
     ) -> list[dict[str, Any]]:
-        """The results of pieces of one kind, in the order of their keys; `make` takes up to `together` keys at once."""
+        """The results of pieces of one kind, in the order of their keys.
+
+        make : takes the keys that are left and gives (index, result) as they are done; each is kept at once.
+        """
         left = [key for key in keys if self.kept(f"{name}_{key}", of) is None]
-        for i in range(0, len(left), together):
-            chunk = left[i : i + together]
-            for key, result in zip(chunk, make(chunk), strict=True):
-                self._keep(f"{name}_{key}", result, of)
+        for i, result in make(left) if left else ():
+            self._keep(f"{name}_{left[i]}", result, of)
         return [self.once(f"{name}_{key}", dict, of) for key in keys]
 
     def _path(self, name: str) -> Path:

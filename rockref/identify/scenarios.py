@@ -7,7 +7,7 @@ with the same budget to a reference made by the eight-point model.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -99,9 +99,9 @@ REFERENCE = ("eight_points",)
 
 def try_scenarios(
     target: Target, settings: Settings, work: Campaign, scenarios: Sequence[Sequence[str]] = (REFERENCE, *SCENARIOS)
-) -> list[dict[str, Any]]:
-    """One row a scenario (`try_scenario`), all fitted with the same budget; they are spread over the workers."""
-    return work(_several, (target, settings), [tuple(s) for s in scenarios])
+) -> Iterator[tuple[int, dict[str, Any]]]:
+    """One row a scenario (`try_scenario`), with its index, as it is done; all are fitted with the same budget."""
+    return work.as_done(_several, (target, settings), [tuple(s) for s in scenarios])
 
 
 def _several(target: Target, settings: Settings, scenarios: Sequence[tuple[str, ...]]) -> list[dict[str, Any]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -47,7 +47,7 @@ class Budget:
     sensitivity: tuple[float, int] = (6.0, 10)  # duration [s], trials
     steps: tuple[float, ...] = STEPS
     identification: Settings = Settings(40, 250)  # the source's
-    identification_effort: Effort = Effort(moves=1)
+    identification_effort: Effort = Effort(moves=1, walks=1)
     seeds: tuple[int, ...] = SEEDS
     twins: Settings = Settings(20, 40)
     twins_effort: Effort = EFFORT
@@ -133,7 +133,7 @@ def _studies(
         def make(seeds):
             return twin_experiments(model, seeds, budget.twins, work, budget.twins_effort)
 
-        rows = kept.each("twin", budget.seeds, make, work.workers, [asdict(budget.twins), asdict(budget.twins_effort)])
+        rows = kept.each("twin", budget.seeds, make, [asdict(budget.twins), asdict(budget.twins_effort)])
         art.keep({"twins": source_figures.twins_figure(rows)})
         return rows
 
@@ -185,11 +185,11 @@ def _sensitivity(model: Model, budget: Budget, work: Campaign, art: _Art) -> dic
 def _scenarios(model: Model, budget: Budget, work: Campaign, kept: Pieces, art: _Art) -> list[dict[str, Any]]:
     target = twin(model, REFERENCE_STEP, None)
 
-    def make(names: Sequence[str]) -> list[dict[str, Any]]:
+    def make(names: Sequence[str]) -> Iterator[tuple[int, dict[str, Any]]]:
         return try_scenarios(target, budget.scenarios_settings, work, [by_name[name] for name in names])
 
     by_name = {"-".join(s) or "none": s for s in budget.scenarios}
-    rows = kept.each("scenario", list(by_name), make, work.workers, asdict(budget.scenarios_settings))
+    rows = kept.each("scenario", list(by_name), make, asdict(budget.scenarios_settings))
     best = sorted(rows[1:], key=lambda row: row["cost"])[:3]
     drawn = []
     for row in [rows[0], *best]:

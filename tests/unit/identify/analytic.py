@@ -33,6 +33,13 @@ def slow_bowl(seconds: float, chromosomes) -> list[float]:
     return bowl(0.3, chromosomes)
 
 
+def pause(seconds) -> list[float]:
+    """Sleep so long for each item."""
+    for each in seconds:
+        time.sleep(each)
+    return list(seconds)
+
+
 def main() -> None:
     """Search with checkpoints in the folder given, resuming what is there, and print the end in hexadecimal."""
     from rockref.identify.campaign import campaign

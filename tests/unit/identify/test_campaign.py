@@ -50,6 +50,18 @@ def test_a_killed_process_loses_nothing(tmp_path):
     assert (tmp_path / "mark").exists()
 
 
+def test_items_are_handed_out_as_they_are_done(tmp_path):
+    """A long item does not keep a worker waiting that has the short ones; a killed worker loses nothing."""
+    pauses = [2.0, 0.0, 0.0, 0.0]
+    with campaign(1) as here, campaign(2) as two:
+        assert list(here.as_done(analytic.bowl, (0.3,), ITEMS)) == list(enumerate(WANTED))
+        list(two.as_done(analytic.pause, (), [0.0, 0.0]))
+        assert [i for i, _ in two.as_done(analytic.pause, (), pauses)][-1] == 0
+        found = two.as_done(analytic.bowl_whose_worker_dies_once, (str(tmp_path / "mark"),), ITEMS)
+        assert sorted(found) == list(enumerate(WANTED))
+    assert (tmp_path / "mark").exists()
+
+
 def test_workers_end_when_the_process_that_made_them_is_killed():
     code = (
         "import os, signal\n"

@@ -26,15 +26,16 @@ def test_what_was_done_before_an_interruption_is_not_done_again(tmp_path):
 
     def make(keys):
         asked.append(list(keys))
-        if 4 in keys and len(asked) == 2:
-            raise KeyboardInterrupt
-        return [{"key": k} for k in keys]
+        for i in reversed(range(len(keys))):
+            if keys[i] == 2 and len(asked) == 1:
+                raise KeyboardInterrupt
+            yield i, {"key": keys[i]}
 
     kept = Pieces(tmp_path, {})
     with pytest.raises(KeyboardInterrupt):
-        kept.each("p", [1, 2, 3, 4, 5], make, together=2)
-    assert kept.each("p", [1, 2, 3, 4, 5], make, together=2) == [{"key": k} for k in (1, 2, 3, 4, 5)]
-    assert asked == [[1, 2], [3, 4], [3, 4], [5]]
+        kept.each("p", [1, 2, 3, 4, 5], make)
+    assert kept.each("p", [1, 2, 3, 4, 5], make) == [{"key": k} for k in (1, 2, 3, 4, 5)]
+    assert asked == [[1, 2, 3, 4, 5], [1, 2]]
     assert all(json.loads(p.read_text())["schema"] for p in tmp_path.glob("*.json"))
 
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from rockref.identify import unknowns
+from rockref.identify.descent import BEYOND_ALL, FACTORS, NEARLY, Descent
 from rockref.identify.genes import chromosome, model_of, space_12
 from rockref.identify.identifiability import identifiability, profile
-from rockref.identify.polish import BEYOND_ALL, FACTORS, NEARLY, Effort, _Descent, narrowed, polish, with_genes
+from rockref.identify.polish import Effort, narrowed, polish, with_genes
 from rockref.identify.runs import run_error
 from rockref.identify.target import seen_until, target
 from rockref.identify.unknowns import Unknowns, residuals, signal_costs
@@ -135,7 +136,7 @@ def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monke
 def test_where_no_step_gains_the_slopes_are_not_taken_again():
     """At the bottom of a bowl: slopes over two step sizes, then dampings alone, each larger than those before."""
 
-    class Bowl(_Descent):
+    class Bowl(Descent):
         slopes_taken, tried = 0, 0
 
         def residuals(self, zs):

@@ -24,8 +24,8 @@ def test_every_scenario_has_a_model_in_the_middle_of_its_ranges(defects):
 def test_rows_do_not_depend_on_how_the_work_is_spread(twin):
     names = [REFERENCE, ("wire",)]
     with campaign(1) as one, campaign(2) as two:
-        rows = try_scenarios(twin, Settings(4, 1), one, names)
-        assert rows == try_scenarios(twin, Settings(4, 1), two, names)
+        rows = [row for _, row in try_scenarios(twin, Settings(4, 1), one, names)]
+        assert dict(enumerate(rows)) == dict(try_scenarios(twin, Settings(4, 1), two, names))
     assert [r["name"] for r in rows] == ["eight points", words(("wire",))]
     assert rows[0]["genes"] == 12 and rows[1]["genes"] == 6
     json.dumps(rows, allow_nan=False)

@@ -1,0 +1,125 @@
+"""Levenberg-Marquardt on rough ground.
+
+The residual as a function of the parameters is smooth between small jumps: where the order in which two feet land
+changes, the response jumps by some 0.01 deg/s. So the slopes are taken over steps that change the response by about
+the noise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.identify.candidates import STEP
+from rockref.identify.unknowns import Unknowns, mean_squares, residuals
+
+#: Change of the response that a finite difference makes, in parts of the noise (quadratic mean): first large, to see
+#: over the jumps, then small. Decided: a jump is a third of the noise of 0.05 deg/s.
+CHANGES = (3.0, 1.0, 0.3)
+#: Least and largest finite-difference step in z, and the first one; decided: below, jumps only; above, not a slope.
+SMALLEST, LARGEST, FIRST = 2e-4, 0.04, 1e-3
+#: Levenberg-Marquardt: first damping, factors that are tried, most steps of one descent, least relative gain (decided).
+DAMPING, FACTORS, STEPS, LEAST_GAIN = 1e-2, (0.04, 0.2, 1.0, 5.0, 25.0), 12, 1e-3
+#: Moves and walks go on while the mean square is above this and each gains. Decided: 1 is the noise, and a twin that
+#: was left at 1.08 ended at 1.02 so.
+NEARLY = 1.05
+#: Factor from one row of dampings to the next one, beginning one factor above its end.
+BEYOND_ALL = FACTORS[-1] * 5.0 / FACTORS[0]
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """Where a descent stands: unknowns, residual, mean square."""
+
+    z: np.ndarray
+    r: np.ndarray
+    chi2: float
+
+
+class Descent:
+    """The functions that a polish shares: residuals and slopes of one problem."""
+
+    def __init__(
+        self,
+        unknowns: Unknowns,
+        step: float = STEP,
+        workers: int | None = None,
+        report: Callable[[float], None] | None = None,
+        steps: int = STEPS,
+    ):
+        self.unknowns, self.step, self.workers, self.steps = unknowns, step, workers, steps
+        self.report = report or (lambda chi2: None)
+        self.ends: list[Place] = []
+
+    def residuals(self, zs: np.ndarray) -> np.ndarray:
+        return residuals(self.unknowns.space, self.unknowns.targets, zs, self.step, self.workers)
+
+    def place(self, z: np.ndarray) -> Place:
+        r = self.residuals(z[None])
+        return Place(z, r[0], float(mean_squares(r)[0]))
+
+    def jacobian(self, z: np.ndarray, h: np.ndarray) -> np.ndarray:
+        """(M, Z) by central differences over h (Z,), one-sided at the end of a range."""
+        up, down = np.minimum(z + h, 1.0), np.maximum(z - h, 0.0)
+        rs = self.residuals(np.concatenate([z + np.diag(up - z), z - np.diag(z - down)]))
+        return np.nan_to_num((rs[: len(z)] - rs[len(z) :]) / (up - down)[:, None]).T
+
+    def slopes(self, z: np.ndarray, change: float, h: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Jacobian (M, Z) over steps that change the response by `change`, and those steps (Z,)."""
+        if h is None:
+            h = np.full(len(z), FIRST)
+            h = _steps(self.jacobian(z, h), change)
+        J = self.jacobian(z, h)
+        return J, _steps(J, change)
+
+    def descend(self, at: Place, change: float, steps: int | None = None) -> Place:
+        """Levenberg-Marquardt from `at`, five dampings a step side by side."""
+        damping, J, h = DAMPING, None, None
+        for _ in range(self.steps if steps is None else steps):
+            if J is None:
+                J, h = self.slopes(at.z, change, h)
+            trials = np.array([damped_step(J, at.r, at.z, damping * f) for f in FACTORS])
+            rs = self.residuals(trials)
+            chi2 = mean_squares(rs)
+            k = int(np.argmin(chi2))
+            if not chi2[k] < at.chi2:
+                if damping > 1e4:
+                    break
+                # The same slopes with dampings that are all larger than those that were tried.
+                damping *= BEYOND_ALL
+                continue
+            gain = 1 - chi2[k] / at.chi2
+            damping = max(1e-9, 0.3 * damping * FACTORS[k])
+            at, J = Place(trials[k], rs[k], float(chi2[k])), None
+            self.report(at.chi2)
+            if gain < LEAST_GAIN:
+                break
+        self.ends.append(at)
+        return at
+
+
+def _steps(J: np.ndarray, change: float) -> np.ndarray:
+    size = np.sqrt(np.mean(np.square(J), axis=0))
+    return np.clip(change / np.where(size > 0, size, 1e-30), SMALLEST, LARGEST)
+
+
+def damped_step(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float) -> np.ndarray:
+    """The damped step, along free directions only: an unknown that would leave its range stays at the end of it."""
+    free = np.ones(len(z), bool)
+    d = np.zeros(len(z))
+    for _ in range(len(z)):
+        A = J[:, free].T @ J[:, free]
+        d = np.zeros(len(z))
+        d[free] = np.linalg.solve(A + damping * np.diag(np.diag(A)) + ridge(A), -J[:, free].T @ r)
+        out = ((z + d < 0) & (z <= 0)) | ((z + d > 1) & (z >= 1))
+        if not np.any(out & free):
+            break
+        free &= ~out
+    return np.clip(z + d, 0.0, 1.0)
+
+
+def ridge(A: np.ndarray) -> np.ndarray:
+    """What keeps the solution of A x = b finite where an unknown does nothing."""
+    return (1e-12 * np.trace(A) + 1e-30) * np.eye(len(A))

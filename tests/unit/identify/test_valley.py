@@ -1,0 +1,69 @@
+"""Walks along the valley: where descents stop at dents, strides do not."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from rockref.identify.descent import CHANGES, NEARLY, Descent
+from rockref.identify.valley import PATIENCE, STRIDE, along, walk
+
+TRUTH = 0.2
+
+
+def bent(diagonal):
+    """The line along which the two trade off."""
+    return diagonal + 0.05 * np.sin(15.0 * (diagonal - TRUTH))
+
+
+class Ground(Descent):
+    """Two unknowns that trade off along a bent line, as far as the record without its end goes; its end, where it is
+    seen, grows away from the truth and has a dent every fiftieth of the range."""
+
+    def __init__(self, end: bool, names=("delta_diag", "x")):
+        super().__init__(SimpleNamespace(names=names))
+        self.end = end
+
+    def residuals(self, zs):
+        noise = np.tile([1.0, -1.0], 50)
+        alike = 2000.0 * (zs[:, 1:] - bent(zs[:, :1]))
+        off = zs[:, :1] - TRUTH
+        ended, dents = (10.0 * off, 3.0 * (1.0 - np.cos(100.0 * np.pi * off))) if self.end else (0.0 * off,) * 2
+        return np.concatenate([noise[:80] + alike, noise[80:90] + ended, noise[90:] + dents], axis=1)
+
+
+@pytest.fixture
+def grounds():
+    return Ground(False), Ground(True)
+
+
+START = np.array([0.6, bent(0.6)])
+
+
+def test_a_descent_stops_in_a_dent_and_the_walk_does_not(grounds):
+    short, whole = grounds
+    at = whole.place(START)
+    for change in CHANGES:
+        at = whole.descend(at, change)
+    assert at.chi2 > 1.5 and abs(at.z[0] - TRUTH) > 0.1
+    end = along(short, whole, START, 3)
+    assert end.chi2 < NEARLY and np.abs(end.z - TRUTH).max() < STRIDE
+
+
+def test_the_way_is_kept_beside_the_end_as_a_profile(grounds):
+    short, whole = grounds
+    end = along(short, whole, START, 1)
+    near = [p for p in whole.ends if p.chi2 < 1.5 * end.chi2]
+    assert len({round(float(p.z[0]), 3) for p in near}) > 2
+
+
+def test_a_walk_ends_where_nothing_is_gained_or_the_range_ends(grounds):
+    short, whole = grounds
+    assert len(walk(short, whole, START, STRIDE)) <= PATIENCE + 2
+    assert max(p.z[0] for p in walk(short, whole, START, STRIDE)) > 0.6
+    assert len(walk(short, short, np.array([0.975, bent(0.975)]), STRIDE)) == 2
+
+
+def test_a_model_without_the_diagonal_is_left_as_it_is():
+    short, whole = (Ground(end, ("mu", "x")) for end in (False, True))
+    assert walk(short, whole, START, -STRIDE) == []
