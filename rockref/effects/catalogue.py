@@ -118,6 +118,8 @@ def find(id: str, where: str = "effect") -> type[Effect]:
     """
     if id.strip().endswith(".py") or ".py:" in id:
         return own_effect(id.strip())
+    if id == Effect.id:
+        raise InputError("E-EFFECT", where, "'none' is what holds where no effect is named", "Leave it out.")
     known = EFFECTS | OF_TOSSES | OWN
     if id in known:
         return known[id]

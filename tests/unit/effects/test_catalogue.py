@@ -138,6 +138,7 @@ def test_parse_reads_words():
         ("quadratic_drag:c=0.4,c=5", "E-KEY", "'c' is given twice"),
         ("quadratic_drag:c=0.4, c =0.4", "E-KEY", "'c' is given twice"),
         ("tag_fram", "E-EFFECT", "Did you mean 'tag_frame'"),
+        ("none", "E-EFFECT", "Leave it out"),
     ],
 )
 def test_parse_says_what_is_wrong(text, code, said):

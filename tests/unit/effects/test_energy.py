@@ -14,7 +14,9 @@ from rockref.effects.friction.load_dependent_friction import LoadDependentFricti
 from rockref.effects.friction.rolling_resistance import ARM, RollingResistance
 from rockref.effects.friction.spin_friction import SpinFriction
 from rockref.effects.friction.stribeck_friction import StribeckFriction
+from rockref.effects.loads.base_vibration import BaseVibration
 from rockref.effects.loads.cable_restraint import CableRestraint
+from rockref.effects.loads.lingering_wire_pull import LingeringWirePull
 from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
 from rockref.effects.support.compliant_support import CompliantSupport
@@ -216,3 +218,31 @@ def test_uneven_normals_are_not_conservative():
     work = way * (force(0.0, -depth)[0] - force(way, depth)[0])
     assert work == pytest.approx(tilt * K * depth * way, rel=1e-12)
     assert "not\n    conservative" in UnevenContactNormals.__doc__
+
+
+@pytest.mark.parametrize(
+    "effect", [LingeringWirePull(3.0, 0.02), BaseVibration(0.5, 30.0, 0.4, 0.7)], ids=lambda e: e.id
+)
+def test_loads_put_in_the_work_of_what_they_say(effect):
+    """The energy of a free body against the integral of the stated force along the way of the point that it acts on."""
+    h, mass = 1e-4, 2.0
+    problem = body(
+        points_at([(0.1, 0.1, -0.5), (-0.1, -0.1, -0.5)]), [effect],
+        x=(0, 0, 10), v=(0.3, 0.2, 0), W=(0.5, -0.4, 0.2), J=(0.2, 0.3, 0.1), mass=mass, g=0.0, h=h,
+    )  # fmt: skip
+    wire = isinstance(effect, LingeringWirePull)
+    power, energy = [], []
+    for s in walk(problem, 800):
+        up = s.Lambda[:, 2] * 0.5 * wire
+        velocity = s.v + np.cross(s.Lambda @ s.W, up)
+        if wire:
+            force = np.array([0.0, 3.0 * math.exp(-s.t / 0.02), 0.0])
+        else:
+            along = np.array([math.sin(0.4), math.cos(0.4), 0.0])
+            force = -mass * 0.5 * math.cos(2 * math.pi * 30.0 * s.t + 0.7) * along
+        power.append(force @ velocity)
+        energy.append(mass * s.v @ s.v / 2 + np.dot(s.W, [0.2, 0.3, 0.1] * s.W) / 2)
+    work = np.concatenate([[0.0], np.cumsum(np.array(power)[1:] + np.array(power)[:-1]) * h / 2])
+    # Both are of second order in the step: (h/tau)^2/12 = 2e-6, (omega h)^2/12 = 3e-5.
+    assert np.abs(np.array(energy) - energy[0] - work).max() < 1e-4 * np.abs(work).max()
+    assert np.abs(work).max() > 5e-4
