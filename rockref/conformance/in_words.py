@@ -6,7 +6,7 @@ import math
 
 from rockref.conformance.compare import Check
 from rockref.conformance.judge import LAYERS, Findings
-from rockref.conformance.rules import BY_ID, RULES
+from rockref.conformance.rules import BY_ID, PIECES, RULES
 from rockref.conformance.runs import RunCheck
 from rockref.conformance.vectors import AS_RUN, layer, manifest
 from rockref.conformance.verdict import Verdict, alike, downstream_of, grades
@@ -136,6 +136,18 @@ def neighbour_lines(v: Verdict) -> list[str]:
     ]
 
 
+def unseen(v: Verdict) -> list[str]:
+    """For who passes: the rules that no piece shows and on which no run depends, as runs are given what they make."""
+    hidden = {
+        piece: [r for r in rules if v.rules[r] == "not shown"]
+        for piece, rules in PIECES.items()
+        if piece not in v.findings.pieces
+    }
+    said = [f"{' '.join(rules)} ({piece})" for piece, rules in hidden.items() if rules]
+    why = "no piece shows them, and runs are given their points, constants and start"
+    return [f"Not seen: {', '.join(said)}; {why}"] if said else []
+
+
 def passing(f: Findings) -> str:
     """The word for who passes: in which profile, and what was not asked."""
     left = [name for name in LAYERS if name not in f.layers]
@@ -163,6 +175,7 @@ def text(v: Verdict, colour: bool = False) -> str:
         lines.append(f"Effects (LE): {len([e for e in claimed if not e.failed])} of {len(claimed)} claimed ones inside")
     lines += [f"  {e.effect}: {e.note or bars(e.worst)}" for e in claimed if e.failed]
     lines += ["Rules:"] + rule_lines(v) if v.status == "FAIL" else []
+    lines += unseen(v) if v.passed and "L5s" in f.layers else []
     lines += [f"Remark: {r}" for r in f.remarks]
     counted = grades(v)
     told = ", ".join(

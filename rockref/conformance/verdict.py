@@ -17,6 +17,8 @@ from rockref.conformance.vectors import AS_RUN, layer, manifest
 LOOP = "All pieces pass by themselves; the run that is made of them does not."
 NO_RULE = "No short run diverges: the first divergent sample of the long ones is all that is known."
 A_STEP = "A whole step is wrong, and no short run tells by which rule: it is this one, or one that comes before it."
+HANDED = "The piece by itself passes: look at what the step hands to it."
+COMPANY = "The piece by itself passes; where several feet stand together, at the very start of a run, it does not."
 SMALL = ("L0", "L1", "L2", "L3", "L7")
 
 
@@ -121,7 +123,7 @@ def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None,
         if layers == SMALL or check.rule not in good:
             return check.rule, check, ""
         if layers == ("L4",):
-            return check.rule, check, "The piece by itself passes: look at what the step hands to it."
+            return in_company(checks) or (check.rule, check, HANDED)
         others = [c for c in checks if c.layer == "L5s" and c.rule not in good]
         unproved = first(others)
         whole = {"step", "integrate"} & set(pieces)
@@ -129,6 +131,14 @@ def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None,
             return unproved.rule, unproved, ""
         return "S2", check, LOOP
     return None, None, ""
+
+
+def in_company(checks: Sequence[Check]) -> tuple[str, Check, str] | None:
+    """The rule that is wrong at the start state of a short run already, before any step: what a step hands on is
+    not to blame then. For who shows pieces of one foot, and is wrong where there are several."""
+    check = first([c for c in checks if c.layer == "L5s"])
+    at_start = check is not None and check.weighed and check.name.endswith("@0")
+    return (check.rule, check, COMPANY) if check is not None and at_start else None
 
 
 def unanswered(checks: Sequence[Check]) -> str:

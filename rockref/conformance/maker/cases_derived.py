@@ -42,17 +42,29 @@ def derived() -> Iterator[Case]:
             yield Case(rule, "L0", "derived", q, fields, flags)
 
 
+def released(q: dict, theta: float, flag: str) -> Case:
+    """R1 of a block on its points by Table 3.1, changed, at that tilt [rad]."""
+    inputs = {k: q[k] for k in ("mass", "P", "K_N")} | {"g": G, "theta_0": theta}
+    return Case("R1", "L0", "release", inputs, {"x": ("R1", "R1"), "Lambda": ("R1", "R1")}, (flag,))
+
+
+def stiffened(q: dict) -> dict:
+    """The same with stiffnesses of which hardly two are alike."""
+    return q | {"K_N": q["K_N"] * np.array([1, 1.5, 1, 1.25, 0.75, 1, 1, 2])}
+
+
 def release() -> Iterator[Case]:
     """R1: both pivots bear half the weight, on even and uneven feet and stiffnesses."""
     base = table_3_1()
-    uneven = base | {"K_N": base["K_N"] * np.array([1, 1.5, 1, 1.25, 0.75, 1, 1, 2])}
-    for q, theta, flag in (
-        (base, THETA_0, "table 3.1"),
-        (table_3_1(delta_long=(0.0, 2e-4, 1e-4, 0.0)), 0.09375, "uneven feet"),
-        (uneven, 0.0625, "uneven stiffness"),
-    ):
-        inputs = {k: q[k] for k in ("mass", "P", "K_N")} | {"g": G, "theta_0": theta}
-        yield Case("R1", "L0", "release", inputs, {"x": ("R1", "R1"), "Lambda": ("R1", "R1")}, (flag,))
+    yield released(base, THETA_0, "table 3.1")
+    yield released(table_3_1(delta_long=(0.0, 2e-4, 1e-4, 0.0)), 0.09375, "uneven feet")
+    yield released(stiffened(base), 0.0625, "uneven stiffness")
+
+
+def inner_pivots() -> Iterator[Case]:
+    """R1 where external feet are so high that the block leans on internal ones: on one, on two."""
+    yield released(table_3_1(delta_long=(0.0, 8e-4, 1e-4, 0.0)), 0.09375, "an internal pivot")
+    yield released(stiffened(table_3_1(delta_long=(9e-4, 8e-4, 0.0, 0.0))), 0.09375, "two internal pivots")
 
 
 def channel() -> Iterator[Case]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from rockref.conformance.pieces import Rules
 from rockref.conformance.zoo.mistake import Mistake
-from rockref.model import geometry
+from rockref.model import geometry, release
 from rockref.model.assembly import resultant_force, sum_over_points
 from rockref.model.integrator import times
 from rockref.model.problem import Problem, State
@@ -61,6 +61,10 @@ def lowered(width, depth, height, delta_long, delta_diag):
     return geometry.eight_points(width, depth, height, -np.asarray(delta_long), delta_diag)
 
 
+def level(width, depth, height, delta_long, delta_diag):
+    return geometry.eight_points(width, depth, height, 0 * np.asarray(delta_long), delta_diag)
+
+
 def points_read(change):
     """A run that uses `change` of the points (n, 3)."""
 
@@ -85,6 +89,11 @@ def raised_reversed(P):
     return P
 
 
+def all_at_the_base(P):
+    P[..., 2] = np.min(P[..., 2])
+    return P
+
+
 def properties_read(**changes):
     """A run that uses changed properties: name -> function of the points."""
 
@@ -103,6 +112,12 @@ def without_roll(block, points, theta_0):
     height = np.min(apply_to_points(Lambda, points.P)[..., 2])
     x = np.array([0, 0, -height - block.mass * block.g / 2 / points.K_N[0]], points.P.dtype)
     return State.at_rest(x, Lambda, points.n)
+
+
+def on_the_corners(block, points, theta_0):
+    """The pivots are taken among the external points, wherever the internal ones are."""
+    out_of_reach = points.P + np.where(np.arange(points.n) < 4, 0, 1)[:, None] * np.array([0, 0, 1], points.P.dtype)
+    return release.release_posture(block, replace(points, P=out_of_reach), theta_0)
 
 
 # -- A: sums over the points ----------------------------------------------------------------------------------------
@@ -260,6 +275,10 @@ OF_PARAMETERS = (
         _one(points=lowered), points_read(raised_reversed),
     ),
     Mistake(
+        "Z103", "G2", "heights of the external points forgotten",
+        _one(points=level), points_read(all_at_the_base),
+    ),
+    Mistake(
         "Z07", "P1", "total stiffness shared among the eight points",
         _one(stiffness=lambda K, n: np.full(n, K / n)),
         properties_read(K_N=lambda p: p.K_N / 8, K_T=lambda p: p.K_T / 8),
@@ -279,6 +298,7 @@ OF_PARAMETERS = (
         _one(damping_ratio=lambda beta: (beta, 0 * beta)), properties_read(C_T=lambda p: 0 * p.C_T),
     ),
     Mistake("Z87", "R1", "tilted about X only: one corner hangs in the air", _one(release=without_roll)),
+    Mistake("Z102", "R1", "pivots among the external points only", _one(release=on_the_corners)),
 )  # fmt: skip
 
 OF_SUMS = (

@@ -1,6 +1,7 @@
 """The judge judged: every mistake is found and named by its pieces, no control is rejected."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -9,6 +10,7 @@ from rockref.conformance.judge import judge
 from rockref.conformance.runs import judge_runs
 from rockref.conformance.verdict import verdict
 from rockref.conformance.zoo import run as zoo_run
+from rockref.conformance.zoo.mistake import Mistake
 from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
 from rockref.conformance.zoo.run import case_of_control, case_of_mistake, in_markdown, run_zoo, summary
 
@@ -64,6 +66,34 @@ def test_what_the_first_short_runs_let_through_or_misnamed_is_named(id_):
     mistake = BY_ID[id_]
     v = verdict(judge(zoo_run.BlackBox(mistake.backend()), ["L4", "L5s"]))
     assert v.rule == mistake.rule, in_words.text(v)
+
+
+@pytest.mark.parametrize("id_", ["Z89", "Z96", "Z98", "Z102", "Z103"])
+def test_what_pieces_let_through_or_misnamed_is_named(cases, id_):
+    case = next(c for c in cases if c["id"] == id_)
+    assert case["attributed"], case
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("feet", [slice(0, 4), slice(4, 8), slice(0, 8), slice(2, 3)], ids=str)
+def test_a_black_box_that_misplaces_its_points_is_found(axis, feet):
+    def moved(problem):
+        if problem.points.n != 8:
+            return problem
+        P = problem.points.P.copy()
+        P[feet, axis] += 0.01
+        return replace(problem, points=replace(problem.points, P=P))
+
+    mistake = Mistake("Z00", "G2", "points 10 mm off", read=moved)
+    v = verdict(judge(zoo_run.BlackBox(mistake.backend()), ["L4", "L5s"]))
+    assert v.status == "FAIL", in_words.text(v)
+
+
+def test_what_a_pass_does_not_tell_is_said():
+    law = CONTROLS[0].backend()
+    told = in_words.text(verdict(judge(zoo_run.BlackBox(law), ["L4", "L5s"])))
+    assert "PASS" in told and "Not seen: G1 G2 P1 P2 P3 (derived), R1 (release), M1 (channel)" in told
+    assert "Not seen" not in in_words.text(verdict(judge(law, ["L0", "L1", "L2", "L3", "L4", "L5s", "L7"])))
 
 
 @pytest.mark.parametrize("id_", ["Z02", "Z12", "Z25", "Z27", "Z81"])
