@@ -28,6 +28,7 @@ from rockref.identify.source_facts import LONG, facts
 from rockref.identify.target import twin
 from rockref.identify.twins import EFFORT, REFERENCE_STEP, SEEDS, twin_experiments
 from rockref.measure.experiment import load_experiment
+from rockref.model.errors import InputError
 from rockref.model.housner import housner
 from rockref.model.storage import write_bytes, write_text
 from rockref.report import source_figures
@@ -38,6 +39,10 @@ from rockref.report.source_page import source_page
 
 #: Dots an inch of the pictures in the page, which must stay below two megabytes with all of them; decided.
 PAGE_DPI = 88
+
+
+#: The parts of the study, in the order in which they are made: quick ones first.
+PARTS = ("response", "sensitivity", "scenarios", "reduction", "identification", "twins")
 
 
 @dataclass(frozen=True)
@@ -77,13 +82,18 @@ def reproduce(
     budget: Budget,
     workers: int | None = None,
     say: Callable[[str], None] = lambda line: None,
+    only: Sequence[str] = (),
 ) -> Path:
     """Make everything that is not yet in `folder`, and the page; returns its path.
 
     experiment : to identify, a folder; without one that study is left out and the page has no section about it.
+    only : names of the parts that are wanted, on a page with their names (all, on index.html).
 
-    Raises InputError as the studies; E-WRITE, E-PAGE-SIZE.
+    Raises InputError as the studies; E-KEY for a part that is not known; E-WRITE, E-PAGE-SIZE.
     """
+    for part in only:
+        if part not in PARTS:
+            raise InputError("E-KEY", "--only", f"is {part!r}", f"Use one of {', '.join(PARTS)}.")
     for part in ("", "pieces", "figures", "checkpoints"):
         made_folder(folder / part)
     digests = load_experiment(experiment).digests if experiment else {}
@@ -92,12 +102,16 @@ def reproduce(
     results: dict[str, Any] = {}
     with campaign(workers) as work:
         for name, make in _studies(folder, experiment, digests, budget, work, art).items():
+            if only and name not in only:
+                continue
             say(name)
             results[name] = make(kept)
     say("page")
-    write_text(folder / "results.json", json.dumps(results, indent=1) + "\n")
+    # Parts alone have files of their own: the page of everything stays.
+    alone = "-".join(only)
+    write_text(folder / f"{alone or 'results'}.json", json.dumps(results, indent=1) + "\n")
     provenance = {"versions": versions(), "inputs": digests, "budget": asdict(budget)}
-    return source_page(results, art.pictures, provenance).write(folder / "index.html")
+    return source_page(results, art.pictures, provenance).write(folder / f"{alone or 'index'}.html")
 
 
 class _Art:
@@ -117,7 +131,7 @@ class _Art:
 def _studies(
     folder: Path, experiment: Path | None, digests: dict[str, str], budget: Budget, work: Campaign, art: _Art
 ) -> dict[str, Callable[[Pieces], Any]]:
-    """What is made, by name, in this order: quick ones first."""
+    """What is made, by name, in the order of `PARTS`."""
     model = Model.table_3_1()
 
     def identified() -> dict[str, Any]:

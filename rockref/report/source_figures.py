@@ -110,7 +110,7 @@ def reduction_figure(result: dict[str, Any]) -> Any:
         ax.set_xlabel("generation", fontsize=8)
     for ax in axes[::3]:
         ax.set_ylabel("in parts of the range", fontsize=8)
-    figure.subplots_adjust(hspace=0.25)
+    figure.subplots_adjust(hspace=0.25, top=0.88)
     figure.suptitle("Genes of the best chromosome, 54-gene search", fontsize=10, x=0.02, ha="left")
     return figure
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rockref.model.parameters import TABLE_3_1
@@ -11,15 +11,19 @@ from rockref.report.page import Page, Table
 
 
 def source_page(results: dict[str, Any], pictures: dict[str, bytes], provenance: dict[str, Any]) -> Page:
-    """The page of the results by study, and the pictures (PNG) by name."""
-    page = Page("The source, reproduced", "Every study of the source made again with the law, beside what it states.")
-    _response(page, results["response"], pictures)
-    _sensitivity(page, results["sensitivity"], pictures)
-    if results.get("identification"):
-        _identification(page, results["identification"])
-    _twins(page, results["twins"], pictures)
-    _reduction(page, results["reduction"], pictures)
-    _scenarios(page, results["scenarios"], pictures)
+    """The page of the results by study, those that there are, and the pictures (PNG) by name."""
+    page = Page("The source, reproduced", "The studies of the source made again with the law, beside what it states.")
+    sections: dict[str, Callable[[Page, Any, dict[str, bytes]], None]] = {
+        "response": _response,
+        "sensitivity": _sensitivity,
+        "identification": _identification,
+        "twins": _twins,
+        "reduction": _reduction,
+        "scenarios": _scenarios,
+    }
+    for name, add in sections.items():
+        if name in results:
+            add(page, results[name], pictures)
     page.add_section("Where this comes from")
     page.add_provenance(provenance)
     return page
@@ -57,7 +61,7 @@ def _sensitivity(page: Page, result: dict[str, Any], pictures: dict[str, bytes])
     page.add_table(sensitivity_text.digits_table(result))
 
 
-def _identification(page: Page, result: dict[str, Any]) -> None:
+def _identification(page: Page, result: dict[str, Any], pictures: dict[str, bytes]) -> None:
     page.add_section("Identification on the control experiment", identification_text.sentences(result))
     page.add_table(identification_text.parameters_table(result))
     page.add_table(identification_text.terms_table(result))

@@ -23,7 +23,11 @@ def studies(monkeypatch):
     called = []
 
     def made(name):
-        return lambda folder, data, workers, quick, say: called.append((name, folder, workers, quick)) or folder / "p"
+        def make(folder, data, workers, quick, say, only):
+            called.append((name, folder, workers, quick))
+            return folder / "p"
+
+        return make
 
     monkeypatch.setattr(reproduce, "STUDIES", {"source": made("source"), "other": made("other")})
     return called
@@ -34,7 +38,9 @@ def studies(monkeypatch):
 )
 def test_the_study_may_be_named_and_is_the_source_by_default(capsys, studies, words, wanted):
     code, out, _ = run(capsys, "reproduce", *words, "--workers", 1, "--json")
-    assert code == 0 and json.loads(out)["study"] == wanted
+    record = json.loads(out)
+    assert code == 0 and record["study"] == wanted
+    assert record["seconds"] >= 0 and record["processor_seconds"] > 0
     assert studies == [(wanted, Path("out"), 1, False)]
 
 
@@ -42,6 +48,22 @@ def test_the_study_may_be_named_and_is_the_source_by_default(capsys, studies, wo
 def test_a_study_that_is_not_there_or_has_no_folder_is_unusable_input(capsys, studies, words):
     code, _, err = run(capsys, "reproduce", *words)
     assert code == 2 and not studies and "reproduce" in err or "Use one of" in err
+
+
+@pytest.mark.parametrize("words", [["out", "--only", "twin"], ["cube", "out", "--only", "twins"]])
+def test_a_part_that_is_not_there_is_unusable_input(capsys, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    code, _, err = run(capsys, "reproduce", *words)
+    assert code == 2 and "--only" in err and not list(tmp_path.iterdir())
+
+
+def test_a_part_alone_has_a_page_of_its_own(capsys, tmp_path):
+    pytest.importorskip("numba")
+    code, out, _ = run(capsys, "reproduce", tmp_path / "r", "--only", "response", "--workers", 1)
+    page = (tmp_path / "r/response.html").read_text(encoding="utf-8")
+    assert code == 0 and "s of processor time" in out
+    assert "What the source states" in page and "Twin experiments" not in page
+    assert list(json.loads((tmp_path / "r/response.json").read_text())) == ["response"]
 
 
 @pytest.mark.slow
