@@ -14,7 +14,7 @@ from types import ModuleType
 
 from rockref.effects.base import HOOKS, Effect, Quantity
 from rockref.effects.guard import guard, line_in
-from rockref.effects.probe import probe
+from rockref.effects.probe import probe, probe_absent
 from rockref.model.errors import InputError
 
 HELP = "See examples/my_effect.py."
@@ -54,6 +54,7 @@ def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
         raise InputError("E-EFFECT", spec, f"the id {kind.id!r} is that of a built-in effect", "Choose another id.")
     guard(kind, spec)
     probe(kind.typical(), spec)
+    probe_absent(kind(), spec)
     return kind
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from rockref import InputError, Model, cli, simulate
 from rockref.effects import catalogue
-from rockref.effects.probe import sample_problem
+from rockref.effects.probe import probe_absent, sample_problem
 from rockref.effects.user import load_user
 from rockref.model.integrator import evaluate_contact
 
@@ -289,6 +289,58 @@ def test_hooks_of_a_class_between_are_guarded(tmp_path):
     kind = load_user(written(tmp_path, text).replace(":Mine", ":Yours"))
     with pytest.raises(InputError, match=r"mine\.py:Yours\.sensor: crv has shape \(1, 3\)"):
         kind(1.0).sensor(np.arange(7.0), np.zeros((7, 3)))
+
+
+PRESENT = {
+    "a force of its own": (
+        "    def body_wrench(self, problem, c, x, Lambda, v, W, m):\n        return 1.0 + 0 * x, np.zeros_like(x)\n",
+        "body_wrench",
+    ),
+    "a factor without one": (
+        "    def normal_force(self, F, k, points, m):\n        return F * self.c\n",
+        "normal_force",
+    ),
+    "half the friction": (
+        "    def friction_coefficient(self, mu_0, mu, F_N, k, points, m):\n        return mu_0, mu * (0.5 + self.c)\n",
+        "friction_coefficient",
+    ),
+    "another body": (
+        "    def points(self, block, points):\n        return replace(block, mass=block.mass * 1.1), points\n",
+        "points",
+    ),
+    "a push": (
+        "    def release(self, block, points, state):\n        return replace(state, v=state.v + 0.1)\n",
+        "release",
+    ),
+    "a plate that moves": (
+        "    def start(self, problem):\n        return {'q': np.zeros_like(problem.start.x)}\n"
+        "    def plate_motion(self, t, m):\n        return m['q'] + 1e-6, m['q']\n",
+        "plate_motion",
+    ),
+    "a bias": ("    def sensor(self, t, crv):\n        return crv + 1e-3\n", "sensor"),
+}
+
+
+@pytest.mark.parametrize("mistake", PRESENT)
+def test_what_is_there_while_it_is_absent_is_explained(tmp_path, mistake):
+    """Models drop an absent effect: one that acts there would jump when its number leaves the absent value."""
+    text, hook = PRESENT[mistake]
+    with pytest.raises(InputError, match=rf"{hook}: changes something where the effect is absent \(c=0\)") as found:
+        load_user(written(tmp_path, text))
+    assert found.value.code == "E-EFFECT"
+
+
+def test_what_rounds_or_cannot_be_computed_while_absent_is_no_mistake(tmp_path):
+    """0/0 at the absent value is never met, and a power of one may round."""
+    divided = "    def normal_force(self, F, k, points, m):\n        return F * (np.sin(self.c) / self.c) ** 2\n"
+    assert load_user(written(tmp_path, divided))().is_absent()
+    rounded = "    def normal_force(self, F, k, points, m):\n        return (F / 3.7e5 + self.c) * 3.7e5\n"
+    assert load_user(written(tmp_path, rounded))().is_absent()
+
+
+@pytest.mark.parametrize("kind", catalogue.IN_STEP_ORDER, ids=lambda kind: kind.id)
+def test_the_built_in_ones_change_nothing_while_absent(kind):
+    probe_absent(kind(), kind.id)
 
 
 def test_a_good_one_passes(tmp_path):
