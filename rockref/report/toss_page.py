@@ -79,6 +79,7 @@ def add_stretches(page: Page, rows: list[dict[str, Any]]) -> None:
     )
     for row in rows:
         page.add_table(toss_text.stretches_table(row))
+    page.add_table(toss_text.sliding_table([row for row in rows if row["use"] == use]))
 
 
 def stretches_picture(rows: list[dict[str, Any]]) -> bytes:

@@ -22,12 +22,12 @@ ARCS = {f"g_{a}": (f"gravity, {a} (x against the throw)" if a == "x" else f"grav
 ARCS |= {f"centre_{a}": (f"centre of mass, {a}", 1e3, "mm") for a in "xyz"}
 
 
-def error_cells(summary: dict[str, Any], quartiles: bool = True) -> tuple[str, ...]:
+def error_cells(summary: dict[str, Any]) -> tuple[str, ...]:
     """Mean ± deviation, median and quartiles of position and rotation."""
     cells: list[str] = []
     for a in (summary["position_percent"], summary["rotation_deg"]):
-        around = f" ({a['lower_quartile']:.1f} to {a['upper_quartile']:.1f})" if quartiles else ""
-        cells += [f"{a['mean']:.1f} ± {a['sd']:.1f}", f"{a['median']:.1f}{around}"]
+        cells.append(f"{a['mean']:.1f} ± {a['sd']:.1f}")
+        cells.append(f"{a['median']:.1f} ({a['lower_quartile']:.1f} to {a['upper_quartile']:.1f})")
     return tuple(cells)
 
 
@@ -110,41 +110,37 @@ def measured_table(found: dict[str, Any]) -> Table:
     return Table("Without a contact model", ("what", "value", "unit"), tuple(rows), "First impacts on one corner.")
 
 
-def staircase_table(record: dict[str, Any]) -> Table:
-    """Held-out errors after each added effect."""
-    first = record["nominal_holdout"]
-    rows = [
-        (
-            "stated values",
-            "",
-            *error_cells(first["flight"], quartiles=False),
-            "",
-            error_cells(first["raw"])[0],
-            error_cells(first["raw"])[2],
-        )
-    ]
-    for s in record["staircase"]:
-        proof = s["proof"]
-        fall = f"{proof['mean']:.2f} ({proof['low']:.2f} to {proof['high']:.2f})"
-        raw = error_cells(s["holdout"]["raw"])
-        rows.append(
-            (s["added"].split(":")[0], s["verdict"], *error_cells(s["holdout"]["flight"], quartiles=False), fall,
-             raw[0], raw[2])
-        )  # fmt: skip
-    head = (
-        "added",
-        "verdict",
-        "position %",
-        "median",
-        "rotation deg",
-        "median",
-        "falls by (90 %)",
-        "raw: position",
-        "rotation",
+def _brief(summary: dict[str, Any]) -> tuple[str, str]:
+    """Mean and median of position and rotation."""
+    p, r = summary["position_percent"], summary["rotation_deg"]
+    return f"{p['mean']:.1f} ({p['median']:.1f})", f"{r['mean']:.1f} ({r['median']:.1f})"
+
+
+def sliding_table(rows: list[dict[str, Any]]) -> Table:
+    """Friction of a face that slides flat by speed, from how the tosses slow down and from how those of models do."""
+    parts = [("measured", rows[0]["sliding"]["measured"]), *((r["model"], r["sliding"]["model"]) for r in rows)]
+    speeds = list(dict.fromkeys(k for _, part in parts for k in part))
+    cells = tuple(
+        (speed, *(with_error(part[speed]["value"], part[speed]["se"]) if speed in part else "" for _, part in parts))
+        for speed in speeds
     )
+    note = f"Deceleration over the model's gravity, read from the poses in the same way; {rows[0]['use']} tosses."
+    return Table("Friction of a face that slides flat", ("speed", *(name for name, _ in parts)), cells, note)
+
+
+def staircase_table(record: dict[str, Any]) -> Table:
+    """Held-out errors after each added effect: mean and median of position and rotation from both starts."""
+    first = record["nominal_holdout"]
+    rows = [("stated values", "", *_brief(first["flight"]), "", *_brief(first["raw"]))]
+    for s in record["staircase"]:
+        proof, held = s["proof"], s["holdout"]
+        fall = f"{proof['mean']:.2f} ({proof['low']:.2f} to {proof['high']:.2f})"
+        rows.append((s["added"].split(":")[0], s["verdict"], *_brief(held["flight"]), fall, *_brief(held["raw"])))
+    head = ("added", "verdict", "position %", "rotation deg", "falls by (90 %)", "raw: position %", "rotation deg")
     f = record["floor"]
     note = (
-        f"Held-out tosses. A true model would have {f['position_percent']:.1f} % and {f['rotation_deg']:.1f} deg "
+        "Held-out tosses, means, medians in brackets. "
+        f"A true model would have {f['position_percent']:.1f} % and {f['rotation_deg']:.1f} deg "
         f"(medians {f['position_percent_median']:.1f}, {f['rotation_deg_median']:.1f}): the uncertainty of the starts."
     )
     if record["not_needed"]:
@@ -169,9 +165,10 @@ def print_toss_comparison(console: Console, record: dict[str, Any]) -> None:
     if record["copies"]:
         console.print(f"{len(record['copies'])} turned copies of other tosses were set aside.", highlight=False)
     print_table(console, errors_table(record))
-    for row in record["rows"]:
-        if row["start"] == "flight":
-            print_table(console, stretches_table(row))
+    flights = [row for row in record["rows"] if row["start"] == "flight"]
+    for row in flights:
+        print_table(console, stretches_table(row))
+    print_table(console, sliding_table([row for row in flights if row["use"] == flights[-1]["use"]]))
     print_table(console, measured_table(record["measured"]))
 
 

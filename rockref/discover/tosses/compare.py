@@ -37,11 +37,12 @@ class Row:
     start: str
     errors: Errors
     stretches: list[dict[str, Any]]
+    sliding: dict[str, dict[str, Any]]
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers."""
         return {"model": self.model, "use": self.use, "start": self.start} | self.errors.summary() | {
-            "stretches": self.stretches
+            "stretches": self.stretches, "sliding": self.sliding,
         }  # fmt: skip
 
 
@@ -97,10 +98,17 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
     found = predict(model, poses, start)
     e = errors(found, poses, width)
     # Where a toss is in its course is said of the measurement, by the same drawn corners for every model.
-    x, Lambda = frames_of(plain_law(model), throw_frame(poses)).to_body(poses.x, poses.Lambda)
-    where = stretch_of(poses._replace(x=x, Lambda=Lambda), nominal_corners(model))
+    frames, P = frames_of(plain_law(model), throw_frame(poses)), nominal_corners(model)
+    x, Lambda = frames.to_body(poses.x, poses.Lambda)
+    seen = poses._replace(x=x, Lambda=Lambda)
+    where = stretch_of(seen, P)
     energy = ledger(model, found, poses, where)
-    return Row(name, use, start, e, [s | {"energy_lost": energy[s["stretch"]]} for s in by_stretch(where, e)])
+    stretches = [s | {"energy_lost": energy[s["stretch"]]} for s in by_stretch(where, e)]
+    x, Lambda = frames.to_body(found.x, np.nan_to_num(found.Lambda))
+    both = {"measured": seen, "model": poses._replace(x=x, Lambda=Lambda)}
+    g = float(model.body()[0].g)
+    sliding = {k: toss_sliding.sliding_friction(v, P, g).to_dict()["values"] for k, v in both.items()}
+    return Row(name, use, start, e, stretches, sliding)
 
 
 def nominal_corners(model: Model) -> np.ndarray:

@@ -11,7 +11,7 @@ from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.measure.flight import side_by_side
 from rockref.measure.toss_energy import rises, stated_energy
 from rockref.measure.tosses import Toss, load_tosses
-from rockref.report.toss_text import stretches_table, with_error
+from rockref.report.toss_text import sliding_table, stretches_table, with_error
 from tests.tosses import RATE, made, stated, write_tosses
 
 
@@ -54,6 +54,18 @@ def test_the_ledger_of_the_true_model_is_that_of_the_tosses_and_another_has_anot
     first = next(s for s in other["stretches"] if s["stretch"] == "first impact")["energy_lost"]
     assert first["model_percent"] < first["measured_percent"] - 5
     assert f"{first['measured_percent']:.1f}" in stretches_table(other).rows[1]
+
+
+def test_the_friction_of_a_sliding_face_is_read_from_a_prediction_as_from_the_tosses(tosses):
+    slippery = apply(stated(), law_parameters(stated())[4:], np.array([-2.0]))
+    rows = compare(tosses, [stated(), slippery], ["true", "slippery"]).to_dict()["rows"]
+    rows = [r for r in rows if r["use"] == "fit" and r["start"] == "flight"]
+    friction = 0.18 * np.array([1.0, np.exp(-0.4)])
+    for row, mu in zip(rows, friction, strict=True):
+        speeds = row["sliding"]["model"]
+        assert speeds and all(v["value"] == pytest.approx(mu, rel=0.05) for v in speeds.values())
+        assert all(v["value"] == pytest.approx(0.18, rel=0.05) for v in row["sliding"]["measured"].values())
+    assert list(sliding_table(rows).columns) == ["speed", "measured", "true", "slippery"]
 
 
 def falling(W: np.ndarray) -> Toss:
