@@ -53,7 +53,7 @@ def add(
 
         return add_to_model_of_tosses(effect, experiment, model, output, report, verbose, as_json)
     from rockref.commands._models import named_model
-    from rockref.commands._results import say_written
+    from rockref.commands._results import say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
     from rockref.discover.diagnosis_record import plain
@@ -61,6 +61,7 @@ def add(
 
     given = named_model(model) if model is not None else None
     folder = usable_folder(report) if report is not None else None
+    usable_files(output)
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = run_addition(effect, experiment, given, seed, workers, progress=say)
     found.model.save(output)

@@ -53,7 +53,7 @@ def diagnose(
 
         return diagnose_tosses(experiment, model, report, output, save_model, verbose, as_json)
     from rockref.commands._models import named_model
-    from rockref.commands._results import keep, say_written
+    from rockref.commands._results import keep, say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
@@ -61,6 +61,7 @@ def diagnose(
 
     given = named_model(model) if model is not None else None
     folder = usable_folder(report) if report is not None else None
+    usable_files(output, save_model)
     with stages(f"diagnosing {experiment}", every_line=verbose) as say:
         found = engine.diagnose(experiment, given, seed, workers, progress=say)
         record = plain(found.to_dict())

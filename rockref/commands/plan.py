@@ -39,12 +39,14 @@ def plan(
       rockref plan --model model.toml --runs 0.117,0.1,0.117t --json > plan.json
     """
     from rockref.commands._models import named_model
+    from rockref.commands._results import usable_files
     from rockref.commands._stages import stages
     from rockref.discover.diagnosis_record import plain
     from rockref.discover.plan import plan as run_plan
     from rockref.discover.plan import releases_from
     from rockref.model.storage import write_text
 
+    usable_files(output)
     planned = releases_from(runs)
     with stages("planning", every_line=verbose) as say:
         found = run_plan(named_model(model), planned, effect or None, seed=seed, workers=workers, progress=say)

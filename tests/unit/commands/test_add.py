@@ -64,3 +64,9 @@ def test_what_is_refused_leaves_no_folder(capsys, tmp_path):
     assert code == 2 and not (tmp_path / "page").exists()
     code, _, err = run(capsys, "quadratic_drag", "anywhere", "--report", "")
     assert code == 2 and "is empty" in err
+
+
+def test_a_model_that_could_not_be_written_is_refused_before_the_work(capsys, monkeypatch, tmp_path):
+    monkeypatch.setattr(adding, "add", lambda *a, **k: pytest.fail("the work was begun"))
+    code, _, err = run(capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "nowhere" / "m.toml")
+    assert code == 2 and "[E-WRITE]" in err

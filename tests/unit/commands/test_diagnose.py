@@ -83,6 +83,13 @@ def test_unusable_input_ends_with_2(capsys, tmp_path):
     assert (code, out) == (2, "") and "[E-FOLDER]" in err
 
 
+@pytest.mark.parametrize("option", ["--output", "--save-model"])
+def test_what_could_not_be_written_is_refused_before_the_work(capsys, monkeypatch, made, tmp_path, option):
+    calls = answer(monkeypatch, fakes.diagnosis("none", made))
+    code, out, err = run(capsys, "anywhere", option, tmp_path / "nowhere" / "file.toml")
+    assert (code, out, calls) == (2, "", []) and "[E-WRITE]" in err
+
+
 def test_a_record_without_its_keys_is_refused(tmp_path):
     (tmp_path / "no.json").write_text("{}")
     with pytest.raises(InputError, match="E-JSON"):

@@ -39,3 +39,9 @@ def test_unknown_effect_is_named(capsys, tmp_path):
         fitting.known_effects(("quadratic_dra",))
     code, _, err = run(capsys, tmp_path / "nowhere", "-o", tmp_path / "m.toml")
     assert code == 2 and "[E-FOLDER]" in err and not (tmp_path / "m.toml").exists()
+
+
+def test_a_model_that_could_not_be_written_is_refused_before_the_work(capsys, monkeypatch, tmp_path):
+    monkeypatch.setattr(fitting, "fit_experiment", lambda *a, **k: pytest.fail("the work was begun"))
+    code, _, err = run(capsys, "anywhere", "-o", tmp_path)
+    assert code == 2 and "[E-WRITE]" in err and "is a folder" in err
