@@ -50,6 +50,19 @@ def test_dimension_deviation_is_a_model_of_other_sides(side, factor):
     assert block.mass == block_2.mass
 
 
+def test_feet_that_stand_elsewhere_on_the_stated_body():
+    """Without a share the points move and the tensor stays; half a share is a body of half the deviation."""
+    table, sides = Model.table_3_1(), {"width": 1.01, "depth": 0.98, "height": 1.02}
+    _, moved = table.replace(effects=(DimensionDeviation(**sides),)).body()
+    block, points = table.replace(effects=(DimensionDeviation(**sides, inertia_share=0.0),)).body()
+    assert np.array_equal(points.P, moved.P)
+    # A few roundings on the way through the second moments.
+    assert block.inertia == pytest.approx(table.body()[0].inertia, rel=1e-14)
+    half = DimensionDeviation(**{side: 1 + (s - 1) / 2 for side, s in sides.items()})
+    between, _ = table.replace(effects=(DimensionDeviation(**sides, inertia_share=0.5),)).body()
+    assert between.inertia == pytest.approx(table.replace(effects=(half,)).body()[0].inertia, rel=1e-14)
+
+
 def test_inertia_deviation_keeps_a_tensor_a_tensor():
     J = np.array([[2.0, 0.1, -0.2], [0.1, 2.2, 0.05], [-0.2, 0.05, 0.4]])
     effect = InertiaDeviation(1.1, 0.9, 1.2)
