@@ -24,6 +24,11 @@ SHAPES = {
     ("compliant_support", "mass"): 0.7,
     ("compliant_support", "ratio"): 0.7,
 }
+#: Parameters between two laws, on a straight scale from one to the other: they begin half way. name -> centre, spread.
+BETWEEN = {("dimension_deviation", "inertia_share"): (0.5, 0.5)}
+SHAPES |= {key: spread for key, (_, spread) in BETWEEN.items()}
+#: Prior standard deviation of those, in such spreads; decided: flat, within what is possible.
+FLAT = 2.0
 #: Parameters that are kept at what they are by default, since no record of a release can tell them from another one.
 FIXED = {
     ("load_dependent_friction", "reference"),
@@ -104,6 +109,9 @@ def parameter_of(kind: type[Effect], key: str, q: Quantity) -> Parameter:
     """One parameter of an effect as a number that a fit can move."""
     typical, absent = float(q.typical or 0.0), float(q.absent or 0.0)
     make = partial(Parameter, f"{kind.id}.{key}", unit=q.unit, step=0.05)
+    if (kind.id, key) in BETWEEN:
+        centre, spread = BETWEEN[kind.id, key]
+        return make(setter(kind, key), centre, spread, prior=FLAT, low=q.least, high=q.most)
     if (kind.id, key) in SHAPES:
         return make(setter(kind, key), typical, SHAPES[kind.id, key], log=True, prior=1.0)
     if kind.id in FACTORS:

@@ -30,15 +30,15 @@ from rockref.discover.families import (
 )
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
-from rockref.discover.looking import PLAIN, POLISH, Look, challenge, duel, look_further
+from rockref.discover.looking import POLISH, Look, duel, look_further
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.plan import switches_of
 from rockref.discover.presearch import STRONG, suspects
-from rockref.discover.resized import resized
-from rockref.discover.search import FRESH, LITTLE, Setup, baseline
+from rockref.discover.search import FRESH, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
+from rockref.discover.winning import to_the_end, upheld
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
@@ -174,13 +174,10 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         if not look.order or not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
             break
         wider = look.order[0] if look.in_full else duel(setup, look, say)
-        if look.gains[wider.effects[-1]] < PLAIN:
-            challenge(look, wider, seed)
-            say(f"  {wider.effects[-1]} against the family begun where it ended: {look.gains[wider.effects[-1]]:.0f}")
-        if not rules.is_detected(look.gains[wider.effects[-1]], size_of(wider), second):
+        found = upheld(look, wider, second, seed, say)
+        if found is None:
             break
-        wider = refit(wider, 3 * POLISH, seed, relative=LITTLE / 5)
-        wider = resized(setup, wider, seed)
+        wider = to_the_end(setup, look, found, second, seed, say)
         say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
         if start.effects and not rules.settles(structured(start), structured(wider)):
             break

@@ -15,6 +15,8 @@ FACTORS = (0.5, 1.5)
 #: Places are gone on from whose objective is at most this many times the fit's own (decided: the right ones of that
 #: cable had 1.04 to 1.25 times it); most of them.
 AFFORDABLE, PLACES = 1.4, 4
+#: Size, in typical sizes, below which half a typical size is looked at as well.
+TRIFLE = 0.3
 #: Share of structured windows above which no size of these effects will do (decided: something else is missing).
 MISSING = 0.5
 
@@ -46,12 +48,17 @@ def places(fit: Fit, point: Point) -> list[Point]:
 
 
 def moves(fit: Fit, z: np.ndarray) -> np.ndarray:
-    """Changes of z, (moves, G): each size of an effect by the factors, and the ridge of the feet."""
+    """Changes of z, (moves, G): each size of an effect by the factors, or to half a size; the ridge of the feet."""
     names = [p.name for p in fit.parameters]
     found = []
     for i in switches(names, heights_of(names)):
-        for factor in FACTORS:
+        for factor in (*FACTORS, *to_half_a_size(z[i])):
             move = np.zeros(len(z))
             move[i] = (factor - 1) * z[i]
             found.append(move)
     return np.concatenate([np.array(found).reshape(-1, len(z)), along_ridge(fit)])
+
+
+def to_half_a_size(z: float) -> tuple[float, ...]:
+    """The factor that makes half a typical size of a trifle; none for what is no trifle, or nothing."""
+    return (0.5 / abs(z),) if 0 < abs(z) < TRIFLE else ()

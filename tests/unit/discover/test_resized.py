@@ -45,6 +45,13 @@ def test_what_does_not_help_is_not_kept():
     assert found.point.z in np.array([[0.0, 0.75], [0.0, 0.375]])
 
 
+def test_a_trifle_is_looked_at_with_half_a_size():
+    """A foot of a tenth of the size that it has: neither half of it nor half as much again leads to the valley."""
+    bottom = np.array([0.1, 0.6])
+    stuck = family(("rolling_resistance",), Walled(bottom, floor=0.97), np.array([0.0, 0.06]))
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+
+
 def test_only_sizes_of_effects_are_changed_and_the_cheapest_places_come_first():
     bowl = Bowl(np.array([0.3, 1.0, 0.5]))
     z = np.array([0.0, 1.2, 0.5])

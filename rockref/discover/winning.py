@@ -1,0 +1,53 @@
+"""Who wins a look: it stands against the family without it, and its rivals are fitted as far as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from rockref.discover import verdict as rules
+from rockref.discover.beside import side_by_side
+from rockref.discover.families import Family, refit, size_of
+from rockref.discover.looking import PLAIN, POLISH, Look, challenge, ranked
+from rockref.discover.resized import resized
+from rockref.discover.search import LITTLE, Setup
+
+#: Share of the winner's gain above which a rival is fitted to its end, too, and most such rivals. Decided: sides that
+#: were off under the stated inertia ended at 2010 where a scale factor had 2370, and at 2300 when fitted on.
+CONTENDS, CONTENDERS = 0.7, 2
+
+
+def upheld(look: Look, winner: Family, second: bool, seed: int, say: Callable[[str], None]) -> Family | None:
+    """The winner, if it has a size and stands against the narrower family begun where it ended; or who comes next.
+
+    A trifle of one effect may stand in for a whole size of another: then the best of those that have a size is asked.
+    second : whether another effect was found before.
+    """
+    sizes = [f for f in look.order if f is not winner and size_of(f) >= rules.LEAST_SIZE]
+    for family in (winner, *sizes[:1]):
+        id = family.effects[-1]
+        if look.gains[id] < PLAIN:
+            challenge(look, family, seed)
+            say(f"  {id} against the family begun where it ended: {look.gains[id]:.0f}")
+        if rules.is_detected(look.gains[id], size_of(family), second):
+            return family
+    return None
+
+
+def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int, say: Callable[[str], None]) -> Family:
+    """The winner and its nearest rivals fitted as far as they go; the best of them that is an effect. Gains are mended.
+
+    A fit that stops in a side valley is left some hundred units behind, which is more than what tells effects apart.
+    """
+
+    def finished(own: Setup, family: Family) -> Family:
+        family = Family(family.effects, family.fit.twin(own.log), family.point)
+        return resized(own, refit(family, 3 * POLISH, seed, relative=LITTLE / 5), seed)
+
+    least = CONTENDS * look.gains[winner.effects[-1]]
+    rivals = [f for f in look.order if f.effects != winner.effects and look.gains[f.effects[-1]] > least]
+    ended = ranked(look.kept, side_by_side(setup, finished, [winner, *rivals[:CONTENDERS]]), say)
+    look.gains |= {id: max(gain, look.gains[id]) for id, gain in ended.gains.items()}
+    left = [f for f in look.order if f.effects[-1] not in ended.gains]
+    look.order = sorted([*ended.order, *left], key=lambda f: -look.gains[f.effects[-1]])
+    effects = [f for f in ended.order if rules.is_detected(look.gains[f.effects[-1]], size_of(f), second)]
+    return next(iter(effects), ended.order[0])
