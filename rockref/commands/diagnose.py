@@ -19,6 +19,10 @@ def diagnose(
     model: Annotated[
         str | None, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml to start from.")
     ] = None,
+    effect: Annotated[
+        list[str] | None,
+        typer.Option("--effect", "-e", help="An effect of your own, path/to/file.py:Class, to be tried, too."),
+    ] = None,
     report: Annotated[
         Path | None,
         typer.Option(
@@ -44,13 +48,17 @@ def diagnose(
     Example:
       rockref diagnose data/experiments/mystery-05
       rockref diagnose data/experiments/mystery-05 --report report
+      rockref diagnose data/experiments/mystery-05 --effect examples/my_effect.py:EddyBrake
       rockref diagnose data/experiments/mystery-05 --json > verdict.json
     """
     from rockref.measure.tosses import is_toss_folder
 
     if is_toss_folder(experiment):
         from rockref.commands._tosses import diagnose_tosses
+        from rockref.model.errors import InputError
 
+        if effect:
+            raise InputError("E-EFFECT", "--effect", "of tosses only the catalogue is tried", "Leave it out.")
         return diagnose_tosses(experiment, model, report, output, save_model, verbose, as_json)
     from rockref.commands._models import named_model
     from rockref.commands._results import keep, say_written, usable_files
@@ -63,7 +71,7 @@ def diagnose(
     folder = usable_folder(report) if report is not None else None
     usable_files(output, save_model)
     with stages(f"diagnosing {experiment}", every_line=verbose) as say:
-        found = engine.diagnose(experiment, given, seed, workers, progress=say)
+        found = engine.diagnose(experiment, given, seed, workers, progress=say, own=effect or ())
         record = plain(found.to_dict())
         written = []
         if folder is not None:

@@ -195,9 +195,9 @@ def value_of(parameter: Parameter, z: float) -> float:
     return v
 
 
-def kinds(baseline: str, leave_out: Iterable[str] = ()) -> tuple[type[Effect], ...]:
-    """The candidates for an experiment; foot defects only where the baseline has none."""
+def kinds(baseline: str, leave_out: Iterable[str] = (), own: Iterable[str] = ()) -> tuple[type[Effect], ...]:
+    """The candidates for an experiment; foot defects only where the baseline has none. own : a user's, by id."""
     left = set(leave_out)
     if baseline == "eight_points":
         left.add("foot_defects")
-    return tuple(kind for kind in catalogue.IN_STEP_ORDER if kind.id not in left)
+    return tuple(k for k in (*catalogue.IN_STEP_ORDER, *map(catalogue.find, own)) if k.id not in left)

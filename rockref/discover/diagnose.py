@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -32,6 +32,7 @@ from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_
 from rockref.discover.information import information
 from rockref.discover.looking import POLISH, Look, duel, look_further
 from rockref.discover.on_this_data import seen_by
+from rockref.discover.own_windows import known_own
 from rockref.discover.plan import switches_of
 from rockref.discover.presearch import STRONG, suspects
 from rockref.discover.search import FRESH, Setup, baseline
@@ -104,23 +105,27 @@ def diagnose(
     workers: int | None = None,
     end: float = 3.0,
     progress: Callable[[str], None] | None = None,
+    own: Sequence[str] = (),
 ) -> Diagnosis:
     """Learn which effect is missing from an experiment's fit runs, and prove it on its held-out runs.
 
     Parameters
     ----------
     path : experiment folder; model : starts from it in place of the nominal baseline; seed : of the random restarts
-    workers : threads; end : seconds used of each run; progress : called with a line at every stage.
+    workers : threads; end : seconds used of each run; progress : called with a line at every stage
+    own : effects of the user's own that are tried with the catalogue's, each path/to/file.py:Class.
 
     Raises
     ------
     InputError
-        where the experiment cannot be used.
+        where the experiment or an effect cannot be used.
     """
     begun = time.perf_counter()
     say = progress or (lambda line: None)
+    known = known_own(own)
     experiment = load_experiment(path, uses=(FIT,))
-    setup = Setup(experiment, experiment.fit_runs(), baseline_model(experiment, model), end, seed, workers, say)
+    base = baseline_model(experiment, model)
+    setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say, own=known)
     setup, sets, seen = suspects(setup)
     null, start = beginning(setup, sets, seen)
     start, looks = grown(setup, start, seed, say)

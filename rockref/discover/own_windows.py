@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.effects import catalogue
 from rockref.effects.base import Effect
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack
@@ -28,6 +29,22 @@ def own_of(effects: Sequence[Effect]) -> tuple[Effect, ...]:
             what = "acts on the sensor: windows begin where the record says, with the sensor undone"
             raise InputError("E-TWIN", f"effect {effect.id}", what, "Simulate with it, or correct the records first.")
     return own
+
+
+def known_own(names: Sequence[str]) -> tuple[str, ...]:
+    """The ids of a user's own effects, each path/to/file.py:Class, that can be fitted.
+
+    Raises InputError: E-EFFECT for one of the catalogue, or given twice; E-FILE, E-TWIN for one that cannot be used.
+    """
+    own = tuple(catalogue.find(name) for name in names)
+    for k, kind in enumerate(own):
+        if kind.file is None:
+            cure = "Leave it out, or name a class of yours, path/to/file.py:Class."
+            raise InputError("E-EFFECT", "--effect", f"{kind.id} is in the catalogue, which is tried anyway", cure)
+        if kind.id in [other.id for other in own[:k]]:
+            raise InputError("E-EFFECT", "--effect", f"{kind.id}: it is given twice", "Give each once.")
+    own_of([kind.typical() for kind in own])
+    return tuple(kind.id for kind in own)
 
 
 def run_own(batch: Batch, problems: Sequence[Problem], run_of: np.ndarray, out: np.ndarray) -> np.ndarray:

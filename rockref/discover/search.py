@@ -36,7 +36,10 @@ FIRST_STAGE = 1.6
 
 @dataclass(frozen=True)
 class Setup:
-    """What all fits of an experiment share: experiment, runs, baseline model, seconds used of each run, seed."""
+    """What all fits of an experiment share: experiment, runs, baseline model, seconds used of each run, seed.
+
+    own : ids of a user's own effects that are candidates, too.
+    """
 
     experiment: Experiment
     runs: tuple
@@ -46,6 +49,7 @@ class Setup:
     workers: int | None = None
     log: Callable[[str], None] = lambda line: None
     frequency: float | None = None  # of a base vibration, from the scan
+    own: tuple[str, ...] = ()
 
     def parameters(self, effects: tuple[str, ...] = ()) -> tuple[Parameter, ...]:
         """Baseline, tilts and rolls, and those of the effects."""

@@ -187,7 +187,7 @@ def separating(decision: Decision) -> str:
     """What the catalogue advises to confirm the first effect of a verdict."""
     if not decision.effects:
         return ""
-    return catalogue.EFFECTS[decision.effects[0]].experiment
+    return catalogue.find(decision.effects[0]).experiment
 
 
 def gates(facts: Facts, decision: Decision) -> dict[str, Any]:

@@ -73,9 +73,10 @@ def test_record_written_beside_reads_back(capsys, monkeypatch, made, tmp_path):
 
 def test_options_reach_the_engine(capsys, monkeypatch, made):
     calls = answer(monkeypatch, fakes.diagnosis("none", made))
-    run(capsys, "anywhere", "--seed", "7", "--workers", "2", "--model", "four_points")
-    (path, model, seed, workers), _ = calls[0]
+    run(capsys, "anywhere", "--seed", "7", "--workers", "2", "--model", "four_points", "--effect", "my.py:Brake")
+    (path, model, seed, workers), options = calls[0]
     assert (str(path), model.points, seed, workers) == ("anywhere", "four_points", 7, 2)
+    assert options["own"] == ["my.py:Brake"]
 
 
 def test_unusable_input_ends_with_2(capsys, tmp_path):

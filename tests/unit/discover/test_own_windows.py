@@ -7,7 +7,12 @@ import numpy as np
 import pytest
 
 from rockref import InputError, Model
+from rockref.discover.approach import placed
+from rockref.discover.looking import candidates_beside
+from rockref.discover.own_windows import known_own
 from rockref.discover.plan import GYRO, Release, campaign, recorded
+from rockref.discover.screen import screen
+from rockref.discover.search import Setup
 from rockref.discover.windows import Series, series
 from rockref.effects import catalogue
 
@@ -78,3 +83,35 @@ def test_own_effects_of_the_sensor_are_not_fitted(own):
     model = TABLE.replace(effects=(own("Shown")(0.1),))
     with pytest.raises(InputError, match="effect shown: acts on the sensor"):
         two_runs().residual([model, model], np.array([TILT, TILT]), np.zeros((two_runs().B, 5)))
+
+
+def test_a_diagnosis_tries_it_beside_the_catalogue(own):
+    """The screen gives a class that does what drag does the gain of drag, on runs that were dragged."""
+    drag = catalogue.find("quadratic_drag")
+    dragged = TABLE.replace(effects=(drag(5.0),))
+    # A small tilt is an early impact, and so a short first window: each evaluation steps all of it.
+    run = recorded(dragged, Release(0.03, False), GYRO, 1, 0.45)
+    experiment = campaign(TABLE, run, GYRO, 0.0014)
+    mine = own("Mine")
+    setup = Setup(experiment, (run,), TABLE, 0.45, workers=1, own=(mine.id,))
+    assert mine in candidates_beside(setup, ()) and mine not in candidates_beside(setup, (mine.id,))
+    fit = setup.fit(series(experiment, (run,), 0.02, 0.04, 0.45, workers=1))
+    start = placed(fit, np.zeros(len(fit.parameters)))
+    first, second = screen(fit, start, (drag, mine), setup)
+    assert {first.effects, second.effects} == {("quadratic_drag",), ("mine",)}
+    assert first.gain > 20
+    # Both take the same step; their residuals agree to the rounding of a step, here some 1e-9 of the noise.
+    assert second.gain == pytest.approx(first.gain, rel=1e-6)
+
+
+def test_what_a_diagnosis_cannot_try_is_refused(own, tmp_path):
+    path = tmp_path / "mine.py"
+    assert known_own((f"{path}:Mine",)) == ("mine",)
+    with pytest.raises(InputError, match="acts on the sensor"):
+        known_own((f"{path}:Shown",))
+    with pytest.raises(InputError, match="in the catalogue"):
+        known_own(("quadratic_drag",))
+    with pytest.raises(InputError, match="given twice"):
+        known_own((f"{path}:Mine", f"{path}:Mine"))
+    with pytest.raises(InputError, match="other.py"):
+        known_own((f"{tmp_path / 'other.py'}:Mine",))
