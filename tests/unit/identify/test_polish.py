@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rockref.identify import polish as polishing
 from rockref.identify import unknowns
-from rockref.identify.descent import BEYOND_ALL, FACTORS, NEARLY, Descent
+from rockref.identify.descent import BEYOND_ALL, FACTORS, NEARLY, Descent, Place
 from rockref.identify.genes import chromosome, model_of, space_12
 from rockref.identify.identifiability import identifiability, profile
 from rockref.identify.polish import Effort, narrowed, polish, with_genes
@@ -131,6 +132,23 @@ def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monke
     together = residuals(space, [seen] * 2, zs)
     assert asked == [25, 25] and len(zs) == 27
     np.testing.assert_array_equal(together[[0, 3, -1]], alone)
+
+
+def test_a_window_that_went_astray_is_begun_again_from_the_start(space, truth, noisy_twin, monkeypatch):
+    """The first window ends far away, and nothing leads back from there: the second begins where everything began."""
+    begun = []
+
+    def in_window(descent, z, after):
+        begun.append(z)
+        if after == 0.0:
+            return Place(np.full(12, 0.9), np.zeros(3), 0.95)
+        return Place(z, np.zeros(3), 1.0 if np.array_equal(z, truth) else 4.7)
+
+    monkeypatch.setattr(polishing, "_in_window", in_window)
+    monkeypatch.setattr(polishing, "_long_moves", lambda descent, at: at)
+    end = polish(space, [noisy_twin], truth, effort=Effort(windows=(0.0, 0.06), steps=0, moves=1, walks=0))
+    np.testing.assert_array_equal(begun, [truth, np.full(12, 0.9), truth])
+    np.testing.assert_array_equal(end.z, truth)
 
 
 def test_where_no_step_gains_the_slopes_are_not_taken_again():
