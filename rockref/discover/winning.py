@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from rockref.discover import verdict as rules
 from rockref.discover.beside import side_by_side
-from rockref.discover.families import Family, refit, size_of
+from rockref.discover.families import Family, refit, size_of, structured
 from rockref.discover.looking import PLAIN, POLISH, Look, challenge, ranked
-from rockref.discover.resized import resized
+from rockref.discover.resized import MISSING, resized
 from rockref.discover.search import LITTLE, Setup
 
 #: Share of the winner's gain above which a rival is fitted to its end, too, and most such rivals. Decided: sides that
@@ -37,6 +37,7 @@ def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int
     """The winner and its nearest rivals fitted as far as they go; the best of them that is an effect. Gains are mended.
 
     A fit that stops in a side valley is left some hundred units behind, which is more than what tells effects apart.
+    Where most windows contradict the winner another effect is missing, and its rivals stay where they are.
     """
 
     def finished(own: Setup, family: Family) -> Family:
@@ -45,6 +46,8 @@ def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int
 
     least = CONTENDS * look.gains[winner.effects[-1]]
     rivals = [f for f in look.order if f.effects != winner.effects and look.gains[f.effects[-1]] > least]
+    if structured(winner) > MISSING:
+        rivals = []
     ended = ranked(look.kept, side_by_side(setup, finished, [winner, *rivals[:CONTENDERS]]), say)
     look.gains |= {id: max(gain, look.gains[id]) for id, gain in ended.gains.items()}
     left = [f for f in look.order if f.effects[-1] not in ended.gains]

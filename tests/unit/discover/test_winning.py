@@ -68,3 +68,13 @@ def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
     trifle = family(DRAG, Bowl(np.array([0.0, 0.0, 0.1]), floor=1.0), np.array([0.0, 0.0, 0.1]))
     look = looked(kept, winner, trifle)
     assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
+
+
+def test_rivals_of_a_winner_that_most_windows_contradict_are_left_alone():
+    kept = family((), Bowl(np.zeros(1), floor=2.3, stuck=True), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=2.1), np.array([0.0, 0.5]))
+    rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=2.0), np.array([0.0, 0.0, 0.65]))
+    look = looked(kept, winner, rival)
+    assert look.gains["quadratic_drag"] > 0.7 * look.gains["rolling_resistance"]
+    assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
+    assert rival.fit.iterations == 0
