@@ -1,11 +1,12 @@
 """Who wins a look, on bowls in place of fits: trifles, rivals that had not arrived, and effects that are none."""
 
 import numpy as np
+import pytest
 
 from rockref.discover import verdict as rules
 from rockref.discover.families import gain_over
 from rockref.discover.looking import Look
-from rockref.discover.winning import to_the_end, upheld
+from rockref.discover.winning import CONTENDS, to_the_end, upheld
 from tests.unit.discover.bowls import ALONE, Bowl, family
 
 ROLLING, DRAG = ("rolling_resistance",), ("quadratic_drag",)
@@ -46,20 +47,23 @@ def test_a_rival_that_had_not_arrived_overtakes():
     winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.04), np.array([0.0, 0.5]))
     rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=1.0), np.array([0.0, 0.0, 0.77]))
     look = looked(kept, winner, rival)
-    assert 0.7 < look.gains["quadratic_drag"] / look.gains["rolling_resistance"] < 1
+    assert CONTENDS < look.gains["quadratic_drag"] / look.gains["rolling_resistance"] < 1
     best = to_the_end(ALONE, look, winner, False, 0, quiet)
     assert best.effects == DRAG
     assert [f.effects for f in look.order] == [DRAG, ROLLING]
     assert look.gains["quadratic_drag"] > look.gains["rolling_resistance"]
 
 
-def test_who_is_far_behind_is_not_fitted_on():
-    kept = family((), Bowl(np.zeros(1), floor=1.2, stuck=True), np.zeros(1))
-    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.0), np.array([0.0, 0.5]))
-    behind = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=1.0), np.array([0.0, 0.0, 0.6]))
-    look = looked(kept, winner, behind)
+@pytest.mark.parametrize("noise, gap, ahead", [(1.0, 0.4, False), (2.0, 0.35, True)], ids=["far behind", "hopeless"])
+def test_rivals_that_cannot_win_are_not_fitted_on(noise, gap, ahead):
+    """One that gains too little; and one beside a winner that most windows contradict: another effect is missing."""
+    kept = family((), Bowl(np.zeros(1), floor=noise + 0.2 + 0.1 * ahead, stuck=True), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=noise + 0.1 * ahead), np.array([0.0, 0.5]))
+    rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=noise), np.array([0.0, 0.0, 1.0 - gap]))
+    look = looked(kept, winner, rival)
+    assert (look.gains["quadratic_drag"] > CONTENDS * look.gains["rolling_resistance"]) is ahead
     assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
-    assert behind.fit.iterations == 0
+    assert rival.fit.iterations == 0
 
 
 def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
@@ -68,13 +72,3 @@ def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
     trifle = family(DRAG, Bowl(np.array([0.0, 0.0, 0.1]), floor=1.0), np.array([0.0, 0.0, 0.1]))
     look = looked(kept, winner, trifle)
     assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
-
-
-def test_rivals_of_a_winner_that_most_windows_contradict_are_left_alone():
-    kept = family((), Bowl(np.zeros(1), floor=2.3, stuck=True), np.zeros(1))
-    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=2.1), np.array([0.0, 0.5]))
-    rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=2.0), np.array([0.0, 0.0, 0.65]))
-    look = looked(kept, winner, rival)
-    assert look.gains["quadratic_drag"] > 0.7 * look.gains["rolling_resistance"]
-    assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
-    assert rival.fit.iterations == 0
