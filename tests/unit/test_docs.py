@@ -1,10 +1,16 @@
 """The pages of the documentation agree with the files that they describe."""
 
+import datetime
+import importlib.util
 import re
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+import rockref
+from tests.golden.test_peers import recorded, relative_rms, simulated
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES_PAGE = (ROOT / "docs/reference/files.md").read_text(encoding="utf-8")
@@ -34,3 +40,59 @@ def test_example_on_the_page_has_the_keys_of_the_shipped_experiments(path):
 def test_every_key_is_explained():
     explained = set(re.findall(r"^\| `(\w+)` \|", FILES_PAGE, re.MULTILINE))
     assert {key for _, key in keys_of(example_on_the_page())} <= explained
+
+
+@pytest.fixture(scope="module")
+def figures():
+    spec = importlib.util.spec_from_file_location("make_figures", ROOT / "docs/make_figures.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_table_of_the_readme_is_that_of_the_measured_figures(figures):
+    """`python docs/make_figures.py` writes it anew."""
+    text = figures.README.read_text(encoding="utf-8")
+    assert figures.page(text) == text
+
+
+def test_every_figure_says_what_was_measured_how_when_and_on_what(figures):
+    found = figures.read()
+    for row in found["row"]:
+        assert set(row) == {"what", "figure", "command", "date", "machine"}, row["what"]
+        assert row["machine"] in found["machines"], row["what"]
+        assert isinstance(row["date"], datetime.date), row["what"]
+
+
+def figure(figures, beginning):
+    """The text of the one figure whose subject begins so."""
+    (text,) = [row["figure"] for row in figures.read()["row"] if row["what"].startswith(beginning)]
+    return text
+
+
+def in_words(value):
+    """Two digits and a power of ten: 3.5·10⁻⁵."""
+    digits, exponent = f"{value:.1e}".split("e")
+    return f"{digits}·10{str(int(exponent)).translate(str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'))}"
+
+
+def test_the_figures_beside_lammps_are_those_of_its_records(figures):
+    pytest.importorskip("numba")
+    told = figure(figures, "against LAMMPS, body rates to 0.6 s")
+    for name in ("four_sym_r1mm_dt1e-06", "base_r1mm_dt1e-06"):
+        response, (_, W, *_) = simulated(name, 1e-5, 0.6, "numba"), recorded(name)
+        assert in_words(relative_rms(response.W, W[: len(response.t)])) in told, name
+
+
+def test_the_main_impacts_in_the_table(figures):
+    pytest.importorskip("numba")
+    impacts = rockref.simulate(rockref.Model.table_3_1(), duration=1.4, engine="numba").main_impacts()
+    assert ", ".join(f"{t:.4f} s" for t in impacts) == figure(figures, "main impacts of Table 3.1")
+
+
+@pytest.mark.slow
+def test_the_compiled_engine_gives_the_bits_of_the_law_over_the_whole_response():
+    pytest.importorskip("numba")
+    law, compiled = (rockref.simulate(rockref.Model.table_3_1(), 1.4, engine=e) for e in ("numpy", "numba"))
+    for key in ("t", "x", "v", "Lambda", "W", "F", "anchored", "sliding"):
+        assert np.array_equal(getattr(law, key), getattr(compiled, key)), key
