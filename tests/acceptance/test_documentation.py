@@ -1,6 +1,7 @@
 """What the README and the documentation tell a reader to type is typed here."""
 
 import itertools
+import json
 import os
 import re
 import shlex
@@ -21,6 +22,8 @@ PAGES = [
 #: Commands that search or fit take minutes each; `make` targets and installations are the test run itself.
 SLOW = {"fit", "diagnose", "add", "identify", "sensitivity", "plan", "blind", "compare", "reproduce", "demo"}
 SHELLS = ("sh", "bash", "console")
+JUDGE = ROOT / "docs/tutorial/judge_your_backend.md"
+OWN_EXPERIMENT = ROOT / "docs/howto/own_experiment.md"
 
 
 def name_of(page):
@@ -50,6 +53,12 @@ def commands_of(page):
     return [words for block in blocks(page, SHELLS) for words in commands_in(block)]
 
 
+def too_long(page):
+    """Commands that a page shows and nobody waits for: those in blocks of plain text."""
+    lines = [line for block in blocks(page, ("text",)) for line in block.splitlines()]
+    return [shlex.split(line) for line in lines if re.match(r"rockref [a-z]", line)]
+
+
 def mentioned(page):
     """`rockref ...` in running text that is whole: options and names, no capitals that stand for something."""
     text = re.sub(r"^ *```.*?^ *```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
@@ -58,7 +67,7 @@ def mentioned(page):
             yield shlex.split(span)
 
 
-EVERY = [(page, words) for page in PAGES for words in commands_of(page)]
+EVERY = [(page, words) for page in PAGES for words in commands_of(page) + too_long(page)]
 MENTIONED = [(page, words) for page in PAGES for words in mentioned(page)]
 
 
@@ -123,6 +132,8 @@ def runnable(page):
 
 def is_slow(page):
     """Minutes for a page that searches, fits, judges, or runs an own effect in NumPy; others stay in `make test`."""
+    if page == OWN_EXPERIMENT:  # two seconds of four short runs
+        return False
     return any(words[1] in SLOW | {"conform"} or ".py:" in " ".join(words) for words in runnable(page))
 
 
@@ -133,25 +144,50 @@ def pages_that(have, slow):
 
 
 def followed(words):
-    """Commands that are typed: rockref's, the compiler's, and the programs that it makes."""
-    return words[0] in ("rockref", "cc") or words[0].startswith("./")
+    """Commands that are typed: of rockref, the compiler, what it makes, the examples, and a backend's tests."""
+    own = words[0] in ("rockref", "cc") or words[0].startswith("./")
+    return own or words[:1] == ["python"] or words[:2] == ["pytest", "--rockref-backend"]
+
+
+def is_program(block):
+    """Python that can be run as it stands, and not the change of a line that a page asks for."""
+    return re.match(r"(import|from) ", block) is not None
 
 
 def follow(page, place):
-    for words in filter(followed, commands_of(page)):
-        done = typed(words, place)
-        # 1: what was asked about falls short, which is an answer; 2 would be a command that the page has wrong
-        assert done.returncode in (0, 1), (words, done.stderr[-2000:])
-        assert "Traceback" not in done.stderr, words
+    """Type what the page says, in its order; where it shows what is printed, those lines have to be there."""
+    said = None
+    for kind, block in fenced(page):
+        if kind == "text" and said is not None and page != JUDGE:  # whose reader edits a file: below
+            assert [line for line in block.splitlines() if line != "..." and line.strip() not in said] == []
+        said = None
+        if kind == "python" and is_program(block):
+            run_program(block, place)
+        for words in filter(followed, commands_in(block) if kind in SHELLS else []):
+            done = typed(words, place)
+            # 1: what was asked about falls short, which is an answer; 2 would be a command that the page has wrong
+            refused = "[E-" in next_text(page, block)
+            assert done.returncode in ((2,) if refused else (0, 1)), (words, done.stderr[-2000:])
+            assert "Traceback" not in done.stderr, words
+            said = [line.strip() for line in (done.stdout + done.stderr).splitlines()]
+
+
+def next_text(page, block):
+    """The block of plain text that follows a block, empty where another kind does."""
+    every = fenced(page)
+    at = [text for _, text in every].index(block) + 1
+    return every[at][1] if at < len(every) and every[at][0] == "text" else ""
+
+
+def run_program(program, place):
+    done = typed([sys.executable, "-W", "error::DeprecationWarning:__main__", "-c", program], place)
+    assert done.returncode == 0, (program, done.stderr[-2000:])
 
 
 @pytest.mark.parametrize("page", pages_that(runnable, is_slow))
 def test_commands_of_a_page_in_their_order(page, place):
     """Each page is followed as a reader would, from a folder beside the data."""
     follow(page, place)
-
-
-JUDGE = ROOT / "docs/tutorial/judge_your_backend.md"
 
 
 def edited(path, line):
@@ -186,14 +222,26 @@ def test_the_page_of_the_judge_says_what_the_judge_says(place):
 
 
 def programs(page):
-    return [b for b in blocks(page, ("python",)) if re.match(r"(import|from) ", b)] if page.name != "review.md" else []
+    """Programs of the pages that have no commands, or too slow ones."""
+    alone = page.name == "README.md" or (not runnable(page) and page.name != "review.md")
+    return [block for block in blocks(page, ("python",)) if is_program(block)] if alone else []
 
 
 @pytest.mark.parametrize("page", pages_that(programs, lambda page: page.name != "README.md"))
 def test_python_of_a_page(page, place):
     for program in programs(page):
-        done = typed([sys.executable, "-W", "error::DeprecationWarning:__main__", "-c", program], place)
-        assert done.returncode == 0, (program, done.stderr[-2000:])
+        run_program(program, place)
+
+
+def test_the_dialogue_of_the_page_is_that_of_the_program(place):
+    """Questions stand at the margin, the answers of the tutorial in C are set in."""
+    (dialogue,) = [b for b in blocks(ROOT / "docs/howto/own_backend.md", ("text",)) if b.startswith("{")]
+    questions = "".join(line + "\n" for line in dialogue.splitlines() if not line.startswith(" "))
+    answers = [json.loads(line) for line in dialogue.splitlines() if line.startswith(" ")]
+    for words in (["rockref", "conform", "example", "c", "-o", "mine.c"], ["cc", "-o", "mine", "mine.c", "-lm"]):
+        assert typed(words, place).returncode == 0
+    done = typed(["./mine"], place, input=questions)
+    assert [json.loads(line) for line in done.stdout.splitlines()] == answers
 
 
 @pytest.mark.parametrize("command", ["simulate", "compare", "diagnose", "fit", "add", "conform", "identify", "effects"])
