@@ -246,7 +246,7 @@ def simulate(
                 for _ in range(done, count):
                     state = step(problem, state, inertia)
             except InputError as error:
-                raise (not_finite(problem, good, inertia) if error.code == "E-ANGLE" else error) from error
+                raise not_finite(problem, good, inertia) from error
             done = int(count)
             t[i] = state.t
             for key, column in rows.items():
@@ -268,7 +268,8 @@ def time_before_core(problem: Problem, column: np.ndarray) -> np.ndarray:
 def not_finite(problem: Problem, good: State, inertia: Inertia) -> NumericalError:
     """The error that names the step and the contact points at which the numbers were lost, found from a good state.
 
-    Raises InputError (E-ANGLE) itself where a step turns the block too far, by a finite angle: at which step.
+    Raises InputError itself: E-ANGLE where a step turns the block too far, by a finite angle, at which step; and what
+    an effect refuses.
     """
     state = good
     while not np.any(body_lost(state)) and not np.any(forces_lost(state)):

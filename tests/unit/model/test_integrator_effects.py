@@ -116,7 +116,8 @@ class Witness(Recorder):
         self.given["advance"] = given
 
 
-@pytest.fixture(scope="module")
+# For every test anew: mutmut lets a test judge the functions that it calls itself.
+@pytest.fixture
 def witnessed():
     start = physics.mass_on_a_foot(z=-1e-6, v=(0.3, 0, 0), mu_0=0.5, mu=0.4, effects=(Witness(),))
     problem = as_arrays(replace(start, start=replace(start.start, W=np.array([0.0, 0, 2]), t=7.0)))

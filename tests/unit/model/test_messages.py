@@ -38,9 +38,27 @@ def feet(**properties):
     return replace(FOOT, points=physics.points([0, 0, 0], **properties))
 
 
+class Motor(physics.Pull):
+    """A moment of 3e9 N m about X, from rate to rate."""
+
+    def body_wrench(self, problem, c, x, Lambda, v, W, m):
+        return np.zeros_like(x), np.array([3e9, 0.0, 0.0])
+
+
+def spun_up(origin):
+    """A body of 1 kg m2 that turns by 2.4 rad a step of 1e-5 s, and by 0.3 rad more after each."""
+    free = physics.flying((1, 1, 1), (2.4e5, 0, 0), 1e-5, 1e-3)
+    return replace(free, start=replace(free.start, t=origin, origin=origin), effects=(Motor(),))
+
+
 def cuboid(**changes):
     sizes = dict(mass=54.0, width=0.1, depth=0.1, height=0.688, delta_long=(0, 0, 0, 0), delta_diag=0.006)
     geometry.check_cuboid(**{**sizes, **changes})
+
+
+def plausible(**changes):
+    sizes = dict(width=0.1, depth=0.1, height=0.688, delta_long=(0, 0, 0, 0), foot_radius=0.0)
+    geometry.check_plausible(**{**sizes, **changes})
 
 
 def released(theta_0, points=None):
@@ -89,7 +107,37 @@ REFUSALS = [
         "delta_diag: is 0.5 m; half the diagonal of the base is 0.5 m. "
         "Give a distance from the corner in metres, between 0 and half the diagonal. [E-RANGE]",
     ),
+    (
+        lambda: plausible(height=688.0),
+        "height: is 688.0 m, and no block rocks that is so large or small. "
+        "Give metres, between 0.001 and 100. [E-RANGE]",
+    ),
+    (
+        lambda: plausible(width=9e-4),
+        "width: is 0.0009 m, and no block rocks that is so large or small. "
+        "Give metres, between 0.001 and 100. [E-RANGE]",
+    ),
+    (
+        lambda: plausible(depth=100.1),
+        "depth: is 100.1 m, and no block rocks that is so large or small. "
+        "Give metres, between 0.001 and 100. [E-RANGE]",
+    ),
+    (
+        lambda: plausible(depth=0.2, delta_long=(0, 0, -0.06, 0)),
+        "delta_long[2]: is -0.06 m, more than half the width of the base, 0.05 m. "
+        "Give metres: a foot is a small part of the block. [E-RANGE]",
+    ),
+    (
+        lambda: plausible(width=0.2, foot_radius=0.06),
+        "foot_radius: is 0.06 m, more than half the width of the base, 0.05 m. "
+        "Give metres: a foot is a small part of the block. [E-RANGE]",
+    ),
     # parameters
+    (
+        lambda: parameters.check_friction("mu_int", [0.3, 30.0]),
+        "mu_int: is 30.0, and no dry contact has more than 10. "
+        "Give a friction coefficient, not per cent or degrees. [E-RANGE]",
+    ),
     (
         lambda: parameters.Parameters().replace(k_n=1.0),
         "k_n: is no parameter. Known: K_N, K_T, beta_int, beta_ext, mu_int, mu_ext, delta_long, delta_diag, theta_0. "
@@ -111,6 +159,7 @@ REFUSALS = [
     (lambda: two().main_impacts(), f"main_impacts: {ONE_BLOCK}"),
     (lambda: two().contacts(), f"contacts: {ONE_BLOCK}"),
     (lambda: two().to_frame(), f"to_frame: {ONE_BLOCK}"),
+    (lambda: two().columns(), f"columns: {ONE_BLOCK}"),
     (lambda: energy.balance(two()), f"balance: {ONE_BLOCK}"),
     (
         lambda: energy.balance(run(FOOT.replace(output_rate=2000.0))),
@@ -120,6 +169,11 @@ REFUSALS = [
     (
         lambda: housner.housner(54.0, 0.1, 0.688, 2.175, 9.81, 0.2, 1.0, 100.0),
         "theta_0: is 0.2 rad. Give a tilt between 0 and 0.1443 rad. [E-TILT]",
+    ),
+    (
+        # between the tipping angle and that of a block twice as wide
+        lambda: release.check_tilt(physics.block(), MODEL.body()[1], 0.2),
+        f"theta_0: is 0.2 rad; the block tips over at 0.1443 rad. {TILT}",
     ),
     (lambda: released(0.25), f"theta_0: is 0.25 rad; the block tips over at 0.1443 rad. {TILT}"),
     (
@@ -144,9 +198,20 @@ REFUSALS = [
         lambda: rotation.exp_minus_identity(np.array([0.0, 3.0, 4.0])),
         "Theta: a step turns the block by 5 rad. Use a smaller step or a smaller angular velocity. [E-ANGLE]",
     ),
+    (
+        # 2.55 rad in the first step, 0.3 rad more in each: beyond 3.2 rad in the fourth
+        lambda: run(spun_up(origin=0.5)),
+        "step 4 (t = 0.50004 s): a step turns the block by 3.45 rad. "
+        "Use a smaller step or a smaller angular velocity. [E-ANGLE]",
+    ),
+    (
+        lambda: simulate.check_names(replace(physics.points([[0, 0, 0]] * 4), names=("a", "b", "c", "b"))),
+        "names: 'b' is there twice. Give every point a name of its own. [E-KEY]",
+    ),
     # what cannot be simulated
     (lambda: run(FOOT.replace(step=-1.0)), f"step: is -1.0. {FINITE}"),
     (lambda: run(FOOT.replace(duration="1")), f"duration: is '1'. {NO_NUMBER}"),
+    (lambda: run(FOOT.replace(duration=300 * "x")), f"duration: is '{116 * 'x'}. {NO_NUMBER}"),
     (lambda: run(FOOT.replace(step=True)), f"step: is True. {NO_NUMBER}"),
     (
         lambda: run(FOOT.replace(duration=2e5)),
@@ -216,6 +281,11 @@ REFUSALS = [
         lambda: run(replace(FOOT, points=physics.points([0, np.nan, 0]))),
         "P of point 0: is not finite. Give a place in metres. [E-RANGE]",
     ),
+    (
+        lambda: run(problem.stack([bar(), bar(np.nan)])),
+        "P of point 2: is not finite. Give a place in metres. [E-RANGE]",
+    ),
+    (lambda: run(feet(K_N=0.0)), f"K_N of point 0: is 0.0. {FEET}"),
     (lambda: run(feet(K_T=0.0)), f"K_T of point 0: is 0.0. {FEET}"),
     (
         lambda: run(feet(mu_0=0.2, mu=0.3)),
@@ -243,6 +313,12 @@ def lost_at_a_point(problem):
     """An anchor that is no number: the friction of this point is none either."""
     s = np.full(problem.start.s.shape, np.nan)
     return replace(problem, start=replace(problem.start, s=s, anchored=np.ones(s.shape[:-1], bool)))
+
+
+def bar(end=0.0):
+    """A body on three feet in a row, the last of which may be nowhere."""
+    points = physics.points([[0, 0, 0], [0.1, 0, 0], [end, 0.2, 0]])
+    return replace(FOOT, points=points, start=problem.State.at_rest(np.zeros(3), np.eye(3), 3))
 
 
 class Twisted(physics.Pull):
@@ -283,6 +359,15 @@ def settling():
             f"step 0 (t = 0 s): the motion is no longer made of finite numbers; it began at: 0. {CURE}",
         ),
         (
+            lost_at_a_point(bar()),
+            f"step 0 (t = 0 s): the motion is no longer made of finite numbers; it began at: 0, 1, 2. {CURE}",
+        ),
+        (
+            # the damper's force overflows before the first step, without a warning
+            physics.mass_on_a_foot(v=(0, 0, -1e306)),
+            f"step 0 (t = 0 s): the motion is no longer made of finite numbers; it began at: 0. {CURE}",
+        ),
+        (
             physics.mass_on_a_foot(z=1.0, effects=(physics.Pull(force=np.inf),)),
             "step 1 (t = 1e-05 s): the motion is no longer made of finite numbers; "
             f"it began at: none of the contact points. {CURE}",
@@ -301,7 +386,7 @@ def settling():
             f"step 0 (t = 0 s): the motion of block 1 is no longer made of finite numbers; it began at: 0. {CURE}",
         ),
     ],
-    ids=["late point", "overflow", "point", "body", "turn", "plane of blocks", "batch"],
+    ids=["late point", "overflow", "point", "points", "first force", "body", "turn", "plane of blocks", "batch"],
 )
 def test_a_run_that_loses_its_numbers_says_where(lost, text):
     with pytest.raises(NumericalError) as stopped:

@@ -194,7 +194,7 @@ class TestLargestStep:
             limit = loop.largest_step(physics.mass_on_a_foot(**foot))
             problem = physics.mass_on_a_foot(z=physics.resting(K_N=1e5), v=(1e-3, 0, 0), step=factor * limit, **foot)
             monkeypatch.setattr(loop, "check", lambda problem: None)
-            r = loop.simulate(replace(problem, duration=2000 * problem.step))
+            r = loop.simulate(replace(problem, duration=800 * problem.step))
             return np.max(np.abs(r.v[-100:, 0])) > 1e-3
 
         assert grows(1.01)
@@ -224,6 +224,8 @@ class TestLostNumbers:
         (values[1] if batch else values).flat[-1] = np.nan
         lost = loop.body_lost(replace(state, **{name: values}))
         assert np.array_equal(lost, [False, True, False] if batch else True)
+        has_no_place = loop.pose_lost(replace(state, **{name: values}))
+        assert np.array_equal(has_no_place, np.asarray(lost) & (name != "W"))
 
     def test_nan_in_the_start_is_found_at_its_point(self):
         problem = MODEL.problem(duration=0.01)
@@ -250,6 +252,17 @@ class TestLostNumbers:
         assert lost.value.where == "step 301 (t = 0.00301 s)"
         assert "none of the contact points" in lost.value.what
 
+    def test_what_an_effect_refuses_on_the_way_is_told_as_it_is(self):
+        class Refuses(physics.Pull):
+            def body_wrench(self, problem, c, x, Lambda, v, W, m):
+                if c.t >= 0.003:
+                    raise InputError("E-OWN", "pull", "is too much", "Pull less.")
+                return np.zeros_like(x), np.zeros_like(x)
+
+        with pytest.raises(InputError) as refused:
+            loop.simulate(physics.mass_on_a_foot(effects=(Refuses(),)))
+        assert str(refused.value) == "pull: is too much. Pull less. [E-OWN]"
+
     def test_of_a_batch_the_block_is_named(self):
         problem = stack([MODEL.problem(duration=0.002, theta_0=1e-4)] * 3)
         s, anchored = problem.start.s.copy(), problem.start.anchored.copy()
@@ -262,3 +275,25 @@ class TestLostNumbers:
         kept = loop.simulate(problem, keep_going=True)
         assert np.all(np.isfinite(kept.W[[0, 2]]))
         assert not np.any(np.isfinite(kept.W[1, -1]))
+
+
+@pytest.mark.parametrize("direction", [0, 1])
+@pytest.mark.parametrize("body", [0, 1])
+@pytest.mark.parametrize("point", [0, 1, 2])
+def test_the_stiffest_contact_is_the_one_with_the_shortest_step_by_itself(direction, body, point):
+    """Undamped, one contact alone is stable up to 2 sqrt(m / K): three points under each of two bodies."""
+    mass, K = np.array([60.0, 6000.0]), np.full((2, 2, 3), 5e7)
+    # As heavy a body as the second one needs a hundred times the stiffness for the same step; this is a little more.
+    K[direction, body, point] *= 2.0 * mass[body] / mass[0]
+    if body:
+        # Stiffer than any under the light body, and yet with a longer step.
+        K[:, 1] = np.maximum(K[:, 1], 3e8)
+    P = np.array([[0.0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]])
+    problems = []
+    for b in range(2):
+        points = physics.points(P, K_N=K[0, b], K_T=K[1, b], C_N=0.0, C_T=0.0)
+        start = State.at_rest(np.zeros(3), np.eye(3), 3)
+        problems.append(replace(physics.mass_on_a_foot(mass=mass[b]), points=points, start=start))
+    k = K[direction, body, point]
+    axis = "NT"[direction]
+    assert loop.stiffest(stack(problems)) == f"{point} with K_{axis} = {k:.3g} N/m and C_{axis} = 0 N s/m"
