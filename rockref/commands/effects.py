@@ -82,9 +82,10 @@ def text(effect: "Effect") -> str:
     for key, p in about["parameters"].items():
         low, high = p["plausible"]
         unit = "" if p["unit"] == "1" else f" {p['unit']}"
-        absent = "the top" if p["absent"] is None else f"{p['absent']}{unit}"
+        here = gallery.value_text(getattr(effect, key))
+        absent = gallery.value_text(p["absent"]) + (unit if p["absent"] is not None else "")
         lines.append(f"  {key:12} {p['meaning']}")
-        lines.append(f"  {'':12} absent {absent}; plausible {low:g} to {high:g}{unit}; here {getattr(effect, key)}")
+        lines.append(f"  {'':12} absent {absent}; plausible {low:g} to {high:g}{unit}; here {here}")
         lines.append(f"  {'':12} {p['sign_in_words']}; allowed is {p['allowed']}{unit}")
     lines += [
         f"acts at      {', '.join(about['acts_at']) or gallery.WHERE_POSES_ARE_READ}",

@@ -45,6 +45,11 @@ class Quantity(NamedTuple):
     least: float = -math.inf
     most: float = math.inf
 
+    @property
+    def suffix(self) -> str:
+        """The unit as it stands behind a number, " N m"; nothing where the number is plain."""
+        return "" if self.unit == "1" else f" {self.unit}"
+
 
 @dataclass(frozen=True)
 class Effect:
@@ -90,11 +95,11 @@ class Effect:
             if value is None and q.absent is None:
                 continue
             if isinstance(value, bool) or not isinstance(value, (int, float)) or math.isnan(value):
-                raise InputError("E-TYPE", place, f"is {value!r}", f"Give a number, in {q.unit}.")
+                raise InputError("E-TYPE", place, f"is {value!r}", f"Give a number{q.suffix and ', in' + q.suffix}.")
             if value == q.absent:
                 continue
             if not (math.isfinite(value) and q.least <= value <= q.most):
-                raise InputError("E-RANGE", place, f"is {value!r} {q.unit}", f"Give {limits(q)}.")
+                raise InputError("E-RANGE", place, f"is {value!r}{q.suffix}", f"Give {limits(q)}.")
 
     def points(self, block, points):
         """Geometry, mass, properties of the points: returns (Block, ContactPoints). Once, before the run."""
@@ -148,14 +153,13 @@ def implausible(effect: Effect) -> list[tuple[str, str, str]]:
     for name, value in effect.values().items():
         q = effect.quantities[name]
         if value is not None and value != q.absent and not q.low <= value <= q.high:
-            unit = "" if q.unit == "1" else f" {q.unit}"
-            found.append((name, f"is {value:g}{unit}", f"{q.low:g} to {q.high:g}{unit}"))
+            found.append((name, f"is {value:g}{q.suffix}", f"{q.low:g} to {q.high:g}{q.suffix}"))
     return found
 
 
 def limits(q: Quantity) -> str:
     """What a quantity may be, in words: the hard limits, then the plausible range."""
-    unit = "" if q.unit == "1" else f" {q.unit}"
+    unit = q.suffix
     low = "above 0" if q.least == POSITIVE else f"of at least {q.least:g}{unit}" if math.isfinite(q.least) else ""
     high = f"of at most {q.most:g}{unit}" if math.isfinite(q.most) else ""
     hard = " and ".join(a for a in (low, high) if a) or "that is finite"

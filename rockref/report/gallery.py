@@ -193,7 +193,8 @@ def section(kind: type[Effect]) -> list[str]:
     lines += ["| parameter | meaning | unit | absent | typical | plausible | sign; hard limits |", "| --- " * 7 + "|"]
     for name, p in about["parameters"].items():
         low, high = p["plausible"]
-        cells = [f"`{name}`", p["meaning"], p["unit"], _text(p["absent"]), _text(p["typical"]), f"{low:g} to {high:g}"]
+        sizes = [value_text(p["absent"]), value_text(p["typical"]), f"{low:g} to {high:g}"]
+        cells = [f"`{name}`", p["meaning"], p["unit"], *sizes]
         lines.append("| " + " | ".join([*cells, f"{p['sign_in_words']}; {p['allowed']}"]) + " |")
     hooks = ", ".join(f"`{hook}`" for hook in about["acts_at"]) or WHERE_POSES_ARE_READ
     lines += ["", f"- Acts at: {hooks}."]
@@ -202,7 +203,8 @@ def section(kind: type[Effect]) -> list[str]:
     return [*lines, "", f"`{about['command']}`"]
 
 
-def _text(value: float | str | None) -> str:
+def value_text(value: float | str | None) -> str:
+    """A value of a parameter as it is shown: six digits; None is the top of the block."""
     return "the top" if value is None else value if isinstance(value, str) else f"{value:g}"
 
 
