@@ -15,11 +15,14 @@ from rockref.effects import catalogue
 from rockref.model.errors import InputError
 from rockref.model.parameters import Parameters
 from rockref.model.problem import ContactPoints
-from rockref.model.storage import write_text
+from rockref.model.storage import read_bytes, write_text
 
 FORMAT = 1
-#: A model file is a page of text; decided: refuse more than a megabyte unread.
-LARGEST_FILE = 1_000_000
+#: A model file is a page of text, and TOML's time grows with the square of the length of a dotted key. Decided: what is
+#: longer is refused unread, and not written; at worst a file takes ten seconds.
+LARGEST_FILE, LONGEST_LINE = 2**18, 8000
+#: Decided: a list of more numbers is written with one on a line.
+SHORT_LIST = 60
 
 BLOCK_KEYS = {"mass_kg": "mass", "width_m": "width", "depth_m": "depth", "height_m": "height", "g_m_s2": "g"}
 PARAMETER_KEYS = {
@@ -52,27 +55,36 @@ def unknown_key(where: str, key: str, known) -> InputError:
     """The error for a key that nobody knows, with the nearest one that is known (E-KEY)."""
     near = difflib.get_close_matches(key, sorted(known), 1)
     cure = f"Did you mean {near[0]!r}?" if near else f"Known: {', '.join(sorted(known))}."
-    return InputError("E-KEY", where, f"unknown key {key!r}", cure)
+    return InputError("E-KEY", where, f"unknown key {key[:80]!r}", cure)
 
 
 def read_toml(path: str | os.PathLike) -> dict[str, Any]:
     """The tables of a TOML file. Raises InputError (E-FILE, E-TOML, E-ENCODING)."""
-    path = Path(path)
+    raw = read_bytes(path, LARGEST_FILE)
     try:
-        with open(path, "rb") as f:
-            raw = f.read(LARGEST_FILE + 1)
-    except OSError as e:
-        raise InputError("E-FILE", str(path), f"cannot be read ({e.strerror})", "Check the path.") from e
-    if len(raw) > LARGEST_FILE:
-        raise InputError("E-SIZE", str(path), "is larger than a megabyte", "A model file is a page of text.")
-    try:
-        return tomllib.loads(raw.decode("utf-8-sig"))
+        text = raw.decode("utf-8-sig")
+        check_lines(text, str(path))
+        return tomllib.loads(text)
     except UnicodeDecodeError as e:
         line = raw.count(b"\n", 0, e.start) + 1
         what = f"is not UTF-8: byte {raw[e.start]:#04x} in line {line}"
         raise InputError("E-ENCODING", str(path), what, "Save it as UTF-8.") from e
-    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as e:
-        raise InputError("E-TOML", str(path), f"is not valid TOML: {e}", "Mend the line that is named.") from e
+    except RecursionError as e:
+        raise InputError("E-TOML", str(path), "is nested too deeply", "A model file is a page of text.") from e
+    except InputError:
+        raise
+    except ValueError as e:  # TOMLDecodeError is one; an integer of more than 4300 digits raises a plain one
+        raise InputError(
+            "E-TOML", str(path), f"is not valid TOML: {str(e)[:200]}", "Mend the line that is named."
+        ) from e
+
+
+def check_lines(text: str, where: str) -> None:
+    """Refuse a file with a line that is too long to be read in time (E-TOML)."""
+    for line, content in enumerate(text.split("\n"), start=1):
+        if len(content) > LONGEST_LINE:
+            what = f"has {len(content)} characters in line {line}"
+            raise InputError("E-TOML", where, what, f"Write at most {LONGEST_LINE} in a line.")
 
 
 def number(where: str, value: Any, size: int | None = None) -> Any:
@@ -87,7 +99,7 @@ def number(where: str, value: Any, size: int | None = None) -> Any:
     except OverflowError as e:
         raise InputError("E-TYPE", where, "is too large for a number", "Give a finite number.") from e
     if not np.all(np.isfinite(numbers)):
-        raise InputError("E-TYPE", where, f"is {value!r}", "Give a finite number.")
+        raise InputError("E-TYPE", where, f"is {value!r}"[:120], "Give a finite number.")
     return numbers if size is not None else numbers[0]
 
 
@@ -109,7 +121,8 @@ def load(cls, path: str | os.PathLike):
         if key not in SECTIONS:
             raise unknown_key(where, key, SECTIONS)
     if tables.get("format", FORMAT) != FORMAT:
-        raise InputError("E-FORMAT", f"{where}: format", f"is {tables['format']!r}", f"This version reads {FORMAT}.")
+        what = f"is {tables['format']!r}"[:80]
+        raise InputError("E-FORMAT", f"{where}: format", what, f"This version reads {FORMAT}.")
     values: dict[str, Any] = {}
     block = table(where, tables, "block", set(BLOCK_KEYS) | {"inertia_kg_m2"})
     for key, name in BLOCK_KEYS.items():
@@ -204,6 +217,18 @@ def plain(value: Any) -> Any:
     return value
 
 
+def written(value: Any) -> Any:
+    """A value as tomlkit writes it: a long list with one entry on a line."""
+    import tomlkit
+
+    value = plain(value)
+    if not isinstance(value, list) or len(value) <= SHORT_LIST:
+        return value
+    lines = tomlkit.array()
+    lines.extend(value)
+    return lines.multiline(True)
+
+
 def save(model, path: str | os.PathLike) -> None:
     """Write `model` as TOML; every number is written so that it reads back to the same bits.
 
@@ -233,9 +258,11 @@ def save(model, path: str | os.PathLike) -> None:
         if isinstance(value, dict):
             if value:
                 document[key] = {
-                    k: ({i: plain(j) for i, j in v.items()} if isinstance(v, dict) else plain(v))
+                    k: ({i: written(j) for i, j in v.items()} if isinstance(v, dict) else written(v))
                     for k, v in value.items()
                 }
         else:
             document[key] = value
-    write_text(path, tomlkit.dumps(document))
+    text = tomlkit.dumps(document)
+    check_lines(text, str(path))
+    write_text(path, text)

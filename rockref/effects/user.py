@@ -62,7 +62,7 @@ def run_file(path: Path) -> ModuleType:
     """Run a Python file as a module of its own. Raises InputError (E-FILE) that names its line."""
     try:
         source = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as e:
+    except (OSError, ValueError) as e:  # also a name that no file can have
         raise InputError("E-FILE", str(path), f"cannot be read ({e})", "Check the path.") from e
     try:
         ast.parse(source)

@@ -18,7 +18,7 @@ from rockref.measure.notice import Notice
 from rockref.measure.rawfile import shown
 from rockref.measure.schema import Number, Section, Text, read_fields, read_toml
 from rockref.measure.table import read_table
-from rockref.measure.timebase import regular_samples
+from rockref.measure.timebase import check_forward, regular_samples
 from rockref.model.errors import InputError
 
 FIT, HOLDOUT = "fit", "holdout"
@@ -323,6 +323,8 @@ def _load_run(run: Run, experiment: Experiment, notices: list[Notice]) -> Run:
         t, others, filled, found = regular_samples(table, experiment.gyro.sample_rate)
         columns = dict(others)
         notices.extend(found)
+    else:
+        check_forward(table)
     crv = _stack(columns, RATES)
     if release and crv is not None:
         notices.extend(check_faults(t, crv, table, run, experiment))

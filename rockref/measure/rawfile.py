@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import gzip
 import hashlib
-import io
-import os
-import stat
-import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
 from rockref.measure.notice import Notice
 from rockref.model.errors import InputError
+from rockref.model.storage import read_bytes, too_large, unpacked
 
 # decided: ten minutes at 2 kHz with four columns of ten characters make 50 MB; a bigger file is not a run. Text in
 # memory can need four bytes a character and is copied twice, so this also keeps reading below 1 GiB.
 MAX_PACKED_BYTES = 64 * 2**20
 MAX_TEXT_BYTES = 64 * 2**20
-_CHUNK = 2**20
 
 
 @dataclass(frozen=True)
@@ -42,62 +37,15 @@ def read_text(path: Path, *, max_packed: int = MAX_PACKED_BYTES, max_text: int =
     Raises InputError: E-FILE (missing, not a regular file, unreadable), E-SIZE, E-GZIP, E-ENCODING, E-EMPTY.
     """
     packed = read_bytes(path, max_packed)
-    data = _unpack(packed, path, max_text) if packed[:2] == b"\x1f\x8b" else packed
+    data = unpacked(packed, path, max_text) if packed[:2] == b"\x1f\x8b" else packed
     if data is packed and path.suffix == ".gz":
         raise InputError("E-GZIP", str(path), "the name ends in .gz but the content is not gzip", "Pack or rename it.")
     if len(data) > max_text:
-        raise _too_large(path, max_text)
+        raise too_large(path, max_text)
     text, notices = _decode(data, path)
     if not text.strip():
         raise InputError("E-EMPTY", str(path), "the file is empty", "Export the run again.")
     return RawText(text, hashlib.sha256(packed).hexdigest(), notices)
-
-
-def read_bytes(path: Path, limit: int) -> bytes:
-    """Return the bytes of a regular file of at most `limit` bytes. Raises InputError: E-FILE, E-SIZE."""
-    cure = "Check the name and the permissions."
-    try:
-        # O_NONBLOCK: opening a pipe must not wait for a writer; fstat looks at what was opened, not at the name.
-        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise InputError("E-FILE", str(path), f"cannot be opened ({reason})", cure) from None
-    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
-        os.close(descriptor)
-        raise InputError("E-FILE", str(path), "is not a regular file", "Name a file that holds the data.")
-    with os.fdopen(descriptor, "rb") as stream:
-        try:
-            data = stream.read(limit + 1)
-        except OSError as error:
-            raise InputError("E-FILE", str(path), f"cannot be read ({error.strerror})", cure) from None
-    if len(data) > limit:
-        raise _too_large(path, limit)
-    return data
-
-
-def _too_large(path: Path, limit: int) -> InputError:
-    what = f"more than {limit // 2**20} MiB" if limit >= 2**20 else f"more than {limit} bytes"
-    return InputError("E-SIZE", str(path), f"{what}, which is no run", "Cut the file to what belongs to it.")
-
-
-def _unpack(packed: bytes, path: Path, limit: int) -> bytes:
-    """Return the unpacked bytes, at most `limit` of them: a bomb is noticed before it is in memory."""
-    pieces: list[bytes] = []
-    size = 0
-    try:
-        with gzip.GzipFile(fileobj=io.BytesIO(packed)) as stream:
-            while piece := stream.read(_CHUNK):
-                size += len(piece)
-                if size > limit:
-                    raise _too_large(path, limit)
-                pieces.append(piece)
-    except EOFError:
-        raise InputError(
-            "E-GZIP", str(path), f"the gzip stream is cut off after {size} bytes of text", "Copy the file again."
-        ) from None
-    except (OSError, zlib.error) as error:
-        raise InputError("E-GZIP", str(path), f"the gzip stream is damaged ({error})", "Copy the file again.") from None
-    return b"".join(pieces)
 
 
 def _decode(data: bytes, path: Path) -> tuple[str, tuple[Notice, ...]]:

@@ -30,7 +30,7 @@ def regular_samples(
     """
     t, name = table.columns["t"], table.names["t"]
     where, notices = f"{table.path}, column {name}", list[Notice]()
-    _check_forward(t, table, name)
+    check_forward(table)
     if len(t) < 2:
         raise InputError("E-SHORT", str(table.path), "one row holds no motion", "Export the run again.")
     step = 1.0 / sample_rate
@@ -62,7 +62,9 @@ def _missing(jumps: np.ndarray) -> np.ndarray:
     return np.maximum(missing, 0.0).astype(np.int64)
 
 
-def _check_forward(t: np.ndarray, table: Table, name: str) -> None:
+def check_forward(table: Table) -> None:
+    """Refuse a time column that runs back or stands still (E-TIME)."""
+    t, name = table.columns["t"], table.names["t"]
     back = np.flatnonzero(np.diff(t) <= 0)
     if len(back):
         row = int(back[0]) + 1

@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import math
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rockref.measure.columns import MAX_COLUMNS
 from rockref.measure.experiment import FIT, HOLDOUT, load_experiment
 from rockref.measure.notice import Notice
+from rockref.measure.rawfile import read_text
+from rockref.measure.schema import read_toml
 from rockref.model.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 #: Names of the one table of all tosses, the first that is there is read.
 TABLES = ("tosses.csv.gz", "tosses.csv")
@@ -33,8 +41,12 @@ LEAST_FRAMES = 6
 SAME_HEIGHT = 2.5e-6
 #: Jump of the pose between two frames above which the tracker lost the block: 0.15 m (22 m/s) or 1.5 rad (220 rad/s).
 JUMP, TURN = 0.15, 1.5
-#: A table of more rows than this is several experiments (decided: 10 000 tosses of 200 frames).
-MOST_ROWS = 2_000_000
+#: A table of more rows than this is several experiments (decided: 5000 tosses of 100 frames).
+MOST_ROWS = 500_000
+#: No number, length, time or rate of a toss is larger; decided: below it no product overflows, and ids are exact.
+MOST = 1e15
+#: Cameras take so many frames a second [Hz]; decided.
+LEAST_RATE, MOST_RATE = 1.0, 1e6
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,11 +107,8 @@ def is_toss_folder(path: Path | str) -> bool:
     if any((path / name).is_file() for name in TABLES):
         return True
     try:
-        import tomllib
-
-        with open(path / "experiment.toml", "rb") as f:
-            return tomllib.load(f).get("kind") == "toss"
-    except (OSError, ValueError):
+        return read_toml(path / "experiment.toml")[0].get("kind") == "toss"
+    except InputError:
         return False
 
 
@@ -112,7 +121,8 @@ def load_tosses(path: Path | str, split: str = "rule") -> Tosses:
     Raises
     ------
     InputError
-        E-FILE, E-COLUMN-MISSING, E-NUMBER, E-POSE, E-SIZE, E-CHOICE; those of `load_experiment`.
+        E-HEADER, E-COLUMN-MISSING, E-COLUMN-TWICE, E-FIELDS, E-NUMBER, E-POSE, E-RATE, E-SHORT, E-SIZE, E-CHOICE;
+        those of `read_text` and of `load_experiment`.
     """
     path = Path(path)
     if split not in ("rule", "all_fit", "all_holdout"):
@@ -134,6 +144,9 @@ def _from_experiment(path: Path) -> Tosses:
     tosses = []
     for run in experiment.runs:
         assert run.t is not None and run.pose is not None
+        if len(run.t) < LEAST_FRAMES:
+            what, cure = f"has {len(run.t)} frames", f"Give {LEAST_FRAMES} frames or more."
+            raise InputError("E-SHORT", str(path / run.file), what, cure)
         tosses.append(_toss(run.id, run.id, run.use, np.asarray(run.t), np.asarray(run.pose), str(path / run.file)))
     steps = np.concatenate([np.diff(toss.t) for toss in tosses])
     return Tosses(
@@ -144,37 +157,17 @@ def _from_experiment(path: Path) -> Tosses:
 
 
 def _from_table(table: Path) -> Tosses:
-    import pandas as pd
-
-    raw = table.read_bytes()
-    try:
-        data = pd.read_csv(table, nrows=MOST_ROWS + 1)
-    except (ValueError, OSError, EOFError, UnicodeDecodeError) as e:
-        raise InputError(
-            "E-FILE", str(table), f"cannot be read as a table ({str(e)[:80]})", "Give comma-separated text."
-        ) from e
-    missing = [name for name in NEEDED if name not in data.columns]
-    if missing:
-        raise InputError(
-            "E-COLUMN-MISSING", str(table), f"has no column {missing[0]}", f"It needs {', '.join(NEEDED)}."
-        )
-    if len(data) > MOST_ROWS or not len(data):
-        raise InputError("E-SIZE", str(table), f"has {len(data)} rows", f"Give 1 to {MOST_ROWS} rows.")
-    numbers = [name for name in (*NEEDED, *VELOCITY, *RATE, "t_s", "group") if name in data.columns]
-    for name in numbers:
-        values = pd.to_numeric(data[name], errors="coerce").to_numpy(float)
-        bad = np.flatnonzero(~np.isfinite(values))
-        if len(bad):
-            raise InputError(
-                "E-NUMBER", f"{table}, line {bad[0] + 2}, column {name}", "is not a number", "Mend or remove the row."
-            )
-        data[name] = values
+    raw = read_text(table)
+    data = _numbers(raw.text, table)
     rate = FRAME_RATE
     if "t_s" in data.columns:
         span = data.groupby("toss").agg(frames=("frame", "max"), first=("frame", "min"), t=("t_s", "max"))
         span = span[span.frames > span["first"]]
         if len(span) and (span.t > 0).all():
             rate = round(float(np.median((span.frames - span["first"]) / span.t)), 3)
+    if not LEAST_RATE <= rate <= MOST_RATE:
+        where, cure = f"{table}, column t_s", "Check the unit: time is in s from the first frame."
+        raise InputError("E-RATE", where, f"frames come at {rate:.6g} Hz", cure)
     tosses, notices = [], []
     for number, rows in data.groupby("toss", sort=True):
         rows = rows.sort_values("frame")
@@ -199,8 +192,62 @@ def _from_table(table: Path) -> Tosses:
     return Tosses(
         path=table.parent, name=table.parent.resolve().name, rate=rate, mass=CUBE_MASS, width=CUBE_WIDTH,
         height=CUBE_WIDTH, tosses=tuple(originals), copies=tuple(copies), notices=tuple(notices),
-        sha256=hashlib.sha256(raw).hexdigest(),
+        sha256=raw.sha256,
     )  # fmt: skip
+
+
+def _numbers(text: str, table: Path) -> pd.DataFrame:
+    """The known columns of a table of tosses, float64; others are left unread.
+
+    Raises InputError: E-HEADER, E-COLUMN-MISSING, E-COLUMN-TWICE, E-SIZE, E-FIELDS, E-FILE, E-NUMBER.
+    """
+    import pandas as pd
+
+    header, *rows = text.rstrip("\n").split("\n")
+    names = [name.strip().strip('"') for name in header.split(",")]
+    known = [name for name in (*NEEDED, *VELOCITY, *RATE, "t_s", "group") if name in names]
+    _check_header(names, known, table)
+    if not 0 < len(rows) <= MOST_ROWS:
+        raise InputError("E-SIZE", str(table), f"has {len(rows)} rows", f"Give 1 to {MOST_ROWS} rows.")
+    if '"' not in text:  # a remark may have commas
+        _check_fields(rows, len(names), table)
+    places = sorted(names.index(name) for name in known)
+    try:
+        data = pd.read_csv(io.StringIO(text), usecols=places, index_col=False, low_memory=False)
+    except (ValueError, OverflowError) as e:
+        raise InputError(
+            "E-FILE", str(table), f"cannot be read as a table ({str(e)[:80]})", "Give comma-separated text."
+        ) from e
+    data.columns = pd.Index([names[place] for place in places])
+    for name in known:
+        values = pd.to_numeric(data[name], errors="coerce").to_numpy(float)
+        bad = np.flatnonzero(~(np.abs(values) < MOST))
+        if len(bad):
+            raise InputError(
+                "E-NUMBER", f"{table}, line {bad[0] + 2}, column {name}", "is not a number", "Mend or remove the row."
+            )
+        data[name] = values
+    return data
+
+
+def _check_header(names: list[str], known: list[str], table: Path) -> None:
+    if len(names) > MAX_COLUMNS:
+        raise InputError("E-HEADER", str(table), f"has {len(names)} columns", f"Keep at most {MAX_COLUMNS}.")
+    missing = [name for name in NEEDED if name not in known]
+    if missing:
+        raise InputError(
+            "E-COLUMN-MISSING", str(table), f"has no column {missing[0]}", f"It needs {', '.join(NEEDED)}."
+        )
+    twice = [name for name in known if names.count(name) > 1]
+    if twice:
+        raise InputError("E-COLUMN-TWICE", str(table), f"has two columns {twice[0]}", "Keep one of the two.")
+
+
+def _check_fields(rows: list[str], width: int, table: Path) -> None:
+    for number, row in enumerate(rows, start=2):
+        if row and row.count(",") != width - 1:
+            what = f"{row.count(',') + 1} fields for {width} columns"
+            raise InputError("E-FIELDS", f"{table}, line {number}", what, "Mend the row.")
 
 
 def _label(number: float) -> str:

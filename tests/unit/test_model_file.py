@@ -1,11 +1,14 @@
 """model.toml: what is written reads back, and what cannot be read says where and why."""
 
+import os
+
 import numpy as np
 import pytest
 
 from rockref import InputError, Model
 from rockref.model.parameters import chromosome_54
-from rockref.model_file import LARGEST_FILE
+from rockref.model.problem import ContactPoints
+from rockref.model_file import LARGEST_FILE, LONGEST_LINE
 from tests import physics
 
 HEAD = "format = 1\n"
@@ -117,6 +120,16 @@ class TestRefusals:
                 Model.load(path)
             assert error.value.code == "E-FILE"
 
+    def test_a_pipe_is_not_waited_for(self, tmp_path):
+        os.mkfifo(tmp_path / "model.toml")
+        with pytest.raises(InputError, match="not a regular file"):
+            Model.load(tmp_path / "model.toml")
+
+    def test_a_line_that_would_take_minutes_is_refused(self, tmp_path):
+        """TOML's time grows with the square of the length of a dotted key: 50 000 characters took three minutes."""
+        error = refused(tmp_path, HEAD + ".".join(["a"] * 25_000) + " = 1\n")
+        assert error.code == "E-TOML" and "line 2" in error.what
+
     def test_a_file_that_is_too_large_is_not_read(self, tmp_path):
         assert refused(tmp_path, b"#" * (LARGEST_FILE + 2)).code == "E-SIZE"
 
@@ -161,3 +174,20 @@ class TestWriting:
             assert np.array_equal(getattr(back.custom_points, key), getattr(own, key)), key
         assert back.custom_points.names == own.names
         assert np.array_equal(back.inertia, np.diag([1.0, 2, 3]))
+
+
+def test_hundreds_of_points_are_saved_in_lines_that_can_be_read(tmp_path):
+    law = Model.table_3_1()
+    few = law.body_without_effects()[1]
+    n = 400
+    values = {key: np.full(n, getattr(few, key)[0]) for key in ("K_N", "K_T", "C_N", "C_T", "mu_0", "mu")}
+    P = np.column_stack([np.linspace(-0.05, 0.05, n) / 3, np.linspace(-0.05, 0.05, n) / 7, np.full(n, -1 / 3)])
+    many = ContactPoints(P=P, radius=None, names=tuple(f"p{i}" for i in range(n)), **values)
+    law.replace(points="custom", custom_points=many).save(tmp_path / "model.toml")
+    assert np.array_equal(Model.load(tmp_path / "model.toml").custom_points.P, P)
+
+
+def test_a_note_that_could_not_be_read_back_is_not_written(tmp_path):
+    with pytest.raises(InputError, match="E-TOML"):
+        Model(origin={"note": "x" * (LONGEST_LINE + 1)}).save(tmp_path / "model.toml")
+    assert not (tmp_path / "model.toml").exists()

@@ -8,9 +8,9 @@ import shutil
 import numpy as np
 import pytest
 
-from rockref.measure import rawfile
 from rockref.measure.experiment import load_experiment
 from rockref.measure.repeatability import repeat_groups
+from rockref.model import storage
 from rockref.model.errors import InputError
 
 
@@ -65,7 +65,7 @@ def test_held_out_files_are_not_opened(folder, monkeypatch):
     opened = []
     real = os.open
     monkeypatch.setattr(
-        rawfile.os, "open", lambda path, flags: opened.append(os.path.basename(path)) or real(path, flags)
+        storage.os, "open", lambda path, flags: opened.append(os.path.basename(path)) or real(path, flags)
     )
     experiment = load_experiment(folder, uses=("fit",))
     assert opened == ["experiment.toml", "run01.csv"]

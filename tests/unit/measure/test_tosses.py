@@ -1,6 +1,7 @@
 """Tosses are read whole, copies are set aside, bad ones are named."""
 
 import gzip
+import os
 
 import numpy as np
 import pytest
@@ -59,6 +60,12 @@ def test_a_jump_and_a_gap_are_left_out_with_a_notice(six, tmp_path):
         (lambda text: text.replace("x_m", "x"), "E-COLUMN-MISSING"),
         (lambda text: text.replace("\n0,3,", "\n0,3,oops", 1), "E-NUMBER"),
         (lambda text: text.splitlines()[0] + "\n", "E-SIZE"),
+        (lambda text: text.replace("\n0,3,", "\n0,3,9,", 1), "E-FIELDS"),
+        (lambda text: text.replace("\n0,3,", "\n0,3,1e300", 1), "E-NUMBER"),
+        (lambda text: text.replace("frame,t_s,x_m", "frame,x_m,x_m"), "E-COLUMN-TWICE"),
+        (lambda text: "," * 100 + text, "E-HEADER"),
+        (lambda text: text.replace(",0.", ",0.000000"), "E-RATE"),
+        (lambda text: "", "E-EMPTY"),
     ],
 )
 def test_bad_tables_are_refused(six, tmp_path, change, code):
@@ -68,6 +75,32 @@ def test_bad_tables_are_refused(six, tmp_path, change, code):
     with pytest.raises(InputError) as e:
         load_tosses(folder)
     assert e.value.code == code
+
+
+@pytest.mark.parametrize("damage", [lambda raw: raw[:-20], lambda raw: raw[:30] + b"\xff" * 40 + raw[70:]])
+def test_a_packed_table_that_is_damaged_is_refused(six, tmp_path, damage):
+    folder = write_tosses(tmp_path / "t", *six)
+    path = folder / "tosses.csv.gz"
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(InputError) as e:
+        load_tosses(folder)
+    assert e.value.code == "E-GZIP"
+
+
+def test_a_bomb_is_not_unpacked(tmp_path):
+    (tmp_path / "tosses.csv.gz").write_bytes(gzip.compress(bytes(100_000_000), mtime=0))
+    with pytest.raises(InputError) as e:
+        load_tosses(tmp_path)
+    assert e.value.code == "E-SIZE"
+
+
+@pytest.mark.parametrize("toml", [b"a = " + b"[" * 100_000, b"\xff", b"x" * 2_000_000, None])
+def test_whether_it_holds_tosses_can_be_asked_of_any_folder(tmp_path, toml):
+    if toml is None:
+        os.mkfifo(tmp_path / "experiment.toml")  # without care this waits for ever for somebody to write
+    else:
+        (tmp_path / "experiment.toml").write_bytes(toml)
+    assert not is_toss_folder(tmp_path)
 
 
 def test_an_experiment_folder_of_kind_toss_is_read_too(six, tmp_path):
@@ -89,6 +122,20 @@ def test_an_experiment_folder_of_kind_toss_is_read_too(six, tmp_path):
     assert [t.use for t in tosses.tosses] == ["fit", "holdout"]
     assert (tosses.mass, tosses.width, tosses.height) == (0.5, 0.1, 0.2)
     assert tosses.rate == pytest.approx(148, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("rows", "code"),
+    [("0,0,0,0,1,0,0,0\n", "E-SHORT"), ("".join(f"{-i},0,0,0,1,0,0,0\n" for i in range(9)), "E-TIME")],
+)
+def test_a_toss_that_is_a_frame_or_runs_back_is_refused(tmp_path, rows, code):
+    (tmp_path / "0.csv").write_text("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n" + rows)
+    text = 'name = "made"\nkind = "toss"\nbaseline = "four_points"\n'
+    text += "[block]\nmass_kg = 0.5\nwidth_m = 0.1\nheight_m = 0.2\n"
+    (tmp_path / "experiment.toml").write_text(text + '[[run]]\nid = "0"\nfile = "0.csv"\nuse = "fit"\n')
+    with pytest.raises(InputError) as e:
+        load_tosses(tmp_path)
+    assert e.value.code == code
 
 
 def test_a_release_is_no_toss(tmp_path):

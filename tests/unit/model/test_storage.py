@@ -1,5 +1,7 @@
 """Files appear whole or not at all."""
 
+import gzip
+import io
 import os
 
 import pytest
@@ -63,3 +65,91 @@ def test_pieces_are_asked_for_one_by_one_and_an_interruption_leaves_nothing(tmp_
         storage.write_pieces(path, interrupted())
     assert path.read_bytes() == b"one two"
     assert os.listdir(tmp_path) == ["a.txt"]
+
+
+CHECK, CUT = "Check the name and the permissions.", "Cut the file to what belongs to it."
+
+
+def told(error: pytest.ExceptionInfo) -> str:
+    return str(error.value)
+
+
+class TestReading:
+    @pytest.mark.parametrize("size", [0, 4, 5])
+    def test_as_many_bytes_as_there_may_be(self, tmp_path, size):
+        (tmp_path / "a").write_bytes(bytes(size))
+        assert storage.read_bytes(tmp_path / "a", 5) == bytes(size)
+
+    @pytest.mark.parametrize(
+        ("limit", "words"),
+        [(5, "5 bytes"), (2**20 - 1, "1048575 bytes"), (2**20, "1 MiB"), (3 * 2**20 + 1, "3 MiB")],
+    )
+    def test_more_is_refused_and_not_read(self, tmp_path, limit, words):
+        with (tmp_path / "a").open("wb") as f:
+            f.truncate(2**40)  # a file without content, which no memory would hold
+        with pytest.raises(InputError) as refused:
+            storage.read_bytes(tmp_path / "a", limit)
+        assert told(refused) == f"{tmp_path / 'a'}: holds more than {words}. {CUT} [E-SIZE]"
+
+    @pytest.mark.parametrize(
+        ("name", "reason"), [("none", "No such file or directory"), ("a\0b", "embedded null byte")]
+    )
+    def test_what_cannot_be_opened_is_named(self, tmp_path, name, reason):
+        with pytest.raises(InputError) as refused:
+            storage.read_bytes(tmp_path / name, 5)
+        assert told(refused) == f"{tmp_path / name}: cannot be opened ({reason}). {CHECK} [E-FILE]"
+
+    @pytest.mark.parametrize("make", [os.mkdir, os.mkfifo])
+    def test_what_is_no_file_is_not_waited_for_and_is_closed(self, tmp_path, monkeypatch, make):
+        make(tmp_path / "a")
+        opened, closed = [], []
+        real_open, real_close = os.open, os.close
+        monkeypatch.setattr(os, "open", lambda *given: opened.append(real_open(*given)) or opened[-1])
+        monkeypatch.setattr(os, "close", lambda descriptor: closed.append(descriptor) or real_close(descriptor))
+        with pytest.raises(InputError) as refused:
+            storage.read_bytes(tmp_path / "a", 5)
+        cure = "Name a file that holds the data."
+        assert told(refused) == f"{tmp_path / 'a'}: is not a regular file. {cure} [E-FILE]"
+        assert opened and closed == opened
+
+    def test_a_disk_that_fails_is_told(self, tmp_path, monkeypatch):
+        (tmp_path / "a").write_bytes(b"1")
+
+        class Failing(io.BytesIO):
+            def read(self, size=-1):
+                raise OSError(5, "Input/output error")
+
+        real = os.fdopen
+        monkeypatch.setattr(os, "fdopen", lambda descriptor, mode: real(descriptor, mode).close() or Failing())
+        with pytest.raises(InputError) as refused:
+            storage.read_bytes(tmp_path / "a", 5)
+        assert told(refused) == f"{tmp_path / 'a'}: cannot be read (Input/output error). {CHECK} [E-FILE]"
+
+
+class TestUnpacking:
+    @pytest.mark.parametrize("size", [0, 1, 2**20, 2**20 + 1, 5 * 2**19])
+    def test_what_was_packed_comes_out(self, size):
+        text = bytes(i % 251 for i in range(1000)) * (size // 1000 + 1)
+        assert storage.unpacked(gzip.compress(text[:size], mtime=0), "a.gz", size) == text[:size]
+
+    def test_a_bomb_is_noticed_before_it_is_in_memory(self):
+        with pytest.raises(InputError) as refused:
+            storage.unpacked(gzip.compress(bytes(3_000_000), mtime=0), "a.gz", 2 * 2**20)
+        assert told(refused) == f"a.gz: holds more than 2 MiB. {CUT} [E-SIZE]"
+
+    def test_what_is_cut_off_is_told_with_its_size(self):
+        packed = gzip.compress(os.urandom(100) * 30_000, 0, mtime=0)
+        with pytest.raises(InputError) as refused:
+            storage.unpacked(packed[: len(packed) // 2], "a.gz", 9_000_000)
+        assert told(refused) == (
+            "a.gz: the gzip stream is cut off after 1048576 bytes of text. Copy the file again. [E-GZIP]"
+        )
+
+    @pytest.mark.parametrize("damage", [lambda raw: raw[:-8] + bytes(8), lambda raw: raw[:10] + b"\xff" * 9])
+    def test_what_is_damaged_is_told(self, damage):
+        with pytest.raises(InputError) as refused:
+            storage.unpacked(damage(gzip.compress(b"text", mtime=0)), "a.gz", 100)
+        words = told(refused)
+        assert words.startswith("a.gz: the gzip stream is damaged (") and words.endswith(
+            "). Copy the file again. [E-GZIP]"
+        )
