@@ -117,6 +117,32 @@ def test_a_shape_that_reaches_out_is_refused(tmp_path):
         read_tensor(tmp_path / "0.pt")
 
 
+def test_a_few_numbers_do_not_become_a_thousand_million(tmp_path):
+    bomb = Call(Global("torch._utils", "_rebuild_tensor_v2"), Storage("DoubleStorage", "0", 1), 0, (10**9,), (0,))
+    with zipfile.ZipFile(tmp_path / "0.pt", "w") as z:
+        z.writestr("toss/data.pkl", dumped(bomb))
+        z.writestr("toss/data/0", np.zeros(1).tobytes())
+    with pytest.raises(InputError, match="more numbers than it holds"):
+        read_tensor(tmp_path / "0.pt")
+
+
+@pytest.mark.parametrize(
+    ("raw", "words"),
+    [
+        (b"\x80\x02(lp0\n.", "LIST is not part"),
+        (b"\x80\x02}}b.", "BUILD is not part"),
+        (b"\x80\x02" + b"N" * 20_000 + b".", "too long"),
+        (b"\x80\x02ccollections\nOrderedDict\n)R.", "does not begin"),
+        (b"\x80\x02ctorch._utils\n_rebuild_tensor\n)R.", "no tensor"),
+        (b"\x80\x02Nr\xff\xff\xff\x7f.", "does not begin"),  # a place among a thousand million
+    ],
+)
+def test_a_pickle_is_read_no_further_than_a_tensor_needs(tmp_path, raw, words):
+    (tmp_path / "0.pt").write_bytes(raw)
+    with pytest.raises(InputError, match=words):
+        read_tensor(tmp_path / "0.pt")
+
+
 def test_a_clone_becomes_a_folder_of_tosses_with_its_copies_marked(tmp_path):
     x, Lambda, starts = made(stated(), 3, frames=20)
     clone = tmp_path / "clone" / "data" / "tosses_processed"
