@@ -192,8 +192,7 @@ def _files(action: str, rest: list[str], layers: list[str], profile: str, output
                 "E-ARGUMENT", "answer", f"has {len(rest)} arguments", "rockref conform answer BACKEND requests.jsonl."
             )
         backend = load(rest[0])
-        requests = Path(rest[1]).read_text(encoding="utf-8").splitlines()
-        made = "".join(jsonlines.line(jsonlines.answer(backend, json.loads(row))) for row in requests if row.strip())
+        made = "".join(jsonlines.line(jsonlines.answer(backend, q)) for q in offline.requests_in(Path(rest[1])))
     if output is None:
         typer.echo(made, nl=False)
     else:

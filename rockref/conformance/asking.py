@@ -10,6 +10,20 @@ from rockref.conformance.vectors import Vector, problem_of
 ANYTHING = (Exception, SystemExit)
 
 
+#: Characters that are kept of a stranger's words; decided.
+KEPT = 200
+
+
+def printable(words: object) -> str:
+    """A stranger's words for a verdict: not too long, and without what a terminal obeys or a file cannot hold."""
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(words)[:KEPT])
+
+
+def raised(error: BaseException) -> str:
+    """What a backend raised, in a line."""
+    return printable(f"{type(error).__name__}: {error}".splitlines()[0])
+
+
 def as_mapping(answer: Any, piece: str) -> dict[str, Any]:
     """A piece's answer as a mapping: a dict, or an object with attributes."""
     if isinstance(answer, dict):

@@ -4,7 +4,6 @@ one."""
 from __future__ import annotations
 
 import csv
-import gzip
 import io
 from functools import lru_cache
 from typing import Any
@@ -16,7 +15,8 @@ from rockref.conformance.asking import ANYTHING, as_mapping
 from rockref.conformance.compare import bar_of, in_bars
 from rockref.conformance.fields import Missing, result
 from rockref.conformance.runs import SHOWN, expected_columns, grouped, simulate
-from rockref.conformance.vectors import Expected, Vector, manifest, problem_of, read_bytes, trajectory
+from rockref.conformance.vectors import Expected, Vector, as_shipped, manifest, problem_of, read_bytes, trajectory
+from rockref.model.storage import unpacked
 
 #: Every so many rows of a window enter the fingerprint: windows are long, and their rows alike.
 STRIDE = 10
@@ -101,9 +101,10 @@ def code(marks: np.ndarray) -> np.ndarray:
 @lru_cache
 def library() -> tuple[tuple[str, ...], np.ndarray]:
     """Ids of the mistakes, and their fingerprints (mistakes, marks)."""
-    text = gzip.decompress(read_bytes("fingerprints.csv.gz")).decode()
-    rows = list(csv.reader(io.StringIO(text)))
-    return tuple(row[0] for row in rows), np.array([row[1:] for row in rows], float) / TENTHS
+    name = "fingerprints.csv.gz"
+    with as_shipped(name):
+        rows = list(csv.reader(io.StringIO(unpacked(read_bytes(name), name, vectors.LARGEST).decode())))
+        return tuple(row[0] for row in rows), np.array([row[1:] for row in rows], float) / TENTHS
 
 
 def neighbours(

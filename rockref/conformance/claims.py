@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.asking import ANYTHING, as_mapping, has
+from rockref.conformance.asking import ANYTHING, as_mapping, has, raised
 from rockref.conformance.compare import grade_of, in_bars
-from rockref.conformance.vectors import problem_of, read_bytes, value_of
+from rockref.conformance.vectors import as_shipped, problem_of, read_bytes, value_of
 from rockref.model.problem import Problem, State
 
 PIECES = ("effect", "sensor")
@@ -56,9 +56,10 @@ class ClaimCheck:
 
 @lru_cache
 def claims() -> tuple[Claim, ...]:
-    """All vectors of effects."""
-    document = json.loads(read_bytes("LE.json"))
-    return tuple(claim_of(entry, document["sets"]) for entry in document["vectors"])
+    """All vectors of effects. Raises InputError (E-VECTORS)."""
+    with as_shipped("LE.json"):
+        document = json.loads(read_bytes("LE.json"))
+        return tuple(claim_of(entry, document["sets"]) for entry in document["vectors"])
 
 
 def claim_of(entry: dict[str, Any], sets: dict[str, Any]) -> Claim:
@@ -113,8 +114,7 @@ def judge_claim(backend: Any, claim: Claim) -> ClaimCheck:
         answer = ask(backend, claim)
         return ClaimCheck(claim.effect, "not shown") if answer is None else explained(claim, answer)
     except ANYTHING as e:  # the backend is a stranger's
-        said = f"{type(e).__name__}: {e}".splitlines()[0][:200]
-        return ClaimCheck(claim.effect, "outside", float("inf"), said)
+        return ClaimCheck(claim.effect, "outside", float("inf"), raised(e))
 
 
 def explained(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:

@@ -14,6 +14,7 @@ import time
 from typing import Any
 
 from rockref.conformance import jsonlines
+from rockref.conformance.asking import KEPT, printable
 from rockref.conformance.rules import PIECES
 from rockref.conformance.vectors import flat
 from rockref.model.errors import InputError
@@ -28,8 +29,11 @@ FEW_STEPS = 100
 PATIENCE = 3
 #: So many lines that are no JSON object are passed over before an answer; decided.
 MUCH_RUBBISH = 100
-#: Longer lines are rubbish: the longest honest answer, a run of some thousand rows, has a few megabytes.
-LONGEST_LINE = 200_000_000
+#: Longer lines are rubbish: the longest honest answer, a run of 351 rows, has 0.3 MB. JSON takes thirty times its size
+#: in memory at worst.
+LONGEST_LINE = 16_000_000
+#: Lines that wait to be looked at, so that a program that prints without end is stopped by its own full pipe; decided.
+WAITING = 3
 
 
 class Misbehaved(Exception):
@@ -42,7 +46,8 @@ class Executable:
     def __init__(self, command: list[str], small: float = SMALL, long: float = LONG):
         self.command, self.small, self.long = command, small, long
         self.process: subprocess.Popen[str] | None = None
-        self.lines: queue.Queue[str | None] = queue.Queue()
+        self.lines: queue.Queue[str | None] = queue.Queue(WAITING)
+        self.ended = threading.Event()
         self.complaints: list[str] = []
         self.failures: dict[str, int] = {}
         self.asked = 0
@@ -56,8 +61,7 @@ class Executable:
         self.name = str(facts.get("name") or command[0])
         self.version, self.language = str(facts.get("version", "")), str(facts.get("language", "executable"))
         self.precision = str(facts.get("precision", "float64"))
-        shown = [p for p in facts.get("capabilities", []) if p in (*PIECES, *jsonlines.CLAIMS)]
-        for piece in shown:
+        for piece in jsonlines.capabilities(facts, (*PIECES, *jsonlines.CLAIMS)):
             setattr(self, piece, self._piece(piece))
 
     def _piece(self, piece: str) -> Any:
@@ -91,9 +95,9 @@ class Executable:
         piece = request["piece"]
         if self.failures.get(piece, 0) >= PATIENCE:
             raise Misbehaved(f"not asked any more: {PATIENCE} questions to {piece} ended badly")
-        if self.process is None:
-            self._started()
         try:
+            if self.process is None:
+                self._started()
             reply = self._asked(request, patience)
         except Misbehaved:
             self.failures[piece] = self.failures.get(piece, 0) + 1
@@ -102,9 +106,9 @@ class Executable:
         if reply.get("id") != request["id"]:
             self.failures[piece] = self.failures.get(piece, 0) + 1
             self.close()
-            raise Misbehaved(f"answered to id {reply.get('id')!r}, not {request['id']!r}")
+            raise Misbehaved(f"answered to id {printable(repr(reply.get('id')))}, not {request['id']!r}")
         if "error" in reply:
-            raise Misbehaved(f"says: {reply['error']}")
+            raise Misbehaved(f"says: {printable(reply['error'])}")
         if piece in jsonlines.CLAIMS and reply.get("out", 0) is None:
             return None
         try:
@@ -113,14 +117,22 @@ class Executable:
             raise Misbehaved(str(e)) from e
 
     def _started(self) -> dict[str, Any]:
-        self.lines, self.complaints = queue.Queue(), []
+        self.lines, self.complaints, self.ended = queue.Queue(WAITING), [], threading.Event()
+        self._spawn()
+        facts = self._asked({"cmd": "start", "protocol": jsonlines.PROTOCOL}, START)
+        if facts.get("protocol") != jsonlines.PROTOCOL:
+            raise Misbehaved(f"speaks protocol {printable(repr(facts.get('protocol')))}, not {jsonlines.PROTOCOL}")
+        return facts
+
+    def _spawn(self) -> None:
+        """Start the program, and the threads that read what it prints."""
         try:
             self.process = subprocess.Popen(
                 self.command,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
-                text=True,
+                encoding="utf-8",
                 errors="replace",
                 # A group of its own: what the program starts (a shell, mpirun) is ended with it.
                 start_new_session=True,
@@ -129,12 +141,8 @@ class Executable:
             raise InputError(
                 "E-BACKEND", shlex.join(self.command), f"cannot be started ({e.strerror})", "Give a program."
             ) from e
-        threading.Thread(target=_pump, args=(self.process.stdout, self.lines), daemon=True).start()
+        threading.Thread(target=_pump, args=(self.process.stdout, self.lines, self.ended), daemon=True).start()
         threading.Thread(target=_keep, args=(self.process.stderr, self.complaints), daemon=True).start()
-        facts = self._asked({"cmd": "start", "protocol": jsonlines.PROTOCOL}, START)
-        if facts.get("protocol") != jsonlines.PROTOCOL:
-            raise Misbehaved(f"speaks protocol {facts.get('protocol')!r}, not {jsonlines.PROTOCOL}")
-        return facts
 
     def _asked(self, request: dict[str, Any], patience: float) -> dict[str, Any]:
         assert self.process is not None and self.process.stdin is not None
@@ -159,7 +167,7 @@ class Executable:
             if isinstance(reply, dict):
                 self._remark(rubbish)
                 return reply
-            rubbish.append(text)
+            rubbish.append(text[:KEPT])
         raise Misbehaved(f"no answer in {MUCH_RUBBISH} lines{_and(rubbish)}")
 
     def _remark(self, rubbish: list[str]) -> None:
@@ -185,6 +193,7 @@ class Executable:
         if self.process is None:
             return
         process, self.process = self.process, None
+        self.ended.set()
         _end_group(process)
         try:
             process.wait(timeout=5)
@@ -225,22 +234,34 @@ def _write(pipe: Any, text: str) -> None:
         pass
 
 
-def _pump(pipe: Any, lines: queue.Queue[str | None]) -> None:
+def _pump(pipe: Any, lines: queue.Queue[str | None], ended: threading.Event) -> None:
     """Lines of a program into a queue, then None."""
     try:
         while text := pipe.readline(LONGEST_LINE):
-            lines.put(text)
+            if not _put(lines, text, ended):
+                break
     except (OSError, ValueError):
         pass
-    lines.put(None)
+    _put(lines, None, ended)
     _close(pipe)
+
+
+def _put(lines: queue.Queue[str | None], text: str | None, ended: threading.Event) -> bool:
+    """Put a line where somebody may still take it; whether that was so."""
+    while not ended.is_set():
+        try:
+            lines.put(text, timeout=0.1)
+            return True
+        except queue.Full:
+            pass
+    return False
 
 
 def _keep(pipe: Any, complaints: list[str]) -> None:
     """The last complaints of a program."""
     try:
-        for text in pipe:
-            complaints.append(text.strip())
+        while text := pipe.readline(LONGEST_LINE):
+            complaints.append(text.strip()[-KEPT:])
             del complaints[:-20]
     except (OSError, ValueError):
         pass

@@ -64,7 +64,7 @@ def readable(answer: Any, piece: str) -> dict[str, Any]:
 
 
 def _array(value: Any) -> Any:
-    if not isinstance(value, list) or any(isinstance(v, str) for v in value):
+    if not isinstance(value, list) or not of_numbers(value):
         return value
     try:
         return np.array(value)
@@ -72,8 +72,37 @@ def _array(value: Any) -> Any:
         return value
 
 
+def of_numbers(value: Any) -> bool:
+    """Whether nested lists hold numbers and flags alone: NumPy makes room for the longest text at every place."""
+    left = [value]
+    while left:
+        thing = left.pop()
+        if isinstance(thing, list):
+            left.extend(thing)
+        elif not isinstance(thing, int | float):
+            return False
+    return True
+
+
+def capabilities(facts: dict[str, Any], known: Iterable[str]) -> list[str]:
+    """The pieces that an answer to `start` names, of those that are known; none where it names them in no list."""
+    said = facts.get("capabilities")
+    return [p for p in known if p in said] if isinstance(said, list) else []
+
+
+def request_of(text: str) -> dict[str, Any]:
+    """A request from its line. Raises ValueError: what is wrong with it."""
+    try:
+        request = json.loads(text)
+    except (ValueError, RecursionError) as e:
+        raise ValueError("is no JSON") from e
+    if not isinstance(request, dict):
+        raise ValueError("is no JSON object")
+    return request
+
+
 def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
-    """What a Python backend says to one request."""
+    """What a Python backend says to one request; to one that cannot be used, what is wrong with it."""
     command = request.get("cmd")
     if command == "start":
         shown = ["simulate", *(p for p in (*PIECES, *CLAIMS) if has(backend, p))]
@@ -82,19 +111,24 @@ def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
         }
         return {"protocol": PROTOCOL, "name": type(backend).__name__, **facts, "capabilities": shown}
     if command != "run":
-        return {"error": f"unknown command {command!r}"}
-    piece = request["piece"]
+        return {"error": f"unknown command {str(command)[:80]!r}"}
+    id_, piece, inputs = request.get("id"), request.get("piece"), request.get("in")
+    # By name from the list: whoever asks calls no other methods of the backend.
+    if piece not in ("simulate", *PIECES, *CLAIMS):
+        return {"id": id_, "error": f"unknown piece {str(piece)[:80]!r}"}
+    if not isinstance(inputs, dict):
+        return {"id": id_, "error": "'in' is no object"}
     try:
-        q = {k: _array(v) for k, v in request["in"].items()}
+        q = {k: _array(v) for k, v in inputs.items()}
         if piece == "effect":
             out = backend.effect(problem_of(q), q["effect"], q["parameters"])
         else:
             out = getattr(backend, piece)(problem_of(q)) if piece in WHOLE else getattr(backend, piece)(**q)
         # Effects that are not claimed are answered with null.
         like = "simulate" if piece == "effect" else piece
-        return {"id": request["id"], "out": None if out is None else as_mapping(out, like)}
+        return {"id": id_, "out": None if out is None else as_mapping(out, like)}
     except ANYTHING as e:
-        return {"id": request["id"], "error": f"{type(e).__name__}: {e}"}
+        return {"id": id_, "error": f"{type(e).__name__}: {e}"}
 
 
 def serve(backend: Any, lines: Iterable[str] | None = None, out: TextIO | None = None) -> None:
@@ -103,8 +137,13 @@ def serve(backend: Any, lines: Iterable[str] | None = None, out: TextIO | None =
     for text in sys.stdin if lines is None else lines:
         if not text.strip():
             continue
-        request = json.loads(text)
-        if request.get("cmd") == "stop":
-            return
-        out.write(line(answer(backend, request)))
+        try:
+            request = request_of(text)
+        except ValueError as e:
+            reply: dict[str, Any] = {"error": f"the request {e}"}
+        else:
+            if request.get("cmd") == "stop":
+                return
+            reply = answer(backend, request)
+        out.write(line(reply))
         out.flush()

@@ -46,9 +46,9 @@ class Findings:
 def described(backend: Any) -> dict[str, Any]:
     """Name, language, precision and version of a backend, as far as it says."""
     name = getattr(backend, "name", type(backend).__name__)
-    found = {"name": str(name), "language": str(getattr(backend, "language", "Python"))}
-    found["precision"] = str(getattr(backend, "precision", "float64"))
-    return found | {"version": str(getattr(backend, "version", ""))}
+    language, precision = getattr(backend, "language", "Python"), getattr(backend, "precision", "float64")
+    facts = {"name": name, "language": language, "precision": precision, "version": getattr(backend, "version", "")}
+    return {key: asking.printable(value) for key, value in facts.items()}
 
 
 def chosen_layers(layers: Iterable[str] | None) -> tuple[str, ...]:
@@ -138,7 +138,7 @@ def answered(backend: Any, vector: Vector, profile: str) -> list[Check]:
     try:
         return compare(vector, asking.ask(backend, vector), profile)
     except asking.ANYTHING as e:  # the backend is a stranger's
-        return no_answer(vector, f"{type(e).__name__}: {e}".splitlines()[0][:200])
+        return no_answer(vector, asking.raised(e))
 
 
 def _properties(backend: Any, findings: Findings, examples: int) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,10 @@ from rockref.conformance.judge import asked_in
 from rockref.conformance.rules import PIECES
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
+from rockref.model.storage import read_bytes
 
+#: Decided: all questions have 0.9 MB and the law's answers 6 MB; JSON takes thirty times its size in memory at worst.
+LARGEST_REQUESTS, LARGEST_RESPONSES = 24_000_000, 24_000_000
 SMALL = ("L0", "L1", "L2", "L3", "L4", "L5s", "L7")
 
 
@@ -66,7 +70,6 @@ class Recorded:
             raise InputError("E-RESPONSE", str(path), "has no answers", "Answer the lines of `rockref conform export`.")
         self.name, self.version = str(facts.get("name", path.name)), str(facts.get("version", ""))
         self.precision = str(facts.get("precision", "float64"))
-        self.questions = self._by_content()
         for piece in self._shown(facts):
             setattr(self, piece, self._piece(piece))
         self.remarks = self._left_out()
@@ -74,7 +77,7 @@ class Recorded:
     def _shown(self, facts: dict[str, Any]) -> list[str]:
         """The pieces that it says it has; where it does not say, those that are answered by more than an error."""
         if facts.get("capabilities"):
-            return [p for p in PIECES if p in facts["capabilities"]]
+            return jsonlines.capabilities(facts, PIECES)
         asked = [v for layer in SMALL for v in vectors.layer(layer)]
         answered = {v.piece for v in asked if self.answers.get(v.id, {}).get("out")}
         return [p for p in PIECES if p in answered]
@@ -100,11 +103,6 @@ class Recorded:
         runs = {*vectors.window_names(), *vectors.trajectory_names()}
         return found | ({"L5"} if runs & self.answers.keys() else set())
 
-    def _by_content(self) -> dict[str, str]:
-        """Which id a question has, by its content."""
-        every = questions((*SMALL, "L5"))
-        return {_key(q["piece"], q["in"]): q["id"] for q in every if q["cmd"] == "run"}
-
     def _piece(self, piece: str) -> Any:
         if piece == "step":
             return lambda problem: self._answer(piece, vectors.flat(problem))
@@ -115,7 +113,7 @@ class Recorded:
         return self._answer("simulate", vectors.flat(problem))
 
     def _answer(self, piece: str, inputs: dict[str, Any]) -> dict[str, Any]:
-        id_ = self.questions.get(_key(piece, inputs), "")
+        id_ = _by_content().get(_key(piece, inputs), "")
         if id_ not in self.answers:
             raise Misbehaved(f"no answer to {id_ or 'this question'} in the file")
         reply = self.answers[id_]
@@ -127,6 +125,13 @@ class Recorded:
             raise Misbehaved(str(e)) from e
 
 
+@lru_cache
+def _by_content() -> dict[str, str]:
+    """Which id a question has, by its content."""
+    every = questions((*SMALL, "L5"))
+    return {_key(q["piece"], q["in"]): q["id"] for q in every if q["cmd"] == "run"}
+
+
 def _key(piece: str, inputs: dict[str, Any]) -> str:
     if piece not in jsonlines.WHOLE:
         return piece + json.dumps(jsonlines.plain(inputs), sort_keys=True)
@@ -134,25 +139,28 @@ def _key(piece: str, inputs: dict[str, Any]) -> str:
     return piece + json.dumps(jsonlines.plain(known), sort_keys=True)
 
 
+def requests_in(path: Path) -> Iterator[dict[str, Any]]:
+    """The requests in a file. Raises InputError (E-REQUEST) that names the line."""
+    for number, row in _rows(path, LARGEST_REQUESTS):
+        try:
+            yield jsonlines.request_of(row)
+        except ValueError as e:
+            cure = "Give the file that `rockref conform export` wrote."
+            raise InputError("E-REQUEST", f"{path}, line {number}", str(e), cure) from e
+
+
 def _replies(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
     """Numbered answers. Raises InputError (E-RESPONSE) that names the line."""
-    try:
-        content = path.read_text(encoding="utf-8", errors="replace")
-    except OSError as e:
-        raise InputError(
-            "E-RESPONSE", str(path), f"cannot be read ({e.strerror})", "Give the file of responses."
-        ) from e
-    for number, row in enumerate(content.splitlines(), 1):
-        if not row.strip():
-            continue
+    for number, row in _rows(path, LARGEST_RESPONSES):
         try:
-            reply = json.loads(row)
-        except (ValueError, RecursionError) as e:
-            raise InputError(
-                "E-RESPONSE", f"{path}, line {number}", "is no JSON", "Write one JSON object a line."
-            ) from e
-        if not isinstance(reply, dict):
-            raise InputError(
-                "E-RESPONSE", f"{path}, line {number}", "is no JSON object", "Write one JSON object a line."
-            )
-        yield number, reply
+            yield number, jsonlines.request_of(row)
+        except ValueError as e:
+            raise InputError("E-RESPONSE", f"{path}, line {number}", str(e), "Write one JSON object a line.") from e
+
+
+def _rows(path: Path, limit: int) -> Iterator[tuple[int, str]]:
+    """The lines of a file with their numbers, blank ones left out. Raises InputError (E-FILE, E-SIZE)."""
+    content = read_bytes(path, limit).decode("utf-8", errors="replace")
+    for number, row in enumerate(content.split("\n"), 1):
+        if row.strip():
+            yield number, row

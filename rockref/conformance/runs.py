@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.asking import ANYTHING, as_mapping
+from rockref.conformance.asking import ANYTHING, as_mapping, raised
 from rockref.conformance.compare import grade_of, in_bars, wrong_instants
 from rockref.conformance.vectors import Trajectory, trajectory, trajectory_names, window_names
 from rockref.model.problem import Problem
@@ -180,8 +180,7 @@ def judge_runs(backend: Any, profile: str, report: Callable[[float], None] | Non
         answers = simulate(backend, [asked[i].problem for i in group])
         for i, answer in zip(group, answers, strict=True):
             if isinstance(answer, ANYTHING):
-                note = f"{type(answer).__name__}: {answer}".splitlines()[0][:200]
-                found[i] = RunCheck(asked[i].id, asked[i].title, "outside", np.inf, note=note)
+                found[i] = RunCheck(asked[i].id, asked[i].title, "outside", np.inf, note=raised(answer))
             else:
                 found[i] = judge_rows(asked[i], as_mapping(answer, "simulate"), profile)
         if report is not None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import csv
-import gzip
 import hashlib
 import io
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from importlib.resources import files
@@ -16,9 +17,12 @@ import numpy as np
 
 from rockref.model.errors import InputError
 from rockref.model.problem import Block, ContactPoints, Problem, State
+from rockref.model.storage import unpacked
 
 VERSION = "v1"
 SCHEMA = "rockref-vectors/1"
+#: Decided: the largest file that is shipped has 0.9 MB, 1.0 MB unpacked; a number has 30 characters.
+LARGEST, LONGEST_NUMBER = 16_000_000, 1000
 SMALL_LAYERS = ("L0", "L1", "L2", "L3", "L4", "L7")
 
 
@@ -85,25 +89,48 @@ def read_bytes(name: str) -> bytes:
     """A shipped file, e.g. "L1.json". Raises InputError (E-VECTORS) where it is missing or altered."""
     path = folder().joinpath(*name.split("/"))
     try:
-        data = path.read_bytes()
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST + 1)
     except OSError as e:
         raise InputError("E-VECTORS", name, "is not there", "Install rockref anew, or run `make golden`.") from e
+    if len(data) > LARGEST:
+        raise InputError("E-VECTORS", name, f"has more than {LARGEST} bytes", "Install rockref anew.")
     if name != "MANIFEST.json":
-        wanted = manifest()["files"].get(name, {}).get("sha256")
+        listed = manifest()["files"]
+        with as_shipped("MANIFEST.json"):
+            wanted = listed.get(name, {}).get("sha256")
         if wanted != hashlib.sha256(data).hexdigest():
             raise InputError("E-VECTORS", name, "does not have the digest of the manifest", "Install rockref anew.")
     return data
 
 
+@contextmanager
+def as_shipped(name: str) -> Iterator[None]:
+    """Say of a file that cannot be understood that it is not as it was shipped (E-VECTORS)."""
+    try:
+        yield
+    except InputError:
+        raise
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError, OverflowError, csv.Error) as e:
+        what = f"is not as it was shipped ({type(e).__name__}: {str(e)[:80]})"
+        raise InputError("E-VECTORS", name, what, "Install rockref anew.") from e
+
+
 @lru_cache
 def manifest() -> dict[str, Any]:
-    """The manifest: schema, versions, digests, resolving power."""
-    return json.loads(read_bytes("MANIFEST.json"))
+    """The manifest: schema, versions, digests, resolving power. Raises InputError (E-VECTORS)."""
+    with as_shipped("MANIFEST.json"):
+        found = json.loads(read_bytes("MANIFEST.json"))
+        return found | {"files": dict(found["files"]), "trajectories": list(found["trajectories"])}
 
 
 def from_hex(nested: Any) -> Any:
     """Numbers from hexadecimal text, nested lists as they are."""
-    return [from_hex(n) for n in nested] if isinstance(nested, list) else float.fromhex(nested)
+    if isinstance(nested, list):
+        return [from_hex(n) for n in nested]
+    if len(nested) > LONGEST_NUMBER:
+        raise ValueError(f"a number of {len(nested)} characters")
+    return float.fromhex(nested)
 
 
 def value_of(entry: Any) -> Any:
@@ -153,9 +180,10 @@ def vector_of(entry: dict[str, Any], sets: dict[str, Any]) -> Vector:
 
 @lru_cache
 def layer(name: str) -> tuple[Vector, ...]:
-    """All vectors of one layer, "L0" .. "L4", "L7", or of the short runs, "L5s"."""
-    document = json.loads(read_bytes(f"{name}.json"))
-    return tuple(vector_of(entry, document["sets"]) for entry in document["vectors"])
+    """All vectors of one layer, "L0" .. "L4", "L7", or of the short runs, "L5s". Raises InputError (E-VECTORS)."""
+    with as_shipped(f"{name}.json"):
+        document = json.loads(read_bytes(f"{name}.json"))
+        return tuple(vector_of(entry, document["sets"]) for entry in document["vectors"])
 
 
 #: What a row of a run shows of a step, and how it ends a vector's name there.
@@ -208,14 +236,21 @@ def window_names() -> tuple[str, ...]:
 
 @lru_cache
 def trajectory(name: str) -> Trajectory:
-    """One trajectory of L5."""
-    meta = json.loads(read_bytes(f"L5/{name}.json"))
-    problem = problem_of({k: value_of(v) for k, v in meta["problem"].items()})
-    text = gzip.decompress(read_bytes(f"L5/{name}.csv.gz")).decode()
+    """One trajectory of L5. Raises InputError (E-VECTORS; E-GZIP, E-SIZE)."""
+    with as_shipped(f"L5/{name}.json"):
+        meta = json.loads(read_bytes(f"L5/{name}.json"))
+        problem = problem_of({k: value_of(v) for k, v in meta["problem"].items()})
+    with as_shipped(f"L5/{name}.csv.gz"):
+        columns = columns_of(unpacked(read_bytes(f"L5/{name}.csv.gz"), f"L5/{name}.csv.gz", LARGEST).decode())
+        return Trajectory(meta["id"], meta["title"], problem, meta, columns)
+
+
+def columns_of(text: str) -> dict[str, np.ndarray]:
+    """The columns of a run from CSV: (N,), or (N, k) where there are k of the name, `W_rad_s[0]` for example."""
     header, *rows = csv.reader(io.StringIO(text))
     table = np.array([[float(c) if c else np.nan for c in row] for row in rows])
     columns: dict[str, np.ndarray] = {}
     for key in dict.fromkeys(h.partition("[")[0] for h in header):
         picked = [i for i, h in enumerate(header) if h.partition("[")[0] == key]
         columns[key] = table[:, picked[0]] if header[picked[0]] == key else table[:, picked]
-    return Trajectory(meta["id"], meta["title"], problem, meta, columns)
+    return columns

@@ -4,12 +4,13 @@ import sys
 import textwrap
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
 from rockref import cli
 from rockref.commands.conform import parted
-from rockref.conformance import in_words, vectors
+from rockref.conformance import executable, in_files, in_words, vectors
 from rockref.conformance.executable import Executable, Misbehaved
 from rockref.conformance.judge import judge
 from rockref.conformance.vectors import problem_of
@@ -84,6 +85,13 @@ def program(tmp_path, body):
         ("print(json.dumps({'id': json.loads(line)['id'], 'out': {'F_N': float('nan')}}), flush=True)", "not a finite"),
         ("time.sleep(60)", "no answer within"),
         ("print(9 * '[' * 1000, flush=True)", "rubbish"),
+        ("while True: print('x' * 100_000)", "no answer in 100 lines"),
+        ("sys.stdout.write('[' + '[],' * 6_000_000); sys.stdout.flush()", "without an end of line"),
+        ("while True: sys.stderr.write('x' * 100_000)", "no answer within"),
+        (
+            "print(json.dumps({'id': json.loads(line)['id'], 'error': chr(27) + '[2J' + chr(0xd800)}), flush=True)",
+            "[2J",
+        ),
     ],
 )
 def test_what_a_program_does_in_place_of_answering_is_told(tmp_path, body, said):
@@ -94,6 +102,10 @@ def test_what_a_program_does_in_place_of_answering_is_told(tmp_path, body, said)
         backend.close()
     assert not v.passed
     assert any(said in c.note for c in v.findings.failures), {c.note for c in v.findings.failures}
+    # a terminal and a file can take the words, whatever the program said
+    assert all(c.note.isprintable() for c in v.findings.failures)
+    in_words.text(v).encode()
+    ElementTree.fromstring(in_files.junit(v))
 
 
 def test_a_program_that_dies_at_one_question_is_started_again(tmp_path):
@@ -110,6 +122,41 @@ def test_a_program_that_dies_at_one_question_is_started_again(tmp_path):
         backend._run({"cmd": "run", "id": "q2", "piece": "contact_law", "in": {}}, 5.0)
     assert backend._run({"cmd": "run", "id": "q3", "piece": "contact_law", "in": {}}, 5.0) == {"F_N": 0.0}
     backend.close()
+
+
+def test_who_does_not_start_a_second_time_is_not_waited_for_at_every_question(tmp_path, monkeypatch):
+    """It ends at its first question and hangs when it is started again: waited for three times a piece, no more."""
+    mark = tmp_path / "mark"
+    path = tmp_path / "once.py"
+    path.write_text(
+        "import pathlib, sys, time\n"
+        f"mark = pathlib.Path({str(mark)!r})\n"
+        "if mark.exists(): time.sleep(60)\n"
+        "mark.touch()\n"
+        "sys.stdin.readline()\n"
+        """print('{"protocol":1,"capabilities":["contact_law"]}', flush=True)\n"""
+        "sys.stdin.readline()\n"
+    )
+    monkeypatch.setattr(executable, "START", 20.0)  # the first start may be slow
+    backend = Executable([sys.executable, str(path)], small=5.0)
+    monkeypatch.setattr(executable, "START", 0.5)
+    begun = time.monotonic()
+    findings = judge(backend, ["L1"])
+    # about a hundred questions to contact_law, of which three are waited for
+    assert time.monotonic() - begun < 30
+    assert sum("no answer within" in c.note for c in findings.failures) > 0
+    assert sum("not asked any more" in c.note for c in findings.failures) > 50
+
+
+@pytest.mark.parametrize("facts", ['"capabilities":5', '"capabilities":"rotate"', '"name":["x"],"precision":{}'])
+def test_strange_facts_are_no_harm(tmp_path, facts):
+    path = tmp_path / "strange.py"
+    path.write_text(f"import sys\nsys.stdin.readline()\nprint('{{\"protocol\":1,{facts}}}', flush=True)\ninput()\n")
+    backend = Executable([sys.executable, str(path)])
+    try:
+        assert not judge(backend, ["L1"]).checks
+    finally:
+        backend.close()
 
 
 def test_who_is_silent_three_times_is_not_asked_again(tmp_path):

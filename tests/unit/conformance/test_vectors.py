@@ -1,5 +1,6 @@
 """The shipped vectors: whole, of the stated form, on the stated branch, with bars that can tell right from wrong."""
 
+import gzip
 import hashlib
 import json
 from pathlib import Path
@@ -206,3 +207,41 @@ def test_the_bars_at_the_horizon_are_a_millionth_of_the_signal():
         signal = np.abs(run.columns["W_rad_s"]).max()
         if signal:
             assert run.columns["bar_W_rad_s"][rows].max() <= 1e-6 * signal, name
+
+
+def put(folder, name, content):
+    """A file of vectors with the manifest that belongs to it."""
+    path = folder / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(content)
+    listed = {name: {"sha256": hashlib.sha256(content).hexdigest()}}
+    text = json.dumps({"files": listed, "trajectories": ["run"], "windows": []})
+    (folder / "MANIFEST.json").write_text(text)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"[]", b"{}", b'{"sets":{},"vectors":[{}]}', b'{"sets":{},"vectors":[3]}', b"[" * 100_000, b"\xff", b"null"],
+    ids=lambda content: str(content[:12]),
+)
+def test_a_file_that_is_not_as_shipped_is_refused_though_its_digest_is_right(tmp_path, monkeypatch, content):
+    put(tmp_path, "L0.json", content)
+    monkeypatch.setattr(vectors, "folder", lambda: tmp_path)
+    monkeypatch.setattr(vectors, "manifest", vectors.manifest.__wrapped__)
+    with pytest.raises(InputError, match="not as it was shipped"):
+        vectors.layer.__wrapped__("L0")
+
+
+def test_numbers_and_packed_files_of_vectors_are_not_larger_than_they_may_be(tmp_path, monkeypatch):
+    with pytest.raises(ValueError, match="characters"):
+        vectors.from_hex(["0x1." + "0" * 10_000_000 + "p0"])
+    meta = (FOLDER / "L5/static.json").read_bytes()
+    put(tmp_path, "L5/run.csv.gz", gzip.compress(bytes(vectors.LARGEST + 1), mtime=0))
+    listed = json.loads((tmp_path / "MANIFEST.json").read_text())
+    (tmp_path / "L5/run.json").write_bytes(meta)
+    listed["files"]["L5/run.json"] = {"sha256": hashlib.sha256(meta).hexdigest()}
+    (tmp_path / "MANIFEST.json").write_text(json.dumps(listed))
+    monkeypatch.setattr(vectors, "folder", lambda: tmp_path)
+    monkeypatch.setattr(vectors, "manifest", vectors.manifest.__wrapped__)
+    with pytest.raises(InputError, match="E-SIZE"):
+        vectors.trajectory.__wrapped__("run")
