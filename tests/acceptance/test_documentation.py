@@ -19,6 +19,14 @@ PAGES = [
     ROOT / "CONTRIBUTING.md",
     *sorted(p for p in (ROOT / "docs").rglob("*.md") if "_build" not in p.parts and p.name not in ("errors.md",)),
 ]
+#: Examples that a test of this file runs, and where the others are run.
+ALONE = ("compare_models", "find_a_missing_effect", "judge_a_backend", "overview_picture")
+ELSEWHERE = {
+    "backend_numpy": "tests/unit/conformance/test_judge.py",
+    "my_effect": "docs/howto/own_effect.md",
+    "own_experiment": "docs/howto/own_experiment.md",
+    "review_the_physics": "docs/tutorial/review_the_physics.md",
+}
 #: Commands that search or fit take minutes each; `make` targets and installations are the test run itself.
 SLOW = {"fit", "diagnose", "add", "identify", "sensitivity", "plan", "blind", "compare", "reproduce", "demo"}
 SHELLS = ("sh", "bash", "console")
@@ -56,7 +64,7 @@ def commands_of(page):
 def too_long(page):
     """Commands that a page shows and nobody waits for: those in blocks of plain text."""
     lines = [line for block in blocks(page, ("text",)) for line in block.splitlines()]
-    return [shlex.split(line) for line in lines if re.match(r"rockref [a-z]", line)]
+    return [shlex.split(line, comments=True) for line in lines if re.match(r"rockref [a-z]", line)]
 
 
 def mentioned(page):
@@ -231,6 +239,20 @@ def programs(page):
 def test_python_of_a_page(page, place):
     for program in programs(page):
         run_program(program, place)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ALONE)
+def test_examples_that_no_page_types(name, place):
+    """They assert what they show."""
+    done = typed([sys.executable, f"examples/{name}.py"], place)
+    assert done.returncode == 0, done.stderr[-2000:]
+
+
+def test_every_example_is_run_by_a_test():
+    assert {path.stem for path in (ROOT / "examples").glob("*.py")} == {*ALONE, *ELSEWHERE}
+    for name, where in ELSEWHERE.items():
+        assert f"examples/{name}.py" in (ROOT / where).read_text(encoding="utf-8")
 
 
 def test_the_dialogue_of_the_page_is_that_of_the_program(place):
