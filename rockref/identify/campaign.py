@@ -1,7 +1,7 @@
 """Many evaluations on any `concurrent.futures.Executor`: here, in processes, or on a Dask cluster.
 
-A chunk that is lost with its worker is computed again. The results do not depend on who computed them, nor in what
-pieces: each chromosome is evaluated by itself.
+A chunk that is lost with its worker is computed again, and so is one whose worker hangs. The results do not depend on
+who computed them, nor in what pieces: each chromosome is evaluated by itself.
 """
 
 from __future__ import annotations
@@ -9,8 +9,9 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
@@ -20,6 +21,13 @@ from rockref.model.errors import InputError
 
 #: How often a lost piece is tried again before the campaign gives up; decided.
 ATTEMPTS = 3
+#: Seconds without any piece done after which workers hang: at first, and later as many times the longest such time so
+#: far, and no less than LEAST. Decided: a piece takes seconds with the compiled engine, an hour with NumPy.
+AT_FIRST, TIMES, LEAST = 4 * 3600.0, 10.0, 60.0
+
+
+class Hanging(Exception):
+    """No piece was done for so long that none will be."""
 
 
 class Campaign:
@@ -33,6 +41,13 @@ class Campaign:
         #: Threads for what is computed in this process, between the pieces.
         self.threads = min(workers, os.cpu_count() or 1)
         self.executor = make()
+        #: The longest time until a piece was done so far [s].
+        self.longest: float | None = None
+
+    @property
+    def patience(self) -> float:
+        """Seconds without any piece done after which the workers are taken to hang."""
+        return AT_FIRST if self.longest is None else max(LEAST, TIMES * self.longest)
 
     def __call__(self, function: Callable[..., Sequence], shared: tuple, items: Sequence) -> list:
         """The concatenated results of `function(*shared, piece)` over pieces of `items`, in the order of the items."""
@@ -44,16 +59,14 @@ class Campaign:
         for attempt in range(ATTEMPTS):
             try:
                 jobs = {i: executor.submit(function, *shared, p) for i, p in enumerate(pieces) if i not in done}
-                for i, job in jobs.items():
-                    done[i] = job.result()
+                for job in self._as_they_end(jobs.values()):
+                    job.result()
+                done |= {i: job.result() for i, job in jobs.items()}
                 break
-            except BrokenProcessPool:
-                # A worker was killed: what is done stays done, the rest goes to new ones.
-                if attempt == ATTEMPTS - 1:
-                    raise
-                self.close()
-                self.executor = executor = self.make()
-                assert executor is not None
+            except (BrokenProcessPool, Hanging) as e:
+                # A worker was killed, or hangs: what is done stays done, the rest goes to new ones.
+                done |= {i: job.result() for i, job in jobs.items() if _has_result(job)}
+                self.executor = executor = self._anew(e, attempt)
         return [result for i in range(len(pieces)) for result in done[i]]
 
     def as_done(self, function: Callable[..., Sequence], shared: tuple, items: Sequence) -> Iterator[tuple[int, Any]]:
@@ -66,23 +79,46 @@ class Campaign:
         for attempt in range(ATTEMPTS):
             try:
                 jobs = {self.executor.submit(function, *shared, [items[i]]): i for i in left}
-                for job in as_completed(jobs):
+                for job in self._as_they_end(jobs):
                     result = job.result()[0]
                     left.remove(jobs[job])
                     yield jobs[job], result
                 return
-            except BrokenProcessPool:
+            except (BrokenProcessPool, Hanging) as e:
                 # As above: what is done has been handed out, the rest goes to new workers.
-                if attempt == ATTEMPTS - 1:
-                    raise
-                self.close()
-                self.executor = self.make()
-                assert self.executor is not None
+                self.executor = self._anew(e, attempt)
+
+    def _as_they_end(self, jobs: Iterable[Future]) -> Iterator[Future]:
+        """The jobs as they are done. Raises Hanging where none is done in time."""
+        left, begun = set(jobs), time.monotonic()
+        while left:
+            done, left = wait(left, self.patience, FIRST_COMPLETED)
+            if not done:
+                raise Hanging
+            self.longest, begun = max(self.longest or 0.0, time.monotonic() - begun), time.monotonic()
+            yield from done
+
+    def _anew(self, error: Exception, attempt: int) -> Executor:
+        """Other workers in place of those that died or hang. Raises InputError (E-WORKERS) after some attempts."""
+        for process in list((getattr(self.executor, "_processes", None) or {}).values()):
+            process.kill()  # what hangs does not end by itself
+        if attempt == ATTEMPTS - 1:
+            what = "did not end" if isinstance(error, Hanging) else "died"
+            cure = "Look at the memory and the limits of this machine; --workers 1 computes in one process."
+            raise InputError("E-WORKERS", "--workers", f"a worker {what}, {ATTEMPTS} times", cure) from error
+        self.close()
+        executor = self.make()
+        assert executor is not None
+        return executor
 
     def close(self) -> None:
         """Let the workers go."""
         if self.executor is not None:
             self.executor.shutdown(wait=True, cancel_futures=True)
+
+
+def _has_result(job: Future) -> bool:
+    return job.done() and not job.cancelled() and job.exception() is None
 
 
 def split(items: Sequence, pieces: int) -> list[Sequence]:

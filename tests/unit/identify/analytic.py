@@ -27,6 +27,17 @@ def bowl_whose_worker_dies_once(mark: str, chromosomes) -> list[float]:
     raise AssertionError("a killed process does not go on")
 
 
+def bowl_whose_worker_hangs(mark: str, chromosomes) -> list[float]:
+    """The bowl; the first worker that comes here does not come back. Without a mark nobody does."""
+    try:
+        with open(mark or os.devnull, "x" if mark else "r"):
+            pass
+    except FileExistsError:
+        return bowl(0.3, chromosomes)
+    time.sleep(600)
+    raise AssertionError("nobody waits for so long")
+
+
 def slow_bowl(seconds: float, chromosomes) -> list[float]:
     """The bowl, with a pause, so that a search can be interrupted in the middle."""
     time.sleep(seconds)

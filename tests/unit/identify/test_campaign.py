@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from rockref.identify import campaign as campaigns
 from rockref.identify.campaign import campaign, split
 from rockref.identify.candidates import feature_costs
 from rockref.identify.genes import space_12
@@ -48,6 +49,36 @@ def test_a_killed_process_loses_nothing(tmp_path):
     with campaign(2) as work:
         assert work(analytic.bowl_whose_worker_dies_once, (str(tmp_path / "mark"),), ITEMS) == WANTED
     assert (tmp_path / "mark").exists()
+
+
+def test_a_process_that_hangs_is_ended_and_loses_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr(campaigns, "AT_FIRST", 20.0)
+    monkeypatch.setattr(campaigns, "LEAST", 5.0)
+    monkeypatch.setattr(campaigns, "TIMES", 2.0)
+    with campaign(2) as work:
+        assert work(analytic.bowl, (0.3,), ITEMS) == WANTED
+        hung = list(work.executor._processes)
+        assert work(analytic.bowl_whose_worker_hangs, (str(tmp_path / "mark"),), ITEMS) == WANTED
+        assert not [pid for pid in hung if _runs(pid)]
+        found = work.as_done(analytic.bowl_whose_worker_hangs, (str(tmp_path / "again"),), ITEMS)
+        assert sorted(found) == list(enumerate(WANTED))
+    assert (tmp_path / "mark").exists() and (tmp_path / "again").exists()
+
+
+def test_workers_that_hang_always_are_told_and_ended(monkeypatch):
+    monkeypatch.setattr(campaigns, "AT_FIRST", 2.0)
+    with campaign(2) as work:
+        with pytest.raises(InputError, match="did not end, 3 times") as error:
+            work(analytic.bowl_whose_worker_hangs, ("",), ITEMS)
+        assert error.value.code == "E-WORKERS"
+
+
+def test_patience_is_ten_times_the_longest_wait_so_far():
+    with campaign(1) as work:
+        assert work.patience == 4 * 3600
+        for longest, patience in ((0.1, 60), (6, 60), (60, 600)):
+            work.longest = longest
+            assert work.patience == patience
 
 
 def test_items_are_handed_out_as_they_are_done(tmp_path):
