@@ -229,6 +229,17 @@ def test_the_page_of_the_judge_says_what_the_judge_says(place):
     assert [line for line in shown if line != "..." and line not in told.splitlines()] == []
 
 
+@pytest.mark.slow
+def test_the_sentences_of_the_tutorial_are_those_of_the_command(place):
+    """What is quoted on the page is printed, word for word, of one of the experiments that it names."""
+    page = (ROOT / "docs/tutorial/where_does_it_fail.md").read_text(encoding="utf-8")
+    quoted = [" ".join(q.replace("\n> ", " ").split()) for q in re.findall(r"^> (.*(?:\n> .*)*)", page, re.MULTILINE)]
+    done = [typed(["rockref", "compare", f"data/experiments/mystery-{n}"], place) for n in ("03", "04", "05")]
+    said = " ".join(" ".join(d.stdout.split()) for d in done)
+    assert len(quoted) > 3
+    assert [sentence for sentence in quoted if sentence not in said] == []
+
+
 def programs(page):
     """Programs of the pages that have no commands, or too slow ones."""
     alone = page.name == "README.md" or (not runnable(page) and page.name != "review.md")
