@@ -214,18 +214,18 @@ REFUSALS = [
     (lambda: run(FOOT.replace(duration=300 * "x")), f"duration: is '{116 * 'x'}. {NO_NUMBER}"),
     (lambda: run(FOOT.replace(step=True)), f"step: is True. {NO_NUMBER}"),
     (
-        lambda: run(FOOT.replace(duration=2e5)),
+        lambda: simulate.check(FOOT.replace(duration=2e5)),
         "duration: 200000 s in steps of 1e-05 s are 2e+10 steps, more than 1e+10. "
         "Ask for a shorter run, or check the unit of duration and step: both are in seconds. [E-SIZE]",
     ),
     (
         # 18 numbers of the body and five of the foot, with two flags, are 186 bytes a row
-        lambda: run(FOOT.replace(duration=5e4, output_rate=1e3)),
+        lambda: simulate.check(FOOT.replace(duration=5e4, output_rate=1e3)),
         "output_rate: 5e+07 rows would take 9.3 GB, more than 4. "
         "Ask for fewer rows a second, or a shorter run. [E-SIZE]",
     ),
     (
-        lambda: run(problem.stack([FOOT.replace(duration=1e4, output_rate=1e3)] * 3)),
+        lambda: simulate.check(problem.stack([FOOT.replace(duration=1e4, output_rate=1e3)] * 3)),
         "output_rate: 1e+07 rows a block would take 5.6 GB, more than 4. "
         "Ask for fewer rows a second, or a shorter run. [E-SIZE]",
     ),
@@ -306,6 +306,12 @@ def test_a_refusal_says_what_was_found_and_what_to_do(call, text):
     assert str(refused.value) == text
 
 
+def test_the_limits_themselves_are_allowed():
+    plausible(width=1e-3, depth=1e-3, height=100.0)
+    plausible(delta_long=(0.05, 0, 0, 0), foot_radius=0.05)
+    parameters.check_friction("mu_int", 10.0)
+
+
 CURE = "Check the start state and the parameters, or use a smaller step. [E-NAN]"
 
 
@@ -355,6 +361,11 @@ def settling():
             f"it began at: none of the contact points, its turn overflows. {CURE}",
         ),
         (
+            problem.stack([physics.flying((1, 2, 3), (W, 0, 1), 1e-5, 1e-3) for W in (1.0, 1e160)]),
+            "step 1 (t = 1e-05 s): the motion of block 1 is no longer made of finite numbers; "
+            f"it began at: none of the contact points, its turn overflows. {CURE}",
+        ),
+        (
             lost_at_a_point(FOOT),
             f"step 0 (t = 0 s): the motion is no longer made of finite numbers; it began at: 0. {CURE}",
         ),
@@ -386,7 +397,18 @@ def settling():
             f"step 0 (t = 0 s): the motion of block 1 is no longer made of finite numbers; it began at: 0. {CURE}",
         ),
     ],
-    ids=["late point", "overflow", "point", "points", "first force", "body", "turn", "plane of blocks", "batch"],
+    ids=[
+        "late point",
+        "overflow",
+        "overflow in a batch",
+        "point",
+        "points",
+        "first force",
+        "body",
+        "turn",
+        "plane of blocks",
+        "batch",
+    ],
 )
 def test_a_run_that_loses_its_numbers_says_where(lost, text):
     with pytest.raises(NumericalError) as stopped:
