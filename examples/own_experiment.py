@@ -48,7 +48,8 @@ def body_rates(chip: np.ndarray) -> np.ndarray:
 def release(t: np.ndarray, wx: np.ndarray, noise: float) -> float:
     """The instant of the release [s]: where the arc A sinh(p (t - t0)) of a block on its edge begins.
 
-    Looked for in steps of 0.1 ms, with the first quarter of a second after the rate has left the noise.
+    Looked for in steps of 0.1 ms, with the first quarter of a second after the rate has left the noise. The low-pass of
+    the gyroscope delays what it shows by sqrt(2)/(2 pi bandwidth), which is taken off.
     """
     p = growth_rate(WIDTH, HEIGHT)
     moving = t[np.argmax(np.convolve(np.abs(wx), np.ones(9) / 9, "same") > 5 * noise)]
@@ -57,7 +58,7 @@ def release(t: np.ndarray, wx: np.ndarray, noise: float) -> float:
     arcs = np.sinh(p * (t[rows] - candidates[:, None]))
     size = arcs @ wx[rows] / np.sum(arcs**2, axis=1)
     left = np.sum((size[:, None] * arcs - wx[rows]) ** 2, axis=1)
-    return float(candidates[np.argmin(left)])
+    return float(candidates[np.argmin(left)]) - 2**0.5 / (2 * np.pi * GYRO["bandwidth_hz"])
 
 
 def convert(logger: Path, folder: Path) -> None:

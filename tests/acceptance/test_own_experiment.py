@@ -1,0 +1,167 @@
+"""The worked example of `docs/howto/own_experiment.md`, and every mistake that its page lists."""
+
+import importlib.util
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rockref import InputError
+from rockref.measure import load_experiment
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs/howto/own_experiment.md").read_text(encoding="utf-8")
+HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"
+
+
+@pytest.fixture(scope="module")
+def example():
+    spec = importlib.util.spec_from_file_location("own_experiment", ROOT / "examples/own_experiment.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def converted(example, tmp_path_factory):
+    """The folder that the example makes."""
+    pytest.importorskip("numba")
+    place = tmp_path_factory.mktemp("own")
+    example.play_the_logger(place / "logger")
+    example.convert(place / "logger", place / "my_block")
+    return place / "my_block"
+
+
+def test_the_folder_is_used_without_a_remark(converted):
+    experiment = load_experiment(converted)
+    assert experiment.notices == ()
+    assert [run.use for run in experiment.runs] == ["fit", "fit", "holdout", "fit"]
+    # the logger's gyroscope has 0.06 deg/s
+    assert np.degrees(experiment.gyro.noise) == pytest.approx(0.06, abs=0.003)
+
+
+def test_the_release_is_found(example, converted):
+    """The logger lets go half a second after it was switched on; a sample is 2 ms."""
+    for file, *_ in example.RUNS.values():
+        t, chip = example.read(converted.parent / "logger" / file)
+        wx = example.body_rates(chip)[:, 0]
+        assert example.release(t, wx - wx[t < 0.4].mean(), 0.06) == pytest.approx(0.5, abs=5e-4)
+
+
+def table(change, header=HEADER):
+    """A mistake in the numbers of run 01."""
+
+    def make(folder):
+        path = folder / "run01.csv"
+        rows = change(np.loadtxt(path, delimiter=",", skiprows=1))
+        np.savetxt(path, rows, "%.6f", ",", header=header, comments="")
+
+    return make
+
+
+def text(pattern, replacement, file="run01.csv", count=0):
+    """A mistake in the text of a file."""
+
+    def make(folder):
+        path = folder / file
+        old = path.read_text(encoding="utf-8")
+        new = re.sub(pattern, replacement, old, count=count, flags=re.MULTILINE)
+        assert new != old
+        path.write_text(new, encoding="utf-8")
+
+    return make
+
+
+def toml(pattern, replacement, count=1):
+    """A mistake in experiment.toml."""
+    return text(pattern, replacement, "experiment.toml", count)
+
+
+def cells(rows, place, value):
+    rows = rows.copy()
+    rows[place] = value
+    return rows
+
+
+def before_the_release(rows):
+    """A record that begins when the logger is switched on, half a second before."""
+    rest = np.column_stack([np.arange(0, 0.5, 0.002), np.zeros((250, 3))])
+    return np.vstack([rest, rows + [0.5, 0, 0, 0]])
+
+
+RADIANS = np.array([1, np.pi / 180, np.pi / 180, np.pi / 180])
+MISTAKES = [
+    ("E-DELIMITER", text(",", ";")),
+    ("E-DECIMAL-COMMA", text(r"(?<=\d)\.(?=\d)", ",")),
+    ("E-HEADER", text(r"\A.*\n", "", count=1)),
+    ("E-COLUMN-MISSING", text("wx_deg_s", "gyro_x_deg_s", count=1)),
+    ("E-UNIT", text("wx_deg_s", "wx", count=1)),
+    ("E-UNIT", toml("mass_kg = 30.1", "mass_g = 30100")),
+    ("E-RADIANS", table(lambda rows: rows * RADIANS)),
+    ("E-DEGREES", text("deg_s", "rad_s", count=3)),
+    ("E-RATE", table(lambda rows: rows * [1000, 1, 1, 1])),
+    ("E-RATE", toml("sample_rate_hz = 500", "sample_rate_hz = 1000")),
+    ("E-START", table(lambda rows: rows - [0.5, 0, 0, 0])),
+    ("E-RELEASE", table(before_the_release)),
+    ("E-TIME", table(lambda rows: rows[np.r_[0:10, 11, 10, 12 : len(rows)]])),
+    ("E-GAP", table(lambda rows: np.delete(rows, range(100, 110), axis=0))),
+    ("W-GAP-FILLED", table(lambda rows: np.delete(rows, range(100, 102), axis=0))),
+    ("E-AXES", text("wx_deg_s,wy_deg_s", "wy_deg_s,wx_deg_s", count=1)),
+    ("E-SIGN", table(lambda rows: rows * [1, -1, -1, 1])),
+    ("E-SIGN", toml("block_turned_deg = 180", "block_turned_deg = 0")),
+    ("E-TILT", toml("release_tilt_rad = 0.105", "release_tilt_rad = 6.02")),
+    ("E-TILT", toml("release_tilt_rad = 0.105", "release_tilt_rad = -0.105")),
+    ("E-RANGE", toml("height_m = 0.6", "height_m = 600")),
+    ("E-SHORT", table(lambda rows: rows[:200])),
+    ("E-SPIKE", table(lambda rows: cells(rows, (200, 1), 5000.0))),
+    ("E-DROPOUT", table(lambda rows: cells(rows, (slice(300, 340), slice(1, 4)), rows[300, 1:4]))),
+    ("E-NOT-FINITE", text(r"^(0\.10\d+),[^,]*", r"\1,nan", count=1)),
+    ("E-FIELDS", text(r",[^,]*\n\Z", "")),
+    ("E-PATH", toml('file = "run01.csv"', 'file = "../run01.csv"')),
+    ("E-FILE", toml('file = "run01.csv"', 'file = "run1.csv"')),
+    ("E-RUN-TWICE", toml('file = "run02.csv"', 'file = "run01.csv"')),
+    ("E-NO-FIT", toml('use = "fit"', 'use = "holdout"', count=0)),
+    ("W-NO-HOLDOUT", toml('use = "holdout"', 'use = "fit"')),
+    ("W-FIRST-IMPACT", toml("height_m = 0.6", "height_m = 0.5")),
+    ("W-NOISE", toml("noise_deg_s = .*", "noise_deg_s = 0.005")),
+    ("W-FLAT-TOP", table(lambda rows: np.column_stack([rows[:, 0], np.clip(rows[:, 1:], -20, 20)]))),
+    ("W-SAME-DATA", lambda folder: shutil.copy(folder / "run01.csv", folder / "run02.csv")),
+]
+
+
+@pytest.mark.parametrize("code, mistake", MISTAKES)
+def test_a_mistake_is_told_as_the_page_says(code, mistake, converted, tmp_path):
+    folder = tmp_path / "my_block"
+    shutil.copytree(converted, folder)
+    mistake(folder)
+    if code.startswith("E"):
+        with pytest.raises(InputError) as refused:
+            load_experiment(folder)
+        assert refused.value.code == code
+    else:
+        assert code in {notice.code for notice in load_experiment(folder).notices}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        toml("height_m = 0.6", "height_mm = 600"),
+        toml("release_tilt_rad = 0.105", "release_tilt_deg = 6.016"),
+        lambda folder: table(lambda rows: rows * [1000, 1, 1, 1], HEADER.replace("t_s", "t_ms"))(folder),
+        lambda folder: table(lambda rows: rows * RADIANS, HEADER.replace("deg_s", "rad_s"))(folder),
+    ],
+)
+def test_the_other_units_of_the_page_are_read(change, converted, tmp_path):
+    folder = tmp_path / "my_block"
+    shutil.copytree(converted, folder)
+    change(folder)
+    assert load_experiment(folder).notices == ()
+
+
+def test_every_code_of_the_page_is_tried():
+    """The table of the page and the mistakes above list the same codes."""
+    rows = re.findall(r"^\| (`[EW]-.*?) \|(?:.*)$", PAGE, re.MULTILINE)
+    listed = {code for row in rows for code in re.findall(r"[EW](?:-[A-Z]+)+", row)}
+    assert listed | {"W-GAP-FILLED"} == {code for code, _ in MISTAKES}
