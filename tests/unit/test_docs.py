@@ -42,12 +42,24 @@ def test_every_key_is_explained():
     assert {key for _, key in keys_of(example_on_the_page())} <= explained
 
 
-@pytest.fixture(scope="module")
-def figures():
-    spec = importlib.util.spec_from_file_location("make_figures", ROOT / "docs/make_figures.py")
+def maker(name):
+    """A script of the documentation."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / f"docs/{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="module")
+def figures():
+    return maker("make_figures")
+
+
+def test_the_pages_of_commands_and_names_are_up_to_date():
+    """`python docs/make_reference.py` writes them anew."""
+    reference = maker("make_reference")
+    assert reference.COMMANDS.read_text(encoding="utf-8") == reference.commands_page()
+    assert reference.API.read_text(encoding="utf-8") == reference.api_page()
 
 
 def test_the_table_of_the_readme_is_that_of_the_measured_figures(figures):
