@@ -36,14 +36,22 @@ def along(short: Descent, whole: Descent, z: np.ndarray, rounds: int) -> Place:
     """
     at = whole.place(z)
     for _ in range(rounds):
+        short.correct(at.z)
+        corrected = whole.correct(at.z)
+        at = whole.place(at.z)
         before = at.chi2
         at = _best_end(whole, [at, *_both_ways(short, whole, at.z, STRIDE, LEFT)], CHANGES)
-        near = _both_ways(whole, whole, at.z, STRIDE / 2, LEFT_WHOLE)
-        whole.ends.extend(near)
-        at = _best_end(whole, [at, *near], CHANGES[1:])
-        if at.chi2 < NEARLY or at.chi2 > (1 - LEAST_GAIN) * before:
+        at = beside(whole, at)
+        if corrected and (at.chi2 < NEARLY or at.chi2 > (1 - LEAST_GAIN) * before):
             break
     return at
+
+
+def beside(whole: Descent, at: Place) -> Place:
+    """The best place beside an end: the whole record walked in half strides, which join the ends of `whole`."""
+    near = _both_ways(whole, whole, at.z, STRIDE / 2, LEFT_WHOLE)
+    whole.ends.extend(near)
+    return _best_end(whole, [at, *near], CHANGES[1:])
 
 
 def _both_ways(short: Descent, whole: Descent, z: np.ndarray, stride: float, left: float) -> list[Place]:

@@ -26,7 +26,7 @@ from rockref.identify.sensitivity_study import record as sensitivity_record
 from rockref.identify.sensitivity_study import study
 from rockref.identify.source_facts import LONG, facts
 from rockref.identify.target import twin
-from rockref.identify.twins import EFFORT, REFERENCE_STEP, SEEDS, twin_experiments
+from rockref.identify.twins import EFFORT, SEEDS, twin_experiments
 from rockref.measure.experiment import load_experiment
 from rockref.model.errors import InputError
 from rockref.model.housner import housner
@@ -39,6 +39,9 @@ from rockref.report.source_page import source_page
 
 #: Dots an inch of the pictures in the page, which must stay below two megabytes with all of them; decided.
 PAGE_DPI = 88
+#: Step of the records of reduction and scenarios [s]: half of that of their searches; decided: what these tell apart is
+#: far above what the step does.
+SEARCHED_STEP = 5e-6
 
 
 #: The parts of the study, in the order in which they are made: quick ones first.
@@ -152,7 +155,7 @@ def _studies(
         return rows
 
     def reduced(kept: Pieces) -> dict[str, Any]:
-        target, checkpoint = twin(model, REFERENCE_STEP, 1), folder / "checkpoints" / "reduction.json"
+        target, checkpoint = twin(model, SEARCHED_STEP, 1), folder / "checkpoints" / "reduction.json"
         result = kept.once(
             "reduction", lambda: reduction_study(target, budget.reduction, work, checkpoint), asdict(budget.reduction)
         )
@@ -197,7 +200,7 @@ def _sensitivity(model: Model, budget: Budget, work: Campaign, art: _Art) -> dic
 
 
 def _scenarios(model: Model, budget: Budget, work: Campaign, kept: Pieces, art: _Art) -> list[dict[str, Any]]:
-    target = twin(model, REFERENCE_STEP, None)
+    target = twin(model, SEARCHED_STEP, None)
 
     def make(names: Sequence[str]) -> Iterator[tuple[int, dict[str, Any]]]:
         return try_scenarios(target, budget.scenarios_settings, work, [by_name[name] for name in names])

@@ -72,7 +72,7 @@ def _twins(page: Page, rows: Sequence[dict[str, Any]], pictures: dict[str, bytes
     floor = sum(row["at_floor"] for row in rows)
     page.add_section(
         "Twin experiments",
-        f"Records made by Table 3.1 itself, with half the step and the noise of a gyroscope, {len(rows)} seeds. "
+        f"Records made by Table 3.1 itself, with a tenth of the step and the noise of a gyroscope, {len(rows)} seeds. "
         f"{floor} of {len(rows)} fits end at the noise floor.",
     )
     page.add_figure(pictures["twins"], "Error of each parameter in units of the last digit of Table 3.1.")

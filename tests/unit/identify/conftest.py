@@ -20,6 +20,6 @@ def twin(table_3_1):
 
 @pytest.fixture(scope="package")
 def noisy_twin(table_3_1):
-    """A record of Table 3.1 by half the step of the source, with the noise of a gyroscope."""
+    """A record of Table 3.1 by a tenth of the step of the source, with the noise of a gyroscope."""
     pytest.importorskip("numba")
-    return targets.twin(table_3_1, 5e-6, 1)
+    return targets.twin(table_3_1, 1e-6, 1)

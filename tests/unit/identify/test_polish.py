@@ -41,7 +41,8 @@ def test_recovers_what_the_data_determine_within_half_a_last_digit(space, end, n
     off = (space.values(end.u) - np.array([g.value for g in TABLE_3_1.values()])) / PRECISION
     determined = identifiability(space, [noisy_twin], end).determined()
     known = [n.split(" of")[0] for n, yes in determined.items() if yes]
-    assert len(known) >= 9
+    # Heights and diagonal trade off along the valley, and the inner points hardly slide.
+    assert {"K_N", "K_T", "beta_ext", "mu_ext", "theta_0"} <= set(known) and "mu_int" not in known
     assert max(abs(off[space.names.index(n)]) for n in known) < 0.5
 
 
@@ -72,8 +73,8 @@ def test_errors_are_of_the_size_of_what_is_missed(space, end, noisy_twin):
     pulls = [
         (v - values[n.split(" of")[0]]) / e for n, v, e in zip(known.names, known.values, known.errors, strict=True)
     ]
-    # Twelve numbers of unit variance, with the bias of another time step and of the dents (below a tenth of a digit).
-    assert np.abs(pulls).max() < 10
+    # Twelve numbers of unit variance, with the bias of the dents (below a tenth of a digit).
+    assert np.abs(pulls).max() < 5
     assert set(known.digits()) == set(known.names) and known.weakest
 
 
@@ -82,7 +83,7 @@ def test_an_unknown_that_does_nothing_is_found_out(space, end, noisy_twin):
     blind = replace(end, jacobian=end.jacobian.copy())
     blind.jacobian[:, 0] = 0.0
     known = identifiability(space, [noisy_twin], blind)
-    assert known.errors[0] > 1e3 * identifiability(space, [noisy_twin], end).errors[0]
+    assert known.errors[0] > 1e2 * identifiability(space, [noisy_twin], end).errors[0]
     assert not known.determined()[known.names[0]]
 
 

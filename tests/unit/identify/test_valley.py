@@ -20,15 +20,16 @@ class Ground(Descent):
     """Two unknowns that trade off along a bent line, as far as the record without its end goes; its end, where it is
     seen, grows away from the truth and has a dent every fiftieth of the range."""
 
-    def __init__(self, end: bool, names=("delta_diag", "x")):
+    def __init__(self, end: bool, names=("delta_diag", "x"), mark=0.0):
         super().__init__(SimpleNamespace(names=names))
-        self.end = end
+        self.end, self.mark = end, mark
 
-    def residuals(self, zs):
+    def _with_step(self, zs, step):
         noise = np.tile([1.0, -1.0], 50)
         alike = 2000.0 * (zs[:, 1:] - bent(zs[:, :1]))
         off = zs[:, :1] - TRUTH
         ended, dents = (10.0 * off, 3.0 * (1.0 - np.cos(100.0 * np.pi * off))) if self.end else (0.0 * off,) * 2
+        ended = ended + self.mark * step / self.step
         return np.concatenate([noise[:80] + alike, noise[80:90] + ended, noise[90:] + dents], axis=1)
 
 
@@ -67,3 +68,20 @@ def test_a_walk_ends_where_nothing_is_gained_or_the_range_ends(grounds):
 def test_a_model_without_the_diagonal_is_left_as_it_is():
     short, whole = (Ground(end, ("mu", "x")) for end in (False, True))
     assert walk(short, whole, START, -STRIDE) == []
+
+
+@pytest.mark.parametrize("mark, left", [(0.9, 0.0), (3.6, 3.6)], ids=["small", "too large"])
+def test_what_the_step_does_is_taken_off_where_it_is_small(mark, left):
+    """A tenth of the record is shifted, in proportion to the step: at the truth nothing of it is left."""
+    whole = Ground(True, mark=mark)
+    assert whole.correct(START) is (left == 0.0)
+    shift = whole.residuals(np.array([[TRUTH, bent(TRUTH)]]))[0, 80:90] - np.tile([1.0, -1.0], 5)
+    # Sums and differences of numbers of order one.
+    np.testing.assert_allclose(shift, left, atol=1e-13)
+
+
+def test_the_step_does_not_move_the_end():
+    short, whole, plain = Ground(False), Ground(True, mark=0.9), Ground(True, mark=0.9)
+    plain.correct = lambda z: True
+    off = [abs(along(short, ground, START, 3).z[0] - TRUTH) for ground in (whole, plain)]
+    assert off[0] < STRIDE / 10 and off[0] < 0.5 * off[1]
