@@ -17,7 +17,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help env demo test test-all golden bench docs peers mutate dist lint format clean
+.PHONY: help env demo test test-all test-oldest fuzz golden bench docs peers mutate dist lint format clean
 
 help:  ## list the targets
 	@echo 'make <target>, where <target> is one of'
@@ -83,11 +83,31 @@ mutate: env  ## plant small faults in the law, count those that the tests notice
 	HYPOTHESIS_PROFILE=mutation $(VENV)/bin/mutmut run
 	$(PY) -m tests.mutation
 
+# A process a reader, one after the other; what is found is kept in .fuzz.
+SECONDS ?= 360
+fuzz: $(VENV)/.stamp-fuzz  ## give the readers of files and of the protocol to a coverage-guided fuzzer, SECONDS each
+	$(PY) -m tests.fuzz.run $(SECONDS) $(READERS)
+
+$(VENV)/.stamp-fuzz: $(VENV)/.stamp
+	@$(PIP) --editable '.[fuzz]'
+	@touch $@
+
+# With the oldest versions that pyproject.toml allows, in an environment beside.
+OLDEST := $(VENV)-oldest
+test-oldest: env  ## the tests of the law, the readers and the engines with the oldest dependencies
+	@$(PIP) uv
+	@$(VENV)/bin/uv venv -q --clear --python $(PY) $(OLDEST)
+	@$(VENV)/bin/uv pip install -q --python $(OLDEST)/bin/python --resolution lowest-direct --editable '.[fast,test]'
+	HYPOTHESIS_PROFILE=ci $(OLDEST)/bin/python -m pytest -m 'not slow' -n $(WORKERS) --dist loadfile $(SMALL_TESTS)
+
+SMALL_TESTS := tests/unit/model tests/unit/measure tests/unit/engines tests/unit/effects tests/unit/test_api.py \
+  tests/unit/test_model_file.py tests/property
+
 dist: env  ## build wheel and source archive into dist/
 	@$(PIP) build
 	$(PY) -m build --outdir dist .
 
 clean:  ## remove what the other targets made
-	rm -rf $(VENV) build dist docs/_build mutants demo_out .pytest_cache .mypy_cache .ruff_cache .import_linter_cache \
+	rm -rf $(VENV) $(VENV)-oldest .fuzz build dist docs/_build mutants demo_out .pytest_cache .mypy_cache .ruff_cache .import_linter_cache \
 	  .hypothesis .coverage htmlcov
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
