@@ -39,7 +39,7 @@ from rockref.discover.search import FRESH, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
-from rockref.discover.winning import to_the_end, upheld
+from rockref.discover.winning import exchanged, to_the_end, upheld
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
@@ -134,6 +134,8 @@ def diagnose(
         say(f"  without {needless[0]}: structured {structured(start):.3f}, room {room(start):.0f}")
     if looks and not looks[0].kept.effects:
         null = looks[0].kept
+        if len(start.effects) == 2:
+            start = exchanged(setup, looks[0], start, seed, say)
     if not start.effects:
         # Nothing was found: the baseline itself has to be taken down to what it can reach before that is said.
         null = start = refit(null, 2 * POLISH, seed)

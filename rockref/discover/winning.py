@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from rockref.discover import verdict as rules
 from rockref.discover.beside import side_by_side
-from rockref.discover.families import Family, refit, size_of, structured
+from rockref.discover.families import Family, gain_between, refit, size_of, structured
 from rockref.discover.looking import PLAIN, POLISH, Look, challenge, ranked
 from rockref.discover.resized import MISSING, resized
-from rockref.discover.search import LITTLE, Setup
+from rockref.discover.search import LITTLE, Setup, baseline
 
 #: Share of the winner's gain above which a rival is fitted to its end, too, and most such rivals. Decided: sides that
 #: were off under the stated inertia ended at 2010 where a scale factor had 2370, and at 2300 when fitted on.
@@ -54,3 +56,30 @@ def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int
     look.order = sorted([*ended.order, *left], key=lambda f: -look.gains[f.effects[-1]])
     effects = [f for f in ended.order if rules.is_detected(look.gains[f.effects[-1]], size_of(f), second)]
     return next(iter(effects), ended.order[0])
+
+
+def exchanged(setup: Setup, look: Look, pair: Family, seed: int, say: Callable[[str], None]) -> Family:
+    """The pair, or one in which a near rival of its first effect stands in that one's place, if that fits better.
+
+    The first effect won its look while the second was still missing. Where both fit alike the one with fewer parameters
+    is taken: what is more flexible can nearly always follow (four numbers of `dimension_deviation` the three of
+    `gyro_scale`, 5 of 3970 units ahead), and what it follows cannot follow it.
+    """
+    first, second = pair.effects
+    least = rules.RIVAL * look.gains.get(first, np.inf)
+    rivals = [f for f in look.order if f.effects[-1] not in pair.effects and look.gains[f.effects[-1]] > least]
+    mine = [p.name.startswith(second + ".") for p in pair.fit.parameters]
+
+    def fitted(own: Setup, rival: Family) -> Family:
+        effects = (*rival.effects, second)
+        begun = Family(effects, *baseline(own, effects, np.concatenate([rival.point.z, pair.point.z[mine]])))
+        return refit(begun, 3 * POLISH, seed, relative=LITTLE / 5)
+
+    best, ahead = pair, 0.0
+    for other in side_by_side(setup, fitted, rivals[:CONTENDERS]):
+        gain = gain_between(pair, other)
+        fewer = len(other.fit.parameters) < len(best.fit.parameters)
+        say(f"  {' + '.join(other.effects)} in the place of {' + '.join(pair.effects)}: gain {gain:.0f}")
+        if gain > ahead + (-rules.CLOSE if fewer else rules.CLOSE):
+            best, ahead = other, gain
+    return best

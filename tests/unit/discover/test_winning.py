@@ -1,12 +1,16 @@
 """Who wins a look, on bowls in place of fits: trifles, rivals that had not arrived, and effects that are none."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 
 from rockref.discover import verdict as rules
+from rockref.discover import winning
 from rockref.discover.families import gain_over
+from rockref.discover.fit import Parameter
 from rockref.discover.looking import Look
-from rockref.discover.winning import CONTENDS, to_the_end, upheld
+from rockref.discover.winning import CONTENDS, exchanged, to_the_end, upheld
 from tests.unit.discover.bowls import ALONE, Bowl, family
 
 ROLLING, DRAG = ("rolling_resistance",), ("quadratic_drag",)
@@ -72,3 +76,56 @@ def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
     trifle = family(DRAG, Bowl(np.array([0.0, 0.0, 0.1]), floor=1.0), np.array([0.0, 0.0, 0.1]))
     look = looked(kept, winner, trifle)
     assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
+
+
+@dataclass
+class Named(Bowl):
+    """A bowl whose parameters have the names that are given."""
+
+    names: tuple[str, ...] = ()
+
+    @property
+    def parameters(self):
+        return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in self.names)
+
+
+SIDES, SCALE, LEVER = ("sides.width", "sides.depth"), ("scale.x",), ("lever.m",)
+
+
+def at_its_bottom(effects, names, floor=1.0):
+    """A family of the baseline's one parameter and these, at the bottom of its bowl."""
+    bowl = Named(np.arange(1.0 + len(names)), floor=floor, names=("K_N", *names))
+    return family(effects, bowl, bowl.bottom)
+
+
+# A pair's loss of 0.01 is 36 units, more than what is CLOSE; one of 0.005 is less.
+@pytest.mark.parametrize(
+    "first, other, behind, floor, taken",
+    [
+        (SIDES, SCALE, 0.0, 1.0, True),
+        (SIDES, SCALE, 0.0, 1.005, True),
+        (SIDES, SCALE, 0.0, 1.01, False),
+        (SCALE, SIDES, 0.0, 0.995, False),
+        (SCALE, SIDES, 0.0, 0.99, True),
+        (SIDES, SCALE, 0.1, 1.0, False),
+    ],
+    ids=["alike and simpler", "nearly", "worse", "a little better, more flexible", "better", "no rival"],
+)
+def test_of_a_pair_the_first_effect_is_held_against_its_rivals(monkeypatch, first, other, behind, floor, taken):
+    """It won its look while the second was missing; `behind`: the share by which its rival was behind there."""
+    asked = []
+
+    def baseline(setup, effects, z):
+        asked.append((effects, list(z)))
+        end = at_its_bottom(effects, (*other, *LEVER), floor)
+        return end.fit, end.point
+
+    monkeypatch.setattr(winning, "baseline", baseline)
+    pair = at_its_bottom(("first", "lever"), (*first, *LEVER))
+    rival = at_its_bottom(("other",), other)
+    look = Look(at_its_bottom((), ()), [rival], {"first": 4000.0, "other": 4000.0 * (1 - behind)})
+    best = exchanged(ALONE, look, pair, 0, quiet)
+    assert best.effects == (("other", "lever") if taken else ("first", "lever"))
+    # Begun where the rival had ended, with the second effect as large as in the pair.
+    begun = (("other", "lever"), [*rival.point.z, pair.point.z[-1]])
+    assert asked == ([] if behind else [begun])
