@@ -106,6 +106,15 @@ __all__ = [
 ]  # fmt: skip
 
 
+#: Characters of a stranger's words that a message shows; decided.
+SHOWN = 80
+
+
+def short(words: str) -> str:
+    """Words of a command line or a file as a message shows them."""
+    return words if len(words) <= SHOWN else words[: SHOWN - 3] + "..."
+
+
 def find(id: str, where: str = "effect") -> type[Effect]:
     """The effect of this id, or the user's own that "path/to/file.py:Class" names.
 
@@ -125,7 +134,7 @@ def find(id: str, where: str = "effect") -> type[Effect]:
         return known[id]
     near = difflib.get_close_matches(id.lower(), known, 1)
     cure = f"Did you mean {near[0]!r}?" if near else "`rockref effects` lists them."
-    raise InputError("E-EFFECT", where, f"there is no effect {id!r}", cure)
+    raise InputError("E-EFFECT", where, f"there is no effect {short(id)!r}", cure)
 
 
 def own_effect(spec: str) -> type[Effect]:
@@ -141,7 +150,7 @@ def make(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
         if name not in kind.quantities:
             near = difflib.get_close_matches(name.lower(), kind.quantities, 1)
             cure = f"Did you mean {near[0]!r}?" if near else f"It has {', '.join(kind.quantities) or 'none'}."
-            raise InputError("E-KEY", where, f"{kind.id} has no parameter {name!r}", cure)
+            raise InputError("E-KEY", where, f"{kind.id} has no parameter {short(name)!r}", cure)
     plain = {k: float(v) if isinstance(v, int) and not isinstance(v, bool) else v for k, v in given.items()}
     effect = kind(**plain)
     effect.check(where)
@@ -173,7 +182,8 @@ def parse(text: str, where: str = "--effect") -> Effect:
     head, marker, rest = text.partition(".py:")
     name, _, words = rest.partition(":") if marker else text.partition(":")
     kind = find(f"{head}.py:{name}" if marker else name.strip(), where)
-    return brought_in(kind, numbers_of(words, name, f"{where} {text}"), f"{where} {text}")
+    place = f"{where} {short(text)}"
+    return brought_in(kind, numbers_of(words, name, place), place)
 
 
 def numbers_of(words: str, name: str, where: str) -> dict[str, float]:
@@ -182,12 +192,12 @@ def numbers_of(words: str, name: str, where: str) -> dict[str, float]:
     for word in filter(None, (w.strip() for w in words.split(","))):
         key, equals, value = (part.strip() for part in word.partition("="))
         if key in given:
-            raise InputError("E-KEY", where, f"{key!r} is given twice", "Give each parameter once.")
+            raise InputError("E-KEY", where, f"{short(key)!r} is given twice", "Give each parameter once.")
         try:
             given[key] = float(value)
         except ValueError as e:
-            what = f"{word!r} is no parameter" if not equals else f"{value!r} is no number"
-            raise InputError("E-TYPE", where, what, f"Write {name}:{'name'}=number, with commas between.") from e
+            what = f"{short(word)!r} is no parameter" if not equals else f"{short(value)!r} is no number"
+            raise InputError("E-TYPE", where, what, f"Write {short(name)}:{'name'}=number, with commas between.") from e
     return given
 
 
@@ -207,7 +217,7 @@ def from_table(where: str, table: Any, beside: Path | None = None) -> tuple[Effe
         raise InputError("E-TYPE", f"{where}: effects", "is not a table", "Write [effects.quadratic_drag] and c = 0.4.")
     effects = []
     for id, given in table.items():
-        place = f"{where}: [effects.{id}]"
+        place = f"{where}: [effects.{short(id)}]"
         if not isinstance(given, dict):
             raise InputError("E-TYPE", place, f"is {given!r}"[:80], f"Write [effects.{id}] and its parameters below.")
         given = dict(given)

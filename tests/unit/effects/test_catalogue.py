@@ -231,3 +231,18 @@ def test_hooks_are_the_methods_of_the_base():
     for name, arguments in HOOKS.items():
         assert tuple(inspect.signature(getattr(Effect, name)).parameters)[1:] == arguments
     assert not fields(Effect)
+
+
+@pytest.mark.parametrize(
+    "words", ["x" * 5000, "quadratic_drag:" + "c" * 5000 + "=1", "quadratic_drag:c=" + "\udcff" * 5000, "a\0.py:Mine"]
+)
+def test_messages_about_long_or_strange_words_can_be_read(words):
+    with pytest.raises(InputError) as error:
+        catalogue.parse(words)
+    assert len(str(error.value)) < 1000
+
+
+def test_a_long_id_in_a_model_file_is_cut_in_the_message():
+    with pytest.raises(InputError) as error:
+        catalogue.from_table("model.toml", {"x" * 5000: {}})
+    assert len(str(error.value)) < 1000
