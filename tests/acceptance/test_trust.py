@@ -51,8 +51,8 @@ def test_who_reaches_for_a_network_is_seen():
     assert done.returncode == 77 and "NETWORK socket." in done.stderr
 
 
-#: Names whose call makes objects or runs code out of text, and where they are: a user's effect and his backend, which he
-#: has named, and our own modules.
+#: Names whose call makes objects or runs code out of text, and where they are: our own modules, a user's effect and his
+#: backend, which he has named.
 RUNS = {"eval", "exec", "compile", "exec_module", "__import__", "import_module", "Unpickler", "allow_pickle"}
 MAY = {
     ("rockref/cli.py", "import_module"),
