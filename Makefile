@@ -52,8 +52,9 @@ format: env  ## let ruff format and sort what it can
 test: lint  ## lint, then every test that is not slow (below 15 minutes on two cores)
 	HYPOTHESIS_PROFILE=ci $(PYTEST) -m 'not slow' $(ARGS)
 
-test-all: lint  ## lint, then every test
+test-all: lint  ## lint, then every test, then the mutants
 	HYPOTHESIS_PROFILE=ci $(PYTEST) $(ARGS)
+	@$(MAKE) --no-print-directory mutate
 
 golden: env  ## compute the golden files anew and say what differs
 	$(PY) -m tests.golden.make
