@@ -121,6 +121,36 @@ def test_no_room_ends_with_2_and_leaves_earlier_results(tmp_path, whole, name):
     assert not [p for p in tmp_path.rglob(".*") if p.is_file()], "no remains beside it"
 
 
+def mounted(options: str, first: str, *words: str) -> list[str]:
+    """Words of a command that runs in `disk`, a disk of its own; `first` comes before it in a shell, the list of files
+    and the beginning of the response after it."""
+    script = f'mount -t tmpfs -o {options} tmpfs disk && cd disk && {first} && "$@"; code=$?; ls -A; head -c 8 response.csv; exit $code'
+    return ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script, "sh", *ROCKREF, *words]
+
+
+def can_mount() -> bool:
+    words = ["unshare", "--user", "--map-root-user", "--mount", "mount", "-t", "tmpfs", "tmpfs", "/mnt"]
+    try:
+        return subprocess.run(words, capture_output=True).returncode == 0
+    except OSError:
+        return False
+
+
+@pytest.mark.skipif(not can_mount(), reason="mounting a disk takes a user namespace, which this machine does not allow")
+@pytest.mark.parametrize(
+    "first", ["head -c 1900000 /dev/zero > full", "mount -o remount,ro ."], ids=["full", "read-only"]
+)
+def test_a_disk_of_two_megabytes_that_is_full_or_read_only(tmp_path, first):
+    (tmp_path / "disk").mkdir()
+    before = f"echo precious > response.csv && {first}"
+    words = mounted("size=2m", before, "simulate", "--duration", "0.6", "--rate", "10000", "-o", "response.csv")
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 2 and "[E-WRITE]" in "".join(done.stderr.split()), done.stderr
+    assert "Traceback" not in done.stderr
+    # what was there is there, and nothing beside it
+    assert done.stdout.split() == [*(["full"] if "full" in first else []), "response.csv", "precious"]
+
+
 @pytest.mark.slow
 def test_two_at_once_in_one_folder_both_end_well(tmp_path, whole):
     words = COMMANDS["compare"]

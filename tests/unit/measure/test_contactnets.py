@@ -10,7 +10,7 @@ import pytest
 
 from rockref import cli
 from rockref.measure.contactnets import import_contactnets
-from rockref.measure.tensorfile import MAGIC, read_tensor
+from rockref.measure.tensorfile import LARGEST, MAGIC, read_tensor
 from rockref.measure.tosses import CUBE_WIDTH, load_tosses
 from rockref.model.errors import InputError
 from rockref.model.rotation import quaternion
@@ -123,6 +123,14 @@ def test_a_few_numbers_do_not_become_a_thousand_million(tmp_path):
         z.writestr("toss/data.pkl", dumped(bomb))
         z.writestr("toss/data/0", np.zeros(1).tobytes())
     with pytest.raises(InputError, match="more numbers than it holds"):
+        read_tensor(tmp_path / "0.pt")
+
+
+def test_a_packed_bomb_is_not_unpacked(tmp_path):
+    with zipfile.ZipFile(tmp_path / "0.pt", "w", zipfile.ZIP_DEFLATED) as z:
+        z.writestr("toss/data.pkl", dumped(tensor(np.zeros(1))))
+        z.writestr("toss/data/0", bytes(LARGEST))
+    with pytest.raises(InputError, match="too large"):
         read_tensor(tmp_path / "0.pt")
 
 
