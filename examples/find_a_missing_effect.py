@@ -22,8 +22,8 @@ for finding in findings(comparison):
     if finding.kind in ("energy", "to_second_impact"):
         print(finding.text)
 
-# %% Something brakes the block between its impacts. Two suspects, each fitted together with everything else, on the first
-# 0.8 s of each run (3 s are the default, and take longer)
+# %% Something brakes the block between its impacts. Two suspects, each fitted together with everything else, on the
+# first 0.8 s of each run (3 s are the default, and take longer)
 suspects = {id: add(id, EXPERIMENT, end=0.8) for id in ("rolling_resistance", "quadratic_drag")}
 for id, found in suspects.items():
     before, after = found.before.holdout, found.after.holdout
