@@ -101,7 +101,29 @@ def release_posture(
     height_i, height_j = apply(Lambda, centre[i])[2] - radius[i], apply(Lambda, centre[j])[2] - radius[j]
     z = settled_height(height_i, height_j, points.K_N[i], points.K_N[j], weight)
     x = np.array([0, 0, z], dtype)
+    check_clear(points, x, Lambda, np.max(depth))
     return State.at_rest(x, Lambda, points.n)
+
+
+#: How much deeper than the pivot points another point may start [m]; decided: a fitted foot may be pressed in a little,
+#: and a tenth of a millimetre of the stiffest foot carries a hundred times the weight.
+DEEPEST = 1e-4
+
+
+def check_clear(points: ContactPoints, x, Lambda, depth) -> None:
+    """Refuse a posture in which a point that is no pivot is deep inside the plate (E-RELEASE); a foot at x = 0 may be.
+
+    x (3,) [m] of the centre of mass, Lambda (3, 3), depth [m] to which the pivot points are pressed in.
+    """
+    height = x[2] + apply(Lambda, points.P)[:, 2]
+    k = int(np.argmin(height))
+    if height[k] < -depth - DEEPEST:
+        raise InputError(
+            "E-RELEASE",
+            "contact points",
+            f"point {points.names[k]} would start {-height[k] * 1e3:.3g} mm inside the plate",
+            "A release leans on one point with x > 0 and one with x < 0; give a start state instead.",
+        )
 
 
 def settled_height(height_i, height_j, K_i, K_j, weight):

@@ -199,6 +199,12 @@ REFUSALS = [
         lambda: released(0.1, physics.points([[-0.05, 0.05, -0.344]])),
         f"contact points: there is no point with x > 0. {PIVOT}",
     ),
+    (
+        # a stool that leans on its front foot, between its two others
+        lambda: released(0.1, physics.points([[0, 0.05, -0.344], [0.05, -0.05, -0.344], [-0.05, -0.05, -0.344]])),
+        "contact points: point 0 would start 9.99 mm inside the plate. "
+        "A release leans on one point with x > 0 and one with x < 0; give a start state instead. [E-RELEASE]",
+    ),
     # the step
     (
         lambda: rotation.exp_minus_identity(np.array([0.0, 3.0, 4.0])),
