@@ -124,7 +124,8 @@ def test_no_room_ends_with_2_and_leaves_earlier_results(tmp_path, whole, name):
 def mounted(options: str, first: str, *words: str) -> list[str]:
     """Words of a command that runs in `disk`, a disk of its own; `first` comes before it in a shell, the list of files
     and the beginning of the response after it."""
-    script = f'mount -t tmpfs -o {options} tmpfs disk && cd disk && {first} && "$@"; code=$?; ls -A; head -c 8 response.csv; exit $code'
+    script = f'mount -t tmpfs -o {options} tmpfs disk && cd disk && {first} && "$@"; code=$?'
+    script += "; ls -A; head -c 8 response.csv; exit $code"
     return ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script, "sh", *ROCKREF, *words]
 
 
