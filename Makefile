@@ -9,9 +9,10 @@ PIP := $(PY) -m pip install -qq --disable-pip-version-check
 PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; do \
 	  if $$p -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1; \
 	  then echo $$p; break; fi; done)
-# Two workers; the tests of one file stay together, so that what a file computes once is computed once.
+# Two workers; the tests of one file stay together, so that what a file computes once is computed once. Files in their
+# order: by default those with few tests would come last, and these are the long ones.
 WORKERS ?= 2
-PYTEST := $(PY) -m pytest -n $(WORKERS) --dist loadfile
+PYTEST := $(PY) -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder
 # numba, BLAS and OpenMP keep to one thread each, or two workers would fight over two cores.
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
