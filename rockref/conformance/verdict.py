@@ -15,6 +15,7 @@ from rockref.conformance.runs import RunCheck
 from rockref.conformance.vectors import AS_RUN, layer, manifest
 
 LOOP = "All pieces pass by themselves; the run that is made of them does not."
+ONLY_RUNS = "Only runs were asked, which tells no rule: ask for all layers, or begin with --quick."
 NO_RULE = "No short run diverges: the first divergent sample of the long ones is all that is known."
 A_STEP = "A whole step is wrong, and no short run tells by which rule: it is this one, or one that comes before it."
 HANDED = "The piece by itself passes: look at what the step hands to it."
@@ -173,13 +174,10 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
         return found
     found.consequences = [c for c in findings.checks if c.failed and c is not check]
     found.rules = with_consequences(rules, rule, findings.checks)
-    if (
-        rule is None
-        and bad_run is not None
-        and {"step", "contact_law"} <= set(findings.pieces)
-        and findings.profile != "scheme"
-    ):
-        found.rule, found.says = "S2", LOOP
+    in_pieces = {"step", "contact_law"} <= set(findings.pieces) and findings.profile != "scheme"
+    if rule is None and bad_run is not None and in_pieces:
+        asked = any(c.layer in SMALL for c in findings.checks)
+        found.rule, found.says = ("S2", LOOP) if asked else (None, ONLY_RUNS)
     short = any(c.layer == "L5s" for c in findings.checks)
     if found.rule is None and check is None and bad_run is not None and short:
         found.says = NO_RULE

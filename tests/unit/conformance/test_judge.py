@@ -13,10 +13,11 @@ from rockref.conformance import in_files, in_words, vectors
 from rockref.conformance.backend import load
 from rockref.conformance.claims import ClaimCheck
 from rockref.conformance.compare import compare, grade_of
-from rockref.conformance.judge import LAYERS, judge
+from rockref.conformance.judge import LAYERS, Findings, judge
 from rockref.conformance.law_backend import NumpyEngine
 from rockref.conformance.properties import PropertyCheck
-from rockref.conformance.verdict import as_json, verdict
+from rockref.conformance.runs import RunCheck
+from rockref.conformance.verdict import ONLY_RUNS, as_json, verdict
 from rockref.model.errors import InputError
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/backend_numpy.py"
@@ -193,6 +194,16 @@ def test_a_wrong_run_of_right_pieces_is_the_loop():
     )
     v = judged(late)
     assert v.rule == "S2" and "All pieces pass" in v.says
+
+
+def test_where_only_runs_were_asked_no_rule_is_named():
+    """Of pieces that the implementation has, and that nobody asked, nothing is said."""
+    pieces, run = ("step", "contact_law"), RunCheck("run-0001", "a run", "outside", 30.0)
+    alone = verdict(Findings({}, "float64", ("L5",), runs=[run], pieces=pieces))
+    assert alone.status == "FAIL" and alone.rule is None and alone.says == ONLY_RUNS
+    with_pieces = judge(NumpyEngine(), ["L0"])
+    with_pieces.runs = [run]
+    assert verdict(with_pieces).rule == "S2"
 
 
 class Broken:
