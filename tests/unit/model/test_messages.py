@@ -201,8 +201,8 @@ REFUSALS = [
     ),
     (
         # a stool that leans on its front foot, between its two others
-        lambda: released(0.1, physics.points([[0, 0.05, -0.344], [0.05, -0.05, -0.344], [-0.05, -0.05, -0.344]])),
-        "contact points: point 0 would start 9.99 mm inside the plate. "
+        lambda: released(0.1, physics.points([[0.05, -0.05, -0.344], [0, 0.05, -0.344], [-0.05, -0.05, -0.344]])),
+        "contact points: point 1 would start 9.99 mm inside the plate. "
         "A release leans on one point with x > 0 and one with x < 0; give a start state instead. [E-RELEASE]",
     ),
     # the step

@@ -183,3 +183,12 @@ def test_settled_height_balances_the_weight():
     assert 3e7 * -(z - 0.36) == pytest.approx(500.0, rel=1e-7)
     z = release.settled_height(-0.36, -0.35, 6e7, 3e7, 500.0)
     assert 6e7 * -(z - 0.36) == pytest.approx(500.0, rel=1e-7)
+
+
+def test_soft_feet_may_start_deep_inside_the_plate():
+    """Half the weight on springs of 1e5 N/m: 2.6 mm, and no foot is deeper than the pivots."""
+    points = physics.points([[x, y, -0.344] for x in (0.05, -0.05) for y in (0.05, -0.05)], K_N=1e5)
+    state = release.release_posture(physics.block(), points, 0.1)
+    height = state.x[2] + (state.Lambda @ points.P.T)[2]
+    # The weight over twice the stiffness, to the rounding of heights of a third of a metre.
+    assert np.min(height) == pytest.approx(-54 * 9.81 / 2 / 1e5, rel=1e-12)
