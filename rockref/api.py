@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -80,9 +80,15 @@ class Model:
         return cls(parameters=parameters, properties=properties, **changes)
 
     @classmethod
-    def load(cls, path: str | os.PathLike) -> Model:
-        """Read a model from a TOML file. Raises InputError that names the file and the key."""
-        return model_file.load(cls, path)
+    def load(cls, path: str | os.PathLike, effects: Sequence[str] = ()) -> Model:
+        """Read a model from a TOML file.
+
+        effects : the user's own effects that the file may have, each "path/to/file.py:Class". A file of effects is
+        Python; only those that are named here, or were named before in this process, are run.
+
+        Raises InputError that names the file and the key (E-TRUST for an effect that was not named).
+        """
+        return model_file.load(cls, path, effects)
 
     def save(self, path: str | os.PathLike) -> None:
         """Write the model to a TOML file, whole or not at all."""

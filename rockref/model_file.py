@@ -6,12 +6,14 @@ import difflib
 import os
 import re
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rockref.effects import catalogue
+from rockref.effects.user import file_and_class
 from rockref.model.errors import InputError
 from rockref.model.parameters import Parameters
 from rockref.model.problem import ContactPoints
@@ -114,8 +116,11 @@ def table(where: str, tables: dict, name: str, known) -> dict:
     return found
 
 
-def load(cls, path: str | os.PathLike):
-    """A model of class `cls` from a TOML file."""
+def load(cls, path: str | os.PathLike, effects: Sequence[str] = ()):
+    """A model of class `cls` from a TOML file; `effects` are the user's own that it may have, each "file.py:Class"."""
+    for spec in effects:
+        file_and_class(spec)  # an id is none
+        catalogue.named(spec)
     tables, where = read_toml(path), str(path)
     for key in tables:
         if key not in SECTIONS:

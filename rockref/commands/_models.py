@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import difflib
+import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+import typer
 
 if TYPE_CHECKING:
     from rockref.api import Model
     from rockref.effects.base import Effect
 
+#: What every command that reads a model file takes, where its own ``--effect`` does not stand for it.
+OwnEffects = Annotated[
+    list[str] | None,
+    typer.Option("--effect", "-e", help="An effect of your own that a model has, path/to/file.py:Class."),
+]
 NAMED = ("table_3_1", "four_points")
 #: Errors of a run that come from what the model says, as much as from how it is run.
 OF_THE_MODEL = ("E-STEP", "E-NAN", "E-ANGLE", "E-TILT", "E-RELEASE", "E-FEET")
@@ -32,6 +40,49 @@ def named_model(text: str) -> Model:
     model = Model.load(text)
     say_implausible(model.effects, text)
     return model
+
+
+def known_files(effects: Iterable[str] | None) -> None:
+    """Run the files of the user's own effects that he has named, so that model files may name them."""
+    from rockref.effects.catalogue import named, names_file
+
+    for words in effects or ():
+        if names_file(words):
+            named(spec_of(words))
+
+
+def spec_of(words: str) -> str:
+    """The "file.py:Class" of the words of an effect, without its parameters."""
+    head, marker, rest = words.strip().partition(".py:")
+    return f"{head}.py:{rest.partition(':')[0]}" if marker else words.strip()
+
+
+def models_and_others(texts: Iterable[str], effects: Iterable[str] | None) -> tuple[list[Model], list[str]]:
+    """The models, and of the effects that are named those that are no user's own effect of any of them."""
+    from rockref.effects.catalogue import names_file
+
+    effects = list(effects or ())
+    known_files(effects)
+    models = [named_model(text) for text in texts]
+    return models, [words for words in effects if not (names_file(words) and any(has(m, words) for m in models))]
+
+
+def has(model: Model, words: str) -> bool:
+    """Whether a model has the user's own effect that words name: of that file, and of that class."""
+    path, _, name = spec_of(words).rpartition(":")
+    own = [effect.file.rpartition(":") for effect in model.effects if effect.file is not None]
+    return any(os.path.realpath(p) == os.path.realpath(path) and n == name for p, _, n in own)
+
+
+def named_models(texts: Iterable[str], effects: Iterable[str] | None) -> list[Model]:
+    """The models, which may have the user's own effects that are named. Raises InputError (E-EFFECT) for other ones."""
+    models, others = models_and_others(texts, effects)
+    if others:
+        from rockref.model.errors import InputError
+
+        what = "is no effect of your own that a model here has; this command adds none"
+        raise InputError("E-EFFECT", f"--effect {others[0]}", what, "Leave it out.")
+    return models
 
 
 @contextmanager
@@ -67,8 +118,13 @@ def labels(texts: Sequence[str]) -> list[str]:
 
 
 def with_effects(model: Model, texts: Sequence[str]) -> Model:
-    """Return the model with effects added, written as ``id:key=value,key=value``; an effect that it has is replaced."""
+    """Return the model with effects added, written as ``id:key=value,key=value``; an effect that it has is replaced.
+
+    A user's own that it has and that is named without parameters stays as it is.
+    """
     from rockref.effects.catalogue import in_step_order, parse
+
+    texts = [text for text in texts if not (text.strip() == spec_of(text) and has(model, text))]
 
     if not texts:
         return model

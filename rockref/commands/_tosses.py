@@ -16,9 +16,11 @@ def usable(report: Path | None) -> Path | None:
     return None if report is None else usable_folder(report)
 
 
-def compare_tosses(path: Path, model: Sequence[str] | None, report: Path | None, as_json: bool) -> None:
+def compare_tosses(
+    path: Path, model: Sequence[str] | None, effects: Sequence[str] | None, report: Path | None, as_json: bool
+) -> None:
     """Print models beside tosses, and write the page where it is wanted."""
-    from rockref.commands._models import labels, named_model
+    from rockref.commands._models import labels, named_models
     from rockref.commands._stages import console
     from rockref.discover.tosses.compare import compare
     from rockref.measure.tosses import load_tosses
@@ -28,7 +30,8 @@ def compare_tosses(path: Path, model: Sequence[str] | None, report: Path | None,
     tosses = load_tosses(path)
     for notice in tosses.notices:
         typer.echo(f"rockref: {notice}", err=True)
-    models, names = ([named_model(m) for m in model], labels(list(model))) if model else (None, None)
+    given = named_models(model or (), effects)
+    models, names = (given, labels(list(model))) if model else (None, None)
     record = compare(tosses, models, names).to_dict()
     written = []
     if folder is not None:
@@ -44,20 +47,24 @@ def compare_tosses(path: Path, model: Sequence[str] | None, report: Path | None,
 
 
 def diagnose_tosses(
-    path: Path, model: str | None, report: Path | None, output: Path | None, save_model: Path | None, verbose: bool,
-    as_json: bool,
+    path: Path, model: str | None, effects: Sequence[str] | None, report: Path | None, output: Path | None,
+    save_model: Path | None, verbose: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Print what is missing in the model of tosses; exit code 1 if a gate fails."""
-    from rockref.commands._models import named_model
+    from rockref.commands._models import models_and_others
     from rockref.commands._stages import console, stages
     from rockref.discover.tosses.diagnose import diagnose
     from rockref.measure.tosses import load_tosses
+    from rockref.model.errors import InputError
     from rockref.report.toss_text import print_toss_diagnosis
 
     usable_files(output, save_model)
     folder = usable(report)
     tosses = load_tosses(path)
-    given = named_model(model) if model is not None else None
+    models, others = models_and_others([model] if model else [], effects)
+    if others:
+        raise InputError("E-EFFECT", "--effect", "of tosses only the catalogue is tried", "Leave it out.")
+    given = models[0] if models else None
     with stages(f"diagnosing {path}", every_line=verbose) as say:
         found = diagnose(tosses, given, progress=say)
     record = found.to_dict()
@@ -82,7 +89,7 @@ def fit_to_tosses(
     path: Path, output: Path, effects: Sequence[str], model: str | None, verbose: bool, as_json: bool
 ) -> None:
     """Fit the law and effects to the fit tosses, print the numbers, write the model; exit code 1 if a gate fails."""
-    from rockref.commands._models import named_model
+    from rockref.commands._models import models_and_others
     from rockref.commands._stages import console, stages
     from rockref.discover.tosses.fitting import fit_tosses
     from rockref.measure.tosses import load_tosses
@@ -90,9 +97,10 @@ def fit_to_tosses(
 
     usable_files(output)
     tosses = load_tosses(path)
-    given = named_model(model) if model is not None else None
+    models, more = models_and_others([model] if model else [], effects)
+    given = models[0] if models else None
     with stages(f"fitting {path}", every_line=verbose) as say:
-        found = fit_tosses(tosses, tuple(effects), given, progress=say)
+        found = fit_tosses(tosses, tuple(more), given, progress=say)
     found.model.save(output)
     if as_json:
         typer.echo(json.dumps(found.to_dict() | {"written": [str(output)]}, indent=1))
@@ -104,10 +112,17 @@ def fit_to_tosses(
 
 
 def add_to_model_of_tosses(
-    effect: str, path: Path, model: str | None, output: Path, report: Path | None, verbose: bool, as_json: bool
+    effect: str,
+    path: Path,
+    model: str | None,
+    own: Sequence[str] | None,
+    output: Path,
+    report: Path | None,
+    verbose: bool,
+    as_json: bool,
 ) -> None:
     """Fit an effect into a model of tosses, print the errors before and after, write the model."""
-    from rockref.commands._models import named_model
+    from rockref.commands._models import named_models
     from rockref.commands._stages import console, stages
     from rockref.discover.tosses.fitting import add_to_tosses
     from rockref.measure.tosses import load_tosses
@@ -116,7 +131,7 @@ def add_to_model_of_tosses(
     usable_files(output)
     folder = usable(report)
     tosses = load_tosses(path)
-    given = named_model(model) if model is not None else None
+    given = next(iter(named_models([model] if model else [], own)), None)
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = add_to_tosses(effect, tosses, given, progress=say)
     found.after.model.save(output)

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._models import OwnEffects
 from rockref.commands._results import folder_name
 
 
@@ -20,6 +21,7 @@ def add(
     model: Annotated[
         str | None, typer.Option("--model", "-m", help="What it is added to, a model.toml. Default: the baseline.")
     ] = None,
+    own: OwnEffects = None,
     output: Annotated[Path, typer.Option("--output", "-o", help="Where the new model goes.")] = Path(
         "with_effect.toml"
     ),
@@ -51,15 +53,15 @@ def add(
     if is_toss_folder(experiment):
         from rockref.commands._tosses import add_to_model_of_tosses
 
-        return add_to_model_of_tosses(effect, experiment, model, output, report, verbose, as_json)
-    from rockref.commands._models import named_model
+        return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
+    from rockref.commands._models import named_models
     from rockref.commands._results import say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
     from rockref.discover.diagnosis_record import plain
     from rockref.report.output import made_folder, usable_folder
 
-    given = named_model(model) if model is not None else None
+    given = next(iter(named_models([model] if model else [], own)), None)
     folder = usable_folder(report) if report is not None else None
     usable_files(output)
     with stages(f"adding {effect}", every_line=verbose) as say:

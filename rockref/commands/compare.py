@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._models import OwnEffects
 from rockref.commands._results import folder_name
 
 
@@ -22,6 +23,7 @@ def compare(
             "--model", "-m", help="table_3_1, four_points or a model.toml; may be repeated. Default: baseline."
         ),
     ] = None,
+    effect: OwnEffects = None,
     report: Annotated[
         Path | None,
         typer.Option(
@@ -53,8 +55,8 @@ def compare(
     if is_toss_folder(experiment):
         from rockref.commands._tosses import compare_tosses
 
-        return compare_tosses(experiment, model, report, as_json)
-    from rockref.commands._models import labels, named_model
+        return compare_tosses(experiment, model, effect, report, as_json)
+    from rockref.commands._models import labels, named_models
     from rockref.commands._progress import progress
     from rockref.commands._results import say_written
     from rockref.discover.compare import baseline_model
@@ -63,7 +65,7 @@ def compare(
     from rockref.report.output import usable_folder, write_report
 
     loaded = load_experiment(experiment)
-    models = [named_model(text) for text in model] if model else [baseline_model(loaded)]
+    models = named_models(model or (), effect) or [baseline_model(loaded)]
     names = labels(model) if model else [f"baseline ({loaded.baseline})"]
     folder = usable_folder(report) if report is not None else None
     with progress("simulating the runs") as ahead:

@@ -55,23 +55,21 @@ def diagnose(
 
     if is_toss_folder(experiment):
         from rockref.commands._tosses import diagnose_tosses
-        from rockref.model.errors import InputError
 
-        if effect:
-            raise InputError("E-EFFECT", "--effect", "of tosses only the catalogue is tried", "Leave it out.")
-        return diagnose_tosses(experiment, model, report, output, save_model, verbose, as_json)
-    from rockref.commands._models import named_model
+        return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
+    from rockref.commands._models import models_and_others
     from rockref.commands._results import keep, say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
     from rockref.report.output import made_folder, usable_folder
 
-    given = named_model(model) if model is not None else None
+    models, candidates = models_and_others([model] if model else [], effect)
+    given = models[0] if models else None
     folder = usable_folder(report) if report is not None else None
     usable_files(output, save_model)
     with stages(f"diagnosing {experiment}", every_line=verbose) as say:
-        found = engine.diagnose(experiment, given, seed, workers, progress=say, own=effect or ())
+        found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates)
         record = plain(found.to_dict())
         written = []
         if folder is not None:

@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._models import OwnEffects
+
 
 def register(app: typer.Typer) -> None:
     """Add ``identify`` to `app`."""
@@ -20,6 +22,7 @@ def identify(
     model: Annotated[
         str, typer.Option("--model", "-m", help="table_3_1 or a model.toml: block and what is not searched.")
     ] = "table_3_1",
+    effect: OwnEffects = None,
     genes: Annotated[int, typer.Option(help="12 or 54 parameters.")] = 12,
     search_runs: Annotated[
         str | None, typer.Option("--search-runs", help="Runs of the evolutionary search, as 01,06; default: the first.")
@@ -44,7 +47,7 @@ def identify(
       rockref identify data/experiments/mystery-08 -o identified --resume
       rockref identify data/experiments/mystery-08 --dask tcp://127.0.0.1:8786
     """
-    from rockref.commands._models import named_model
+    from rockref.commands._models import named_models
     from rockref.commands._results import say_written
     from rockref.commands._searching import searching
     from rockref.identify.campaign import campaign
@@ -54,10 +57,11 @@ def identify(
     from rockref.model.storage import write_text
     from rockref.report.output import made_folder
 
+    (base,) = named_models([model], effect)
     folder = made_folder(output)
     with searching(verbose) as say, campaign(workers, dask) as work:
         result, found = identify_experiment(
-            experiment, Settings(population, generations, seed), work, folder, base=named_model(model), genes=genes,
+            experiment, Settings(population, generations, seed), work, folder, base=base, genes=genes,
             search_runs=search_runs, resume=resume, report=say,
         )  # fmt: skip
     files = files_in(folder)

@@ -38,7 +38,7 @@ def plan(
       rockref plan --runs 0.117x5 --effect rolling_resistance --effect viscous_friction
       rockref plan --model model.toml --runs 0.117,0.1,0.117t --json > plan.json
     """
-    from rockref.commands._models import named_model
+    from rockref.commands._models import models_and_others
     from rockref.commands._results import usable_files
     from rockref.commands._stages import stages
     from rockref.discover.diagnosis_record import plain
@@ -48,8 +48,9 @@ def plan(
 
     usable_files(output)
     planned = releases_from(runs)
+    (given,), candidates = models_and_others([model], effect)
     with stages("planning", every_line=verbose) as say:
-        found = run_plan(named_model(model), planned, effect or None, seed=seed, workers=workers, progress=say)
+        found = run_plan(given, planned, candidates or None, seed=seed, workers=workers, progress=say)
     text = json.dumps(plain(found.to_dict()), indent=1, allow_nan=False)
     if output is not None:
         write_text(output, text + "\n")

@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._models import OwnEffects
+
 
 def register(app: typer.Typer) -> None:
     """Add ``sensitivity`` to `app`."""
@@ -17,6 +19,7 @@ def sensitivity(
         Path, typer.Option("--output", "-o", help="Folder for the figures and the result; made if it is not there.")
     ] = Path("sensitivity"),
     model: Annotated[str, typer.Option("--model", "-m", help="table_3_1 or a model.toml.")] = "table_3_1",
+    effect: OwnEffects = None,
     step: Annotated[
         list[float] | None,
         typer.Option("--step", help="A time step in s; may be repeated. Default: those of Fig. 3.5."),
@@ -37,7 +40,7 @@ def sensitivity(
       rockref sensitivity -o sensitivity
       rockref sensitivity --model identified/model.toml --step 1e-5 --step 1e-6 --json
     """
-    from rockref.commands._models import named_model
+    from rockref.commands._models import named_models
     from rockref.commands._stages import console, stages
     from rockref.identify.sensitivity import STEPS
     from rockref.identify.sensitivity_study import record, study
@@ -47,7 +50,7 @@ def sensitivity(
     from rockref.report.sensitivity_figures import sensitivity_figures
     from rockref.report.sensitivity_text import print_sensitivity
 
-    base = named_model(model)
+    (base,) = named_models([model], effect)
     folder = made_folder(output)
     with stages("sensitivity", not as_json) as say:
         found = study(base, seed, duration, tuple(step) if step else STEPS, trials, workers, say)

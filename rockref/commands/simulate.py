@@ -39,12 +39,13 @@ def simulate(
       rockref simulate model.toml --turned --json
     """
     from rockref import api
-    from rockref.commands._models import named_model, of_file, with_effects
+    from rockref.commands._models import known_files, named_model, of_file, with_effects
     from rockref.commands._progress import progress
     from rockref.report.response_table import as_measured, check_name, overturned_at, write_response
 
     if out is not None:
         check_name(out)
+    known_files(effect)
     chosen = with_effects(named_model(model), effect or [])
     with progress("simulating") as report, of_file(model):
         response = api.simulate(

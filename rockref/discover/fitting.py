@@ -79,7 +79,7 @@ def known_effects(effects: tuple[str, ...]) -> tuple[str, ...]:
 
     Raises InputError (E-EFFECT, E-FILE) for one that nobody knows, cannot be used, or is given twice.
     """
-    ids = tuple(catalogue.find(name).id for name in effects)
+    ids = tuple(catalogue.named(name).id for name in effects)
     if len(set(ids)) != len(ids):
         raise InputError("E-EFFECT", "--effect", f"{', '.join(ids)}: one is given twice", "Give each once.")
     return ids

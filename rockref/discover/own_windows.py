@@ -36,7 +36,7 @@ def known_own(names: Sequence[str]) -> tuple[str, ...]:
 
     Raises InputError: E-EFFECT for one of the catalogue, or given twice; E-FILE, E-TWIN for one that cannot be used.
     """
-    own = tuple(catalogue.find(name) for name in names)
+    own = tuple(catalogue.named(name) for name in names)
     for k, kind in enumerate(own):
         if kind.file is None:
             cure = "Leave it out, or name a class of yours, path/to/file.py:Class."

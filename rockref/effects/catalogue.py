@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import shlex
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -53,7 +54,7 @@ from rockref.effects.support.compliant_support import CompliantSupport
 from rockref.effects.support.none import RigidSupport
 from rockref.effects.tracking.plate_pose import PlatePose
 from rockref.effects.tracking.tag_frame import TagFrame
-from rockref.effects.user import load_user
+from rockref.effects.user import file_and_class, load_user
 from rockref.model.errors import InputError
 
 #: All effects in the order in which they act, however they are given: what makes the body, normal force and friction,
@@ -86,6 +87,9 @@ OF_TOSSES: dict[str, type[Effect]] = {
 #: Effects of the user's own that this process was told of, by id; the file that was read last holds.
 OWN: dict[str, type[Effect]] = {}
 
+#: The files that he has named himself, by their resolved paths. No other one is run, whatever a model file says.
+NAMED: set[str] = set()
+
 #: The answer "none" to each question, in the order of the questions.
 NONE: dict[str, type[Effect]] = {
     effect.question: effect
@@ -101,8 +105,8 @@ QUESTIONS: dict[str, tuple[type[Effect], ...]] = {
 }
 
 __all__ = [
-    "EFFECTS", "IN_STEP_ORDER", "NONE", "OF_TOSSES", "OWN", "QUESTIONS", "analogue", "digital", "find", "from_table",
-    "in_step_order", "load_user", "measured", "own_effect", "parse", "to_table",
+    "EFFECTS", "IN_STEP_ORDER", "NAMED", "NONE", "OF_TOSSES", "OWN", "QUESTIONS", "analogue", "digital", "find",
+    "from_table", "in_step_order", "load_user", "measured", "named", "own_effect", "parse", "to_table",
 ]  # fmt: skip
 
 
@@ -116,17 +120,10 @@ def short(words: str) -> str:
 
 
 def find(id: str, where: str = "effect") -> type[Effect]:
-    """The effect of this id, or the user's own that "path/to/file.py:Class" names.
+    """The effect of this id: of the catalogue, or a user's own that this process was told of. No file is run for it.
 
-    A user's own is known by its id from then on, in this process.
-
-    Raises
-    ------
-    InputError
-        E-EFFECT, E-FILE: nobody knows it (with the nearest name), or the class cannot be used.
+    Raises InputError (E-EFFECT) where nobody knows it, with the nearest name.
     """
-    if id.strip().endswith(".py") or ".py:" in id:
-        return own_effect(id.strip())
     if id == Effect.id:
         raise InputError("E-EFFECT", where, "'none' is what holds where no effect is named", "Leave it out.")
     known = EFFECTS | OF_TOSSES | OWN
@@ -135,6 +132,29 @@ def find(id: str, where: str = "effect") -> type[Effect]:
     near = difflib.get_close_matches(id.lower(), known, 1)
     cure = f"Did you mean {near[0]!r}?" if near else "`rockref effects` lists them."
     raise InputError("E-EFFECT", where, f"there is no effect {short(id)!r}", cure)
+
+
+def names_file(words: str) -> bool:
+    """Whether words are those of a user's own effect, a file or a class in it."""
+    return words.strip().endswith(".py") or ".py:" in words
+
+
+def named(words: str, where: str = "effect") -> type[Effect]:
+    """The effect that a user names: by id, or his own as "path/to/file.py:Class", whose file is then run.
+
+    For words of the user's alone, from the command line or an argument; what data say goes to `find`. A user's own is
+    known by its id from then on, in this process, and model files may name its file.
+
+    Raises
+    ------
+    InputError
+        E-EFFECT, E-FILE: nobody knows it (with the nearest name), or the class cannot be used.
+    """
+    if not names_file(words):
+        return find(words, where)
+    kind = own_effect(words.strip())
+    NAMED.add(os.path.realpath(file_and_class(words.strip())[0]))
+    return kind
 
 
 def own_effect(spec: str) -> type[Effect]:
@@ -181,7 +201,7 @@ def parse(text: str, where: str = "--effect") -> Effect:
     """
     head, marker, rest = text.partition(".py:")
     name, _, words = rest.partition(":") if marker else text.partition(":")
-    kind = find(f"{head}.py:{name}" if marker else name.strip(), where)
+    kind = named(f"{head}.py:{name}" if marker else name.strip(), where)
     place = f"{where} {short(text)}"
     return brought_in(kind, numbers_of(words, name, place), place)
 
@@ -206,12 +226,13 @@ def from_table(where: str, table: Any, beside: Path | None = None) -> tuple[Effe
 
     A sub-table without a parameter that brings the effect in means its typical size, as on the command line. A user's
     own effect has `file = "my_effect.py:Class"` in its sub-table, looked for in the folder `beside`, which is that of
-    the model file, and then in the current one.
+    the model file, and then in the current one. Such a file is run only if the user has `named` it.
 
     Raises
     ------
     InputError
-        E-EFFECT, E-FILE, E-KEY, E-TYPE, E-RANGE: which entry, what is wrong, the nearest name or the range.
+        E-TRUST, for a file that the user has not named; E-EFFECT, E-FILE, E-KEY, E-TYPE, E-RANGE: which entry, what is
+        wrong, the nearest name or the range.
     """
     if not isinstance(table, dict):
         raise InputError("E-TYPE", f"{where}: effects", "is not a table", "Write [effects.quadratic_drag] and c = 0.4.")
@@ -222,7 +243,7 @@ def from_table(where: str, table: Any, beside: Path | None = None) -> tuple[Effe
             raise InputError("E-TYPE", place, f"is {given!r}"[:80], f"Write [effects.{id}] and its parameters below.")
         given = dict(given)
         file = given.pop("file", None)
-        kind = find(id, place) if file is None else own_effect(found_file(file, beside, place))
+        kind = find(id, place) if file is None else own_effect(trusted(found_file(file, beside, place), place))
         if kind.id != id:
             raise InputError(
                 "E-EFFECT", place, f"but the effect in {file} is {kind.id!r}", f"Write [effects.{kind.id}]."
@@ -239,6 +260,32 @@ def found_file(file: Any, beside: Path | None, place: str) -> str:
     if beside is None or not path or (Path(path).is_file() and not (beside / path).is_file()):
         return file
     return f"{beside / path}:{name}"
+
+
+def trusted(spec: str, place: str) -> str:
+    """A model file's "file.py:Class", if the user has named that very file himself; nothing is run to know that.
+
+    Raises InputError: E-TRUST for one that he has not named, E-FILE where there is none, E-EFFECT as `load_user`.
+    """
+    path = file_and_class(spec)[0]
+    if not is_file(path):
+        raise InputError("E-FILE", place, f"names {short(path)!r}, which is no file", "Check the path.")
+    if os.path.realpath(path) in NAMED:
+        return spec
+    # It may stand in a command line, and comes from data.
+    typed = file_beside(spec, Path())
+    typed = shlex.quote(typed) if typed.isprintable() else repr(typed)
+    what = f"names {typed}, a program, which nothing runs unless you name it, too"
+    cure = f"If you trust it, add --effect {typed}; in Python, Model.load(path, effects=[...])."
+    raise InputError("E-TRUST", place, what, cure)
+
+
+def is_file(path: str) -> bool:
+    """Whether there is a file of this name; there is none of a name that no file can have."""
+    try:
+        return os.path.isfile(path)
+    except ValueError:
+        return False
 
 
 def to_table(effects: Iterable[Effect], beside: Path | None = None) -> dict[str, dict[str, Any]]:

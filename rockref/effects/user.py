@@ -32,11 +32,7 @@ def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
         E-FILE, where the file cannot be run; E-EFFECT, where the class is not an effect that can be used: what is
         wrong and what to write.
     """
-    path, _, name = spec.rpartition(":")
-    if spec.endswith(".py"):
-        raise InputError("E-EFFECT", spec, "names a file, but no class in it", f"Write {spec}:Class.")
-    if not path.endswith(".py") or not name.isidentifier():
-        raise InputError("E-EFFECT", spec, "names no class in a file", "Write path/to/file.py:Class.")
+    path, name = file_and_class(spec)
     module = run_file(Path(path))
     kind = getattr(module, name, None)
     if kind is None:
@@ -56,6 +52,16 @@ def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
     probe(kind.typical(), spec)
     probe_absent(kind(), spec)
     return kind
+
+
+def file_and_class(spec: str) -> tuple[str, str]:
+    """The two parts of "path/to/file.py:Class"; nothing is looked for. Raises InputError (E-EFFECT)."""
+    path, _, name = spec.rpartition(":")
+    if spec.endswith(".py"):
+        raise InputError("E-EFFECT", spec, "names a file, but no class in it", f"Write {spec}:Class.")
+    if not path.endswith(".py") or not name.isidentifier():
+        raise InputError("E-EFFECT", spec, "names no class in a file", "Write path/to/file.py:Class.")
+    return path, name
 
 
 def run_file(path: Path) -> ModuleType:

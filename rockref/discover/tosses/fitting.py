@@ -142,7 +142,7 @@ def add_to_tosses(
 
 def check_served(id: str) -> None:
     """Raises InputError (E-EFFECT) for an effect that does not exist or is not asked of tosses."""
-    catalogue.find(id)
+    catalogue.named(id)
     if id not in CANDIDATES:
         raise InputError(
             "E-EFFECT", f"effect {id}", "is not for tosses", f"Tosses are asked about {', '.join(CANDIDATES)}."

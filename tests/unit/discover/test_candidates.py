@@ -132,7 +132,7 @@ def test_a_users_own_effect_is_a_candidate_like_any_other():
 def test_numbers_of_a_users_own_that_are_infinite_none_or_only_shape(tmp_path):
     """Found as an inverse; in quarters of the range; not moved, but typical."""
     (tmp_path / "mine.py").write_text(OWN, encoding="utf-8")
-    kind = catalogue.find(f"{tmp_path / 'mine.py'}:Mine")
+    kind = catalogue.named(f"{tmp_path / 'mine.py'}:Mine")
     parameters = parameters_of(kind, 1)
     assert [p.name for p in parameters] == ["mine.range", "mine.push"]
     assert put(kind, 0.0).active_effects() == ()

@@ -54,7 +54,7 @@ def two_runs() -> Series:
 def own(tmp_path, monkeypatch):
     monkeypatch.setattr(catalogue, "OWN", {})
     (tmp_path / "mine.py").write_text(OWN, encoding="utf-8")
-    return lambda name: catalogue.find(f"{tmp_path / 'mine.py'}:{name}")
+    return lambda name: catalogue.named(f"{tmp_path / 'mine.py'}:{name}")
 
 
 def other_phase(model: Model) -> Model:

@@ -72,7 +72,7 @@ def test_a_model_file_names_it_from_where_it_lies(tmp_path, monkeypatch):
     [
         ("3", "file: is 3. Write file = "),
         ('"mine.py"', "names a file, but no class in it"),
-        ('"nobody.py:Mine"', "nobody.py: cannot be read"),
+        ('"nobody.py:Mine"', "nobody.py', which is no file"),
     ],
 )
 def test_a_model_file_that_names_no_file_is_explained(tmp_path, value, said):
