@@ -15,7 +15,7 @@ from rockref.conformance.runs import RunCheck
 from rockref.conformance.vectors import AS_RUN, layer, manifest
 
 LOOP = "All pieces pass by themselves; the run that is made of them does not."
-ONLY_RUNS = "Only runs were asked, which tells no rule: ask for all layers, or begin with --quick."
+UNASKED = "Pieces that could tell the rule were not asked: ask for all layers, or begin with --quick."
 NO_RULE = "No short run diverges: the first divergent sample of the long ones is all that is known."
 A_STEP = "A whole step is wrong, and no short run tells by which rule: it is this one, or one that comes before it."
 HANDED = "The piece by itself passes: look at what the step hands to it."
@@ -110,15 +110,27 @@ def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
     return (SMALL, ("L4",), ("L5s",)) if shown else (SMALL, ("L5s",), ("L4",))
 
 
-def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None, Check | None, str]:
+@lru_cache
+def layers_of_pieces() -> dict[str, str]:
+    """The layer in which each piece is asked by itself."""
+    return {v.piece: name for name in (*SMALL, "L4") for v in layer(name)}
+
+
+def all_asked(findings: Findings) -> bool:
+    """Whether every piece that is shown was asked by itself: only then can it be said that all of them pass."""
+    return {layers_of_pieces()[p] for p in findings.pieces} <= set(findings.layers)
+
+
+def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
     """The first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
+    checks, pieces = findings.checks, findings.pieces
     good = {r for r, s in status_of_rules([c for c in checks if c.layer in SMALL]).items() if s in ("pass", "look")}
     for layers in stages(pieces):
         check = first([c for c in checks if c.layer in layers])
         if check is None:
             continue
         if layers == ("L5s",) and check.rule == "S2" and pieces:
-            return "S2", check, LOOP
+            return "S2", check, LOOP if all_asked(findings) else ""
         if layers == ("L4",) and check.vector.endswith(AS_RUN):
             return check.rule, check, A_STEP
         if layers == SMALL or check.rule not in good:
@@ -130,7 +142,7 @@ def suspect(checks: Sequence[Check], pieces: Sequence[str]) -> tuple[str | None,
         whole = {"step", "integrate"} & set(pieces)
         if unproved is not None and not whole:
             return unproved.rule, unproved, ""
-        return "S2", check, LOOP
+        return ("S2", check, LOOP) if all_asked(findings) else (None, check, UNASKED)
     return None, None, ""
 
 
@@ -159,7 +171,7 @@ def something_judged(findings: Findings) -> bool:
 def verdict(findings: Findings, backend: Any = None) -> Verdict:
     """Weigh the findings. `backend` is asked once more for its fingerprint, where the pieces do not name the rule."""
     rules = status_of_rules(findings.checks)
-    rule, check, says = suspect(findings.checks, findings.pieces)
+    rule, check, says = suspect(findings)
     if check is not None and not check.weighed:
         rule, says = None, unanswered(findings.checks)
         # What was asked first tells why; later questions may not have been put any more.
@@ -176,8 +188,7 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     found.rules = with_consequences(rules, rule, findings.checks)
     in_pieces = {"step", "contact_law"} <= set(findings.pieces) and findings.profile != "scheme"
     if rule is None and bad_run is not None and in_pieces:
-        asked = any(c.layer in SMALL for c in findings.checks)
-        found.rule, found.says = ("S2", LOOP) if asked else (None, ONLY_RUNS)
+        found.rule, found.says = ("S2", LOOP) if all_asked(findings) else (None, UNASKED)
     short = any(c.layer == "L5s" for c in findings.checks)
     if found.rule is None and check is None and bad_run is not None and short:
         found.says = NO_RULE

@@ -17,7 +17,7 @@ from rockref.conformance.judge import LAYERS, Findings, judge
 from rockref.conformance.law_backend import NumpyEngine
 from rockref.conformance.properties import PropertyCheck
 from rockref.conformance.runs import RunCheck
-from rockref.conformance.verdict import ONLY_RUNS, as_json, verdict
+from rockref.conformance.verdict import LOOP, UNASKED, as_json, verdict
 from rockref.model.errors import InputError
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/backend_numpy.py"
@@ -196,14 +196,28 @@ def test_a_wrong_run_of_right_pieces_is_the_loop():
     assert v.rule == "S2" and "All pieces pass" in v.says
 
 
-def test_where_only_runs_were_asked_no_rule_is_named():
-    """Of pieces that the implementation has, and that nobody asked, nothing is said."""
-    pieces, run = ("step", "contact_law"), RunCheck("run-0001", "a run", "outside", 30.0)
-    alone = verdict(Findings({}, "float64", ("L5",), runs=[run], pieces=pieces))
-    assert alone.status == "FAIL" and alone.rule is None and alone.says == ONLY_RUNS
-    with_pieces = judge(NumpyEngine(), ["L0"])
-    with_pieces.runs = [run]
-    assert verdict(with_pieces).rule == "S2"
+def with_a_wrong_run(layers):
+    """The verdict on the law asked in some layers, with a run that is outside."""
+    pieces, run = ("step", "contact_law", "assemble"), RunCheck("run-0001", "a run", "outside", 30.0)
+    return verdict(Findings({}, "float64", layers, runs=[run], pieces=pieces))
+
+
+@pytest.mark.parametrize("layers", [("L5",), ("L0", "L5"), ("L1", "L2", "L5"), ("L1", "L4", "L5"), ("L5s", "L5")])
+def test_where_not_all_pieces_were_asked_it_is_not_said_that_they_pass(layers):
+    v = with_a_wrong_run(layers)
+    assert v.status == "FAIL" and v.rule is None and v.says == UNASKED
+
+
+def test_where_all_pieces_were_asked_the_run_that_is_made_of_them_is_wrong():
+    v = with_a_wrong_run(("L1", "L2", "L4", "L5"))
+    assert v.rule == "S2" and v.says == LOOP
+
+
+@pytest.mark.parametrize("layers", [["L5s"], ["L0", "L5s"], ["L0", "L2", "L3", "L4", "L5s", "L7"], ["L4"]])
+def test_a_wrong_cone_is_not_called_the_loop_where_the_contact_law_was_not_asked(layers):
+    box = planted("mu * F_N / np.hypot(*F_trial) * F_trial", "np.clip(F_trial, -mu * F_N, mu * F_N)")
+    v = verdict(judge(box, layers))
+    assert v.status == "FAIL" and v.rule == "T3" and LOOP not in v.says
 
 
 class Broken:
