@@ -13,7 +13,7 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from rockref.conformance.asking import ANYTHING, as_mapping, has
+from rockref.conformance.asking import ANYTHING, as_mapping, has, raised
 from rockref.conformance.rules import PIECES
 from rockref.conformance.vectors import Vector, flat, problem_of
 from rockref.model.problem import Problem
@@ -90,15 +90,15 @@ def capabilities(facts: dict[str, Any], known: Iterable[str]) -> list[str]:
     return [p for p in known if p in said] if isinstance(said, list) else []
 
 
-def request_of(text: str) -> dict[str, Any]:
-    """A request from its line. Raises ValueError: what is wrong with it."""
+def object_of(text: str) -> dict[str, Any]:
+    """The object that a line holds. Raises ValueError: what is wrong with it."""
     try:
-        request = json.loads(text)
+        thing = json.loads(text)
     except (ValueError, RecursionError) as e:
         raise ValueError("is no JSON") from e
-    if not isinstance(request, dict):
+    if not isinstance(thing, dict):
         raise ValueError("is no JSON object")
-    return request
+    return thing
 
 
 def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
@@ -128,7 +128,7 @@ def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
         like = "simulate" if piece == "effect" else piece
         return {"id": id_, "out": None if out is None else as_mapping(out, like)}
     except ANYTHING as e:
-        return {"id": id_, "error": f"{type(e).__name__}: {e}"}
+        return {"id": id_, "error": raised(e)}
 
 
 def serve(backend: Any, lines: Iterable[str] | None = None, out: TextIO | None = None) -> None:
@@ -138,7 +138,7 @@ def serve(backend: Any, lines: Iterable[str] | None = None, out: TextIO | None =
         if not text.strip():
             continue
         try:
-            request = request_of(text)
+            request = object_of(text)
         except ValueError as e:
             reply: dict[str, Any] = {"error": f"the request {e}"}
         else:

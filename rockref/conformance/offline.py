@@ -143,7 +143,7 @@ def requests_in(path: Path) -> Iterator[dict[str, Any]]:
     """The requests in a file. Raises InputError (E-REQUEST) that names the line."""
     for number, row in _rows(path, LARGEST_REQUESTS):
         try:
-            yield jsonlines.request_of(row)
+            yield jsonlines.object_of(row)
         except ValueError as e:
             cure = "Give the file that `rockref conform export` wrote."
             raise InputError("E-REQUEST", f"{path}, line {number}", str(e), cure) from e
@@ -153,7 +153,7 @@ def _replies(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
     """Numbered answers. Raises InputError (E-RESPONSE) that names the line."""
     for number, row in _rows(path, LARGEST_RESPONSES):
         try:
-            yield number, jsonlines.request_of(row)
+            yield number, jsonlines.object_of(row)
         except ValueError as e:
             raise InputError("E-RESPONSE", f"{path}, line {number}", str(e), "Write one JSON object a line.") from e
 

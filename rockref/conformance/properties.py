@@ -14,7 +14,7 @@ import numpy as np
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from rockref.conformance.asking import as_mapping, has
+from rockref.conformance.asking import as_mapping, has, raised
 from rockref.conformance.vectors import trajectory
 from rockref.model.problem import Problem, State
 
@@ -188,5 +188,5 @@ def judge_one(
     try:
         holds()
     except Exception as e:  # the backend may raise anything
-        return PropertyCheck(sentence, False, f"{type(e).__name__}: {e}".splitlines()[0][:200])
+        return PropertyCheck(sentence, False, raised(e))
     return PropertyCheck(sentence, True)

@@ -231,8 +231,10 @@ def conclude(
         loud=(loud(final.point.loss, final.fit.series.count), loud(with_effect.loss, with_effect.count)),
     )
     decision = rules.decide(facts)
-    # What was there from the start, by the look at the release, is ranked by what it gains over the plain baseline.
-    gains = {e: gain_between(null, final) for e in final.effects if e not in look.gains} | look.gains
+    # What was there before the last look is ranked by what all gain over the plain baseline, and not by what it had in
+    # that look, where it may have stood as a second effect.
+    before = [e for e in final.effects if e not in look.gains or e != final.effects[-1]]
+    gains = look.gains | {e: gain_between(null, final) for e in before}
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
     card = signature(null.fit, null.point, final.fit, final.point)
     noise = float(np.degrees(gyro_of(setup.experiment).noise))

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import shutil
 import signal
 import sys
@@ -27,20 +26,7 @@ from rockref.identify.from_experiment import identify_experiment
 from rockref.identify.polish import Effort
 from rockref.identify.search import Settings
 from rockref.model.storage import write_text
-
-ROOT = Path(__file__).resolve().parents[2]
-SHIPPED = ROOT / "data/experiments/mystery-08"
-
-
-def two_runs(folder: Path) -> Path:
-    """A fit run and a holdout run of the control experiment."""
-    folder.mkdir()
-    head, *runs = (SHIPPED / "experiment.toml").read_text(encoding="utf-8").split("[[run]]")
-    kept = [r for r in runs if re.search(r'id = "0[13]"', r)]
-    (folder / "experiment.toml").write_text("[[run]]".join([head, *kept]), encoding="utf-8")
-    for k in ("01", "03"):
-        shutil.copy(SHIPPED / f"run{k}.csv.gz", folder)
-    return folder
+from tests.shipped import two_runs
 
 
 def identify(experiment: Path, folder: Path) -> None:

@@ -1,6 +1,5 @@
 """The worked example of `docs/howto/own_experiment.md`, and every mistake that its page lists."""
 
-import importlib.util
 import re
 import shutil
 from pathlib import Path
@@ -10,6 +9,7 @@ import pytest
 
 from rockref import InputError
 from rockref.measure import load_experiment
+from tests.shipped import program
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/howto/own_experiment.md").read_text(encoding="utf-8")
@@ -18,10 +18,7 @@ HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"
 
 @pytest.fixture(scope="module")
 def example():
-    spec = importlib.util.spec_from_file_location("own_experiment", ROOT / "examples/own_experiment.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return program("examples/own_experiment.py")
 
 
 @pytest.fixture(scope="module")

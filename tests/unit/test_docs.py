@@ -1,7 +1,6 @@
 """The pages of the documentation agree with the files that they describe."""
 
 import datetime
-import importlib.util
 import re
 import tomllib
 from pathlib import Path
@@ -11,6 +10,7 @@ import pytest
 
 import rockref
 from tests.golden.test_peers import recorded, relative_rms, simulated
+from tests.shipped import program
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES_PAGE = (ROOT / "docs/reference/files.md").read_text(encoding="utf-8")
@@ -42,22 +42,14 @@ def test_every_key_is_explained():
     assert {key for _, key in keys_of(example_on_the_page())} <= explained
 
 
-def maker(name):
-    """A script of the documentation."""
-    spec = importlib.util.spec_from_file_location(name, ROOT / f"docs/{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 @pytest.fixture(scope="module")
 def figures():
-    return maker("make_figures")
+    return program("docs/make_figures.py")
 
 
 def test_the_pages_of_commands_and_names_are_up_to_date():
     """`python docs/make_reference.py` writes them anew."""
-    reference = maker("make_reference")
+    reference = program("docs/make_reference.py")
     assert reference.COMMANDS.read_text(encoding="utf-8") == reference.commands_page()
     assert reference.API.read_text(encoding="utf-8") == reference.api_page()
 

@@ -1,22 +1,19 @@
 """Every code that rockref may say is on the page, with what to do."""
 
-import importlib.util
 import re
 from pathlib import Path
 
 import pytest
 
 from rockref import InputError, Model
+from tests.shipped import program
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="module")
 def maker():
-    spec = importlib.util.spec_from_file_location("make_errors", ROOT / "docs/make_errors.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return program("docs/make_errors.py")
 
 
 @pytest.fixture(scope="module")

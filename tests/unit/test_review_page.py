@@ -1,22 +1,19 @@
 """The page for the physicist is what the sources say now."""
 
-import importlib.util
 import re
 from pathlib import Path
 
 import pytest
 
 from rockref.conformance.rules import RULES
+from tests.shipped import program
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="module")
 def maker():
-    spec = importlib.util.spec_from_file_location("make_review", ROOT / "docs/make_review.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return program("docs/make_review.py")
 
 
 @pytest.fixture(scope="module")

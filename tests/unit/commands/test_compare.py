@@ -2,15 +2,14 @@
 
 import json
 import re
-import shutil
 from pathlib import Path
 
 import pytest
 
 from rockref import Model, cli
+from tests.shipped import two_runs
 
 ROOT = Path(__file__).resolve().parents[3]
-SHIPPED = ROOT / "data/experiments/mystery-08"
 
 
 def run(capsys, *arguments):
@@ -24,13 +23,7 @@ def run(capsys, *arguments):
 @pytest.fixture(scope="module")
 def short(tmp_path_factory):
     """Two runs of a shipped experiment, so that a comparison is quick."""
-    folder = tmp_path_factory.mktemp("short")
-    head, *runs = (SHIPPED / "experiment.toml").read_text(encoding="utf-8").split("[[run]]")
-    kept = [r for r in runs if re.search(r'id = "0[13]"', r)]
-    (folder / "experiment.toml").write_text("[[run]]".join([head, *kept]), encoding="utf-8")
-    for k in ("01", "03"):
-        shutil.copy(SHIPPED / f"run{k}.csv.gz", folder)
-    return folder
+    return two_runs(tmp_path_factory.mktemp("short"))
 
 
 @pytest.fixture(scope="module")

@@ -2,8 +2,6 @@
 
 import json
 import os
-import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -16,30 +14,24 @@ from rockref.identify.campaign import campaign
 from rockref.identify.from_experiment import identify_experiment
 from rockref.identify.search import Settings
 from rockref.model.errors import InputError
+from tests.shipped import two_runs
 
 ROOT = Path(__file__).parents[3]
-SHIPPED = ROOT / "data/experiments/mystery-08"
 
 
 @pytest.fixture(scope="module")
-def two_runs(tmp_path_factory):
+def control(tmp_path_factory):
     """A fit run and a holdout run of the control experiment."""
-    folder = tmp_path_factory.mktemp("two")
-    head, *runs = (SHIPPED / "experiment.toml").read_text(encoding="utf-8").split("[[run]]")
-    kept = [r for r in runs if re.search(r'id = "0[13]"', r)]
-    (folder / "experiment.toml").write_text("[[run]]".join([head, *kept]), encoding="utf-8")
-    for k in ("01", "03"):
-        shutil.copy(SHIPPED / f"run{k}.csv.gz", folder)
-    return folder
+    return two_runs(tmp_path_factory.mktemp("two"))
 
 
 @pytest.mark.slow
-def test_killed_and_resumed_gives_the_same_record(two_runs, tmp_path):
+def test_killed_and_resumed_gives_the_same_record(control, tmp_path):
     pytest.importorskip("numba")
 
     def command(folder):
         folder.mkdir(exist_ok=True)
-        return [sys.executable, "-m", "tests.unit.identify.short_identification", str(two_runs), str(folder)]
+        return [sys.executable, "-m", "tests.unit.identify.short_identification", str(control), str(folder)]
 
     whole = subprocess.run(command(tmp_path / "a"), cwd=ROOT, capture_output=True, text=True, check=True).stdout
     checkpoint = tmp_path / "b" / "search.json"
@@ -56,7 +48,7 @@ def test_killed_and_resumed_gives_the_same_record(two_runs, tmp_path):
     assert record["seed"] == 3 and record["versions"]["cmaes"] and len(record["inputs"]) >= 2
 
 
-def test_a_number_of_genes_that_is_not_known_is_refused(two_runs, tmp_path):
+def test_a_number_of_genes_that_is_not_known_is_refused(control, tmp_path):
     with pytest.raises(InputError) as error, campaign(1) as work:
-        identify_experiment(two_runs, Settings(4, 1), work, tmp_path, genes=13)
+        identify_experiment(control, Settings(4, 1), work, tmp_path, genes=13)
     assert error.value.code == "E-KEY" and error.value.where == "--genes"
