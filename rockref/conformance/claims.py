@@ -27,7 +27,8 @@ ROWS = ("W", "x", "Lambda")
 class Claim:
     """One vector: an effect with its parameters (SI), the inputs, and expected results with bars.
 
-    resolving : by how many bars the run or the record without the effect is off
+    resolving : by how many bars the run or the record without the effect is off; branch : what the feet do in each row
+    (of a record: how many samples change), and the parameters that are at work
     """
 
     id: str
@@ -37,16 +38,18 @@ class Claim:
     inputs: dict[str, Any]
     expect: dict[str, tuple[np.ndarray, np.ndarray]]
     resolving: float
+    branch: dict[str, Any]
 
 
 @dataclass(frozen=True)
 class ClaimCheck:
-    """One effect, judged: grade, deviation in bars, note."""
+    """One effect, judged by one vector: grade, deviation in bars, note."""
 
     effect: str
     grade: str
     worst: float = 0.0
     note: str = ""
+    vector: str = ""
 
     @property
     def failed(self) -> bool:
@@ -68,7 +71,7 @@ def claim_of(entry: dict[str, Any], sets: dict[str, Any]) -> Claim:
     values = {k: np.asarray(value_of(v)) for k, v in entry["expect"].items()}
     expect = {k: (v, np.full(v.shape, float(entry["expect"][k]["bar"]))) for k, v in values.items()}
     facts = (entry["id"], entry["effect"], entry["piece"], entry["parameters"])
-    return Claim(*facts, inputs, expect, entry["resolving"]["absent"])
+    return Claim(*facts, inputs, expect, entry["resolving"]["absent"], entry["branch"])
 
 
 def with_effect(problem: Problem, effect: Any) -> Problem:
@@ -112,9 +115,10 @@ def judge_claim(backend: Any, claim: Claim) -> ClaimCheck:
     """One effect of a backend that shows its piece."""
     try:
         answer = ask(backend, claim)
-        return ClaimCheck(claim.effect, "not shown") if answer is None else explained(claim, answer)
+        check = ClaimCheck(claim.effect, "not shown") if answer is None else explained(claim, answer)
     except ANYTHING as e:  # the backend is a stranger's
-        return ClaimCheck(claim.effect, "outside", float("inf"), raised(e))
+        check = ClaimCheck(claim.effect, "outside", float("inf"), raised(e))
+    return replace(check, vector=claim.id)
 
 
 def explained(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:

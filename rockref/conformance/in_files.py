@@ -38,7 +38,7 @@ def junit(v: Verdict) -> bytes:
         _runs(root, v.findings.runs)
     properties = [(p.name, "" if p.holds else p.note or "does not hold") for p in v.findings.properties]
     claimed = [e for e in v.findings.effects if e.grade != "not shown"]
-    effects = [(e.effect, (e.note or bars(e.worst)) if e.failed else "") for e in claimed]
+    effects = [(f"{e.effect} {e.vector}".strip(), (e.note or bars(e.worst)) if e.failed else "") for e in claimed]
     for name, cases in (("L6", properties), ("LE", effects)):
         _suite(root, name, cases)
     ElementTree.indent(root)

@@ -172,8 +172,9 @@ def text(v: Verdict, colour: bool = False) -> str:
     lines += [f"  {p.name}: {p.note}" for p in broken]
     claimed = [e for e in f.effects if e.grade != "not shown"]
     if claimed:
-        lines.append(f"Effects (LE): {len([e for e in claimed if not e.failed])} of {len(claimed)} claimed ones inside")
-    lines += [f"  {e.effect}: {e.note or bars(e.worst)}" for e in claimed if e.failed]
+        good, all_ = len([e for e in claimed if not e.failed]), len({e.effect for e in claimed})
+        lines.append(f"Effects (LE): {all_} claimed; {good} of {len(claimed)} vectors inside")
+    lines += [f"  {e.effect}: {e.note or bars(e.worst)} ({e.vector})" for e in claimed if e.failed]
     lines += ["Rules:"] + rule_lines(v) if v.status == "FAIL" else []
     lines += unseen(v) if v.passed and "L5s" in f.layers else []
     lines += [f"Remark: {r}" for r in f.remarks]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -104,10 +104,14 @@ def rows_of(q: dict[str, Any], m: Any) -> Iterator[Moment]:
     return exact_run.run(body_of(q), start_of(q), q["step"], wanted, m)
 
 
+def pattern(anchored: Iterable[bool], sliding: Iterable[bool]) -> str:
+    """What every foot does: open -, sticking s, sliding S."""
+    return "".join("-" if not on else "S" if slides else "s" for on, slides in zip(anchored, sliding, strict=True))
+
+
 def patterns(q: dict[str, Any], m: Any) -> list[str]:
-    """What the feet do in every row: open -, sticking s, sliding S."""
-    flags = [zip(row.anchored, row.sliding, strict=True) for row in rows_of(q, m)]
-    return ["".join("-" if not on else "S" if slides else "s" for on, slides in row) for row in flags]
+    """What the feet do in every row."""
+    return [pattern(row.anchored, row.sliding) for row in rows_of(q, m)]
 
 
 def simulate(q: dict[str, Any], m: Any) -> dict[str, Any]:

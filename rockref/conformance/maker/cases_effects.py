@@ -1,21 +1,28 @@
-"""The vectors of effects (LE): one short run, or one record, for every effect of the catalogue at its typical size.
+"""The vectors of effects (LE): one short run, or one record, for every effect of the catalogue at its typical size, and
+a second one where that leaves parameters idle.
 
 Values: the law's text in longdouble. Bars: 8 times the largest deviation of the float64 run and of runs with all
 inputs moved by an ulp and the points in random order; plus an ulp. They hold a second implementation to the first to
 rounding; they are no second route to the physics.
+
+`branch` says what every foot does in every row (of a record: which axes the effect changes, and in how many samples),
+and which parameters are at work: one that is zero, or that no number depends on, is not tested.
 """
 
 from __future__ import annotations
 
 import json
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from rockref.conformance import claims
 from rockref.conformance.maker import runs
+from rockref.conformance.maker.answers import pattern
 from rockref.conformance.maker.bars import FACTOR, ulp
 from rockref.conformance.maker.drawing import table_3_1
 from rockref.conformance.maker.scenes import WINDOW_RATE, WINDOWS, corners_only, scenes, standing
@@ -34,6 +41,23 @@ ENOUGH, LEAST = 1e6, 100.0
 #: turning: each of the eight touches, carries and slides within the run, so that each of its numbers shows. Coming down
 #: at 0.6 m/s they go 0.2 mm deep, twice the height of the highest corner.
 OF_FOUR, FALLING, TURNING = ("foot_defects",), (0.125, 0.0625, -0.6), (0.0625, -0.03125, 0.5)
+#: Second vectors, for the parameters that are not at work in the first: what differs from the typical size (typical
+#: sizes are zero there), and the effects whose parameters belong to single feet, which all have to come down.
+FURTHER: dict[str, dict[str, float]] = {
+    "inertia_deviation": {"xy": 0.03, "xz": -0.02, "yz": 0.01},
+    "uneven_foot_stiffness": {},
+    "uneven_foot_damping": {},
+    "uneven_foot_friction": {},
+    "uneven_contact_normals": {},
+    "cable_restraint": {"height": 0.25},
+    "base_vibration": {"direction": 0.75, "phase": 0.5},
+    "gyro_misalignment": {"xy": 0.02, "xz": -0.01, "yz": 0.015},
+    "gyro_bandwidth": {"delay": 0.002},
+}
+OF_ALL_FEET = ("uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals")
+#: A parameter is at work where this share less of it moves the vector by `LEAST` bars. Decided: small enough that the
+#: effect stays what it is, and millions of bars for each parameter that acts.
+SHARE = 0.1
 #: A record for the sensor: 200 samples at 2 kHz of rates like those of the block [s, rad/s].
 T = np.arange(200) / 2000.0
 
@@ -55,69 +79,124 @@ def inputs_at(scene: str, instant: float) -> dict[str, Any]:
 
 def four_falling() -> dict[str, Any]:
     """The inputs of a short run of the block on four corners, 16 um above the plate and falling on it."""
-    q = standing(corners_only(table_3_1()), 2.0**-16, v=FALLING, W=TURNING)
+    return falling(corners_only(table_3_1()))
+
+
+def falling(q: dict[str, Any]) -> dict[str, Any]:
+    """The inputs of a short run of a block that comes down flat, sliding and turning."""
+    q = standing(q, 2.0**-16, v=FALLING, W=TURNING)
     return q | {"step": 1e-5, "duration": DURATION, "output_rate": WINDOW_RATE}
 
 
-def of_run(effect: Any, q: dict[str, Any]) -> tuple[dict[str, Any], float]:
-    """Expected rows with bars, and by how many bars the run without the effect is off."""
+def less(effect: Any) -> dict[str, Any]:
+    """The effect with each of its parameters smaller by `SHARE`, by name; without those that are zero or not given."""
+    return {k: replace(effect, **{k: v * (1 - SHARE)}) for k, v in effect.values().items() if v}
 
-    def rows(q_: dict[str, Any], dtype: Any = None, plain: bool = False) -> Any:
+
+def of_run(effect: Any, q: dict[str, Any]) -> tuple[dict[str, Any], float, dict[str, Any]]:
+    """Expected rows with bars, by how many bars the run without the effect is off, and the branch."""
+
+    def rows(q_: dict[str, Any], dtype: Any = None, by: Any = effect) -> Any:
         problem = problem_of(q_)
-        return run(problem if plain else claims.with_effect(problem, effect), engine="numpy", dtype=dtype)
+        return run(problem if by is None else claims.with_effect(problem, by), engine="numpy", dtype=dtype)
 
     right, rng = rows(q, np.longdouble), random.Random(91)
     # The points stay in their order: effects address feet by place.
     members = [rows(q)] + [rows(runs.allowed(runs.moved(q, rng))) for _ in range(MEMBERS)]
-    without, expect, off = rows(q, plain=True), {}, 0.0
+    others = {"": rows(q, by=None)} | {k: rows(q, by=other) for k, other in less(effect).items()}
+    expect, off = {}, dict.fromkeys(others, 0.0)
     for name in claims.ROWS:
         value = np.asarray(getattr(right, name), float)
         apart = [np.abs(np.asarray(getattr(m, name), np.longdouble) - getattr(right, name)) for m in members]
         # One bar a quantity, its largest: components near zero are no better known than the others.
         width = FACTOR * float(np.max(apart)) + float(np.max(ulp(value)))
         expect[name] = stored(value) | {"bar": rounded_up(np.array([width]))[0]}
-        off = max(off, float(np.max(np.abs(getattr(without, name) - value)) / width))
-    return expect, off
+        for k, other in others.items():
+            off[k] = max(off[k], float(np.max(np.abs(getattr(other, name) - value)) / width))
+    absent = off.pop("")
+    feet = [pattern(*row) for row in zip(right.anchored, right.sliding, strict=True)]
+    return expect, absent, {"rows": feet, "at work": at_work(off)}
 
 
-def of_sensor(effect: Any, crv: np.ndarray) -> tuple[dict[str, Any], float]:
-    """Expected record with bars, and by how many bars the rates themselves are off."""
-    wide = np.degrees(measured((effect,), T, np.radians(crv)))
+def at_work(off: dict[str, float]) -> list[str]:
+    """The parameters that move a vector, by how many bars each does."""
+    return [k for k, moved in off.items() if moved >= LEAST]
+
+
+def of_sensor(effect: Any, crv: np.ndarray) -> tuple[dict[str, Any], float, dict[str, Any]]:
+    """Expected record with bars, by how many bars the rates themselves are off, and the branch."""
+
+    def shown(by: Any) -> np.ndarray:
+        return np.degrees(measured((by,), T, np.radians(crv)))
+
+    wide = shown(effect)
     rng = random.Random(92)
     shifts = [np.array([rng.choice((-1, 0, 1)) for _ in range(crv.size)]).reshape(crv.shape) for _ in range(MEMBERS)]
     members = [np.degrees(measured((effect,), T, np.radians(crv + s * ulp(crv)))) for s in shifts]
     width = FACTOR * max(float(np.max(np.abs(m - wide))) for m in members) + float(np.max(ulp(wide)))
     entry = stored(wide) | {"bar": rounded_up(np.array([width]))[0]}
-    return {"crv_deg_s": entry}, float(np.max(np.abs(crv - wide)) / width)
+    off = {k: float(np.max(np.abs(shown(other) - wide)) / width) for k, other in less(effect).items()}
+    changed = np.sum(np.abs(crv - wide) > width, axis=0).tolist()
+    branch = {"samples changed": dict(zip("XYZ", changed, strict=True)), "at work": at_work(off)}
+    return {"crv_deg_s": entry}, float(np.max(np.abs(crv - wide)) / width), branch
 
 
-def entry(number: int, kind: Any, sets: dict[str, Any]) -> dict[str, Any] | None:
-    """The vector of an effect; None where nothing that is asked resolves it."""
-    effect = kind.typical()
-    head = {"id": f"LE-{number:04d}", "layer": "LE", "effect": kind.id, "parameters": effect.values()}
-    if kind.question == "sensor":
+#: What is made of an effect: piece, inputs, expected results, bars by which it is resolved, branch, name of the inputs.
+Made = tuple[str, dict[str, Any], dict[str, Any], float, dict[str, Any], str]
+
+
+def made(effect: Any) -> Made:
+    """Question and answer for an effect, at the first place that resolves it well."""
+    if effect.question == "sensor":
         crv = record()
-        expect, off = of_sensor(effect, crv)
-        inputs: dict[str, Any] = {"t": T, "crv_deg_s": crv}
-        made: tuple[Any, ...] = ("sensor", inputs, expect, off, "record")
-    elif kind.id in OF_FOUR:
+        return "sensor", {"t": T, "crv_deg_s": crv}, *of_sensor(effect, crv), "record"
+    if effect.id in OF_FOUR:
         q = four_falling()
-        made = ("effect", q, *of_run(effect, q), "four corners, falling")
-    else:
-        found = []
-        for place in PLACES:
-            q = inputs_at(*place)
-            found.append(("effect", q, *of_run(effect, q), f"{place[0]} at {place[1]:g} s"))
-            if found[-1][3] >= ENOUGH:
-                break
-        made = max(found, key=lambda f: f[3])
-    piece, inputs, expect, off, where = made
+        return "effect", q, *of_run(effect, q), "four corners, falling"
+    found: list[Made] = []
+    for place in PLACES:
+        q = inputs_at(*place)
+        found.append(("effect", q, *of_run(effect, q), f"{place[0]} at {place[1]:g} s"))
+        if found[-1][3] >= ENOUGH:
+            break
+    return max(found, key=lambda f: f[3])
+
+
+def made_further(kind: Any) -> tuple[Any, Made]:
+    """The second vector of an effect: with what is typically none, or with all feet coming down."""
+    effect = replace(kind.typical(), **FURTHER[kind.id])
+    if kind.id not in OF_ALL_FEET:
+        return effect, made(effect)
+    q = falling(table_3_1())
+    return effect, ("effect", q, *of_run(effect, q), "eight feet, falling")
+
+
+def entry(number: int, effect: Any, answer: Made, sets: dict[str, Any]) -> dict[str, Any] | None:
+    """The vector of an effect; None where nothing that is asked resolves it."""
+    piece, inputs, expect, off, branch, where = answer
     if off < LEAST:
         return None
     shared = sets.setdefault(where, {k: stored(v) for k, v in inputs.items()})
     assert shared == {k: stored(v) for k, v in inputs.items()}
-    facts = {"piece": piece, "set": where, "expect": expect, "resolving": {"absent": float(f"{min(off, 1e99):.2g}")}}
-    return head | facts | {"route": "longdouble, the same text"}
+    head = {"id": f"LE-{number:04d}", "layer": "LE", "effect": effect.id, "parameters": effect.values()}
+    facts = {"piece": piece, "set": where, "expect": expect, "branch": branch}
+    resolving = {"absent": float(f"{min(off, 1e99):.2g}")}
+    return head | facts | {"resolving": resolving, "route": "longdouble, the same text"}
+
+
+def effects() -> Iterator[tuple[Any, Callable[[], tuple[Any, Made]]]]:
+    """Every kind of effect, and how its vector is made: the typical ones, then the second vectors."""
+    for kind in IN_STEP_ORDER:
+        yield kind, partial(lambda kind: (kind.typical(), made(kind.typical())), kind)
+    for kind in IN_STEP_ORDER:
+        if kind.id in FURTHER:
+            yield kind, partial(made_further, kind)
+
+
+def idle(entries: list[dict[str, Any]]) -> list[str]:
+    """Parameters that are at work in no vector."""
+    asked = {f"{e['effect']} {name}" for e in entries for name in e["parameters"]}
+    return sorted(asked - {f"{e['effect']} {name}" for e in entries for name in e["branch"]["at work"]})
 
 
 def document(say: Callable[[str], None]) -> bytes:
@@ -125,16 +204,18 @@ def document(say: Callable[[str], None]) -> bytes:
     scenes()
     entries: list[dict[str, Any]] = []
     sets: dict[str, Any] = {}
-    for number, kind in enumerate(IN_STEP_ORDER, 1):
+    for number, (kind, make) in enumerate(effects(), 1):
         try:
-            made = entry(number, kind, sets)
+            found = entry(number, *make(), sets)
         except Exception as e:
             say(f"LE: {kind.id} has no vector ({type(e).__name__}: {e})")
             continue
-        if made is None:
+        if found is None:
             say(f"LE: {kind.id} is not resolved")
         else:
-            entries.append(made)
+            entries.append(found)
+    for name in idle(entries):
+        say(f"LE: {name} is at work in no vector")
     lines = ",\n".join(json.dumps(e, ensure_ascii=False, separators=(",", ":")) for e in entries)
     head = json.dumps({"schema": SCHEMA, "layer": "LE", "sets": sets}, ensure_ascii=False, separators=(",", ":"))
     return (head[:-1] + ',\n"vectors":[\n' + lines + "\n]}\n").encode()

@@ -1,4 +1,5 @@
-"""The tutorial backend in C, compiled for the making of bars: in longdouble, in float, and with random rounding.
+"""The tutorial backend in C, compiled for the making of bars: in longdouble, in float, and with random rounding; as it
+is, for the tests.
 
 It is another text of the law, in another language; the values that it gives in longdouble are held to `exact`.
 """
@@ -18,6 +19,7 @@ ROUNDING = Path(__file__).with_name("rounding.c")
 #: Never contracted to fused multiply-adds, so that the bytes do not depend on the processor.
 COMMON = ["gcc", "-O2", "-std=gnu11", "-ffp-contract=off"]
 BUILDS: dict[str, list[str]] = {
+    "double": [str(SOURCE)],
     "long": ["-DREAL=long double", str(SOURCE)],
     "single": ["-DREAL=float", str(SOURCE)],
     "rounding": ["-frounding-math", "-finstrument-functions", str(SOURCE), str(ROUNDING)],

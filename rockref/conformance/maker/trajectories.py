@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.maker import runs
+from rockref.conformance.maker.answers import pattern
 from rockref.conformance.maker.bars import FACTOR
 from rockref.conformance.maker.drawing import orthonormal
 from rockref.conformance.maker.runs import HORIZON, Rows
@@ -19,6 +20,7 @@ from rockref.conformance.maker.small import rounded_up, stored
 from rockref.conformance.runs import SHOWN
 from rockref.conformance.vectors import SCHEMA, problem_of
 from rockref.engines import run
+from rockref.model.simulate import output_steps
 
 #: Steps of the converged solution [s]; the difference of the two is how far it is converged.
 FINE, LESS_FINE = 1e-7, 2e-7
@@ -42,8 +44,9 @@ def names() -> tuple[list[str], list[str]]:
     return list(scenes()), [window_id(w) for w in WINDOWS]
 
 
-def events(q: dict[str, Any]) -> list[list[Any]]:
-    """[t, point, what it does]: touches, lifts, slides, sticks, step by step in the float64 law."""
+def met(q: dict[str, Any]) -> dict[str, Any]:
+    """What happens in a run of the float64 law: the branch, what every foot does in each row; and the events, step by
+    step, [t, point, what it does]: touches, lifts, slides, sticks."""
     problem = problem_of(q)
     r = run(replace(problem, output_rate=1 / problem.step), engine="auto")
     code = r.anchored.astype(int) + (r.anchored & r.sliding)
@@ -52,7 +55,8 @@ def events(q: dict[str, Any]) -> list[list[Any]]:
         before, after = code[row, point], code[row + 1, point]
         what = "lifts" if after == 0 else "touches" if before == 0 else "slides" if after == 2 else "sticks"
         found.append([float(f"{r.t[row + 1]:.7g}"), problem.points.names[point], what])
-    return found
+    rows = [pattern(r.anchored[i], r.sliding[i]) for i in output_steps(problem)]
+    return {"branch": {"rows": rows}, "events": found}
 
 
 def table(columns: dict[str, np.ndarray]) -> bytes:
@@ -112,7 +116,7 @@ def barred(item: Item, seed: int) -> tuple[dict[str, np.ndarray], dict[str, Any]
         "float32": runs.horizon(single, truth, HORIZON["float32_"]),
     }
     impacts = runs.impact_bars(members, truth, horizon["float64"])
-    meta: dict[str, Any] = {"horizon_s": horizon, "impacts": impacts, "events": events(item.q)}
+    meta: dict[str, Any] = {"horizon_s": horizon, "impacts": impacts, **met(item.q)}
     if item.other_scheme is not None:
         more, facts = converged(item, members[0], truth)
         columns |= more

@@ -4,7 +4,11 @@ expected."""
 import numpy as np
 import pytest
 
-from rockref.conformance import vectors
+from rockref.conformance import claims, vectors
+from rockref.conformance.maker import programs
+from rockref.effects import catalogue
+from rockref.engines import has_numba, run
+from rockref.engines.compiled.pack import has_twin
 from rockref.model import contact, geometry, integrator, rotation
 from rockref.model.integrator import prepared_inertia
 from rockref.model.parameters import Parameters, point_properties
@@ -161,3 +165,103 @@ def test_samples_of_the_measured_channel():
         assert v.branch == {"leaning": where(apart), "signs": signs}, v.id
         leaning.add(len(v.branch["leaning"]))
     assert leaning == {0, 5}
+
+
+def feet_in(response):
+    """What the feet do in each row, by the flags of a response."""
+    return ["".join("S" if s and a else "s" if a else "-" for a, s in zip(*row, strict=True))
+            for row in zip(response.anchored, response.sliding, strict=True)]  # fmt: skip
+
+
+def with_its_effect(claim, **changed):
+    """The problem of a claim, with the effect in it."""
+    effect = catalogue.find(claim.effect)(**claim.parameters | changed)
+    return claims.with_effect(vectors.problem_of(claim.inputs), effect)
+
+
+def of_kind(piece):
+    return [c for c in claims.claims() if c.piece == piece]
+
+
+def test_feet_in_runs_with_an_effect():
+    for claim in of_kind("effect"):
+        assert feet_in(run(with_its_effect(claim), engine="numpy")) == claim.branch["rows"], claim.id
+
+
+@pytest.mark.skipif(not has_numba(), reason="needs the compiled engine")
+def test_feet_in_runs_with_an_effect_by_the_compiled_text():
+    with_twin = [c for c in of_kind("effect") if has_twin(with_its_effect(c))]
+    assert len(with_twin) == len(of_kind("effect"))
+    for claim in with_twin:
+        assert feet_in(run(with_its_effect(claim), engine="numba")) == claim.branch["rows"], claim.id
+
+
+def off(claim, results):
+    """By how many bars some results are off."""
+    return max(float(np.max(np.abs(results[k] - value) / bar)) for k, (value, bar) in claim.expect.items())
+
+
+def answered(claim, **changed):
+    """The results of a claim with other parameters."""
+    if claim.piece == "effect":
+        return vars(run(with_its_effect(claim, **changed), engine="auto"))
+    effect = catalogue.find(claim.effect)(**claim.parameters | changed)
+    crv = catalogue.measured((effect,), claim.inputs["t"], np.radians(claim.inputs["crv_deg_s"]))
+    return {"crv_deg_s": np.degrees(crv)}
+
+
+@pytest.mark.parametrize("piece", claims.PIECES)
+def test_parameters_of_effects_that_are_at_work_move_their_vector_and_no_others_do(piece):
+    """A hundredth more of each, where the vectors were made with a tenth less."""
+    for claim in of_kind(piece):
+        assert off(claim, answered(claim)) < 1, claim.id
+        moved = [k for k, v in claim.parameters.items() if v and off(claim, answered(claim, **{k: 1.01 * v})) > 10]
+        assert moved == claim.branch["at work"], claim.id
+
+
+def test_every_parameter_of_every_effect_is_at_work_in_a_vector():
+    at_work = {(c.effect, name) for c in claims.claims() for name in c.branch["at work"]}
+    assert at_work == {(kind.id, name) for kind in catalogue.IN_STEP_ORDER for name in kind.quantities}
+
+
+def test_samples_that_a_sensor_changes():
+    for claim in of_kind("sensor"):
+        value, bar = claim.expect["crv_deg_s"]
+        changed = np.abs(claim.inputs["crv_deg_s"] - value) > bar
+        assert claim.branch["samples changed"] == dict(zip("XYZ", changed.sum(axis=0).tolist(), strict=True))
+        assert changed.any(axis=0).all(), claim.id
+
+
+RUNS = vectors.window_names() + vectors.trajectory_names()
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_feet_in_runs_by_the_forces_that_another_language_gives(name):
+    """Sliding feet have the force of sliding, others another one; of a foot without load the force does not tell."""
+    t = vectors.trajectory(name)
+    out = programs.answer("double", [t.problem])[0]
+    F, anchored = np.asarray(out["F"]), np.asarray(out["anchored"], bool)
+    stated = np.array([list(row) for row in t.meta["branch"]["rows"]])
+    assert np.array_equal(stated != "-", anchored)
+    loaded = F[..., 2] > 0
+    limit = t.problem.points.mu * F[..., 2]
+    slides = np.abs(np.hypot(F[..., 0], F[..., 1]) - limit) <= 1e-9 * limit
+    assert np.array_equal((stated == "S")[loaded], slides[loaded])
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_feet_in_runs_are_those_of_the_events_before(name):
+    t = vectors.trajectory(name)
+    feet, names = list(t.meta["branch"]["rows"][0]), list(t.problem.points.names)
+    events, found = list(t.meta["events"]), []
+    for instant in t.columns["t_s"]:
+        while events and events[0][0] <= instant * (1 + 1e-6):
+            _, point, what = events.pop(0)
+            now = names.index(point)
+            before, feet[now] = feet[now], {"lifts": "-", "slides": "S", "sticks": "s", "touches": "?"}[what]
+            assert before != feet[now], (name, instant, point)
+        found.append("".join(feet))
+    stated = t.meta["branch"]["rows"]
+    assert len(found) == len(stated)
+    for row, right in zip(found, stated, strict=True):
+        assert all(a == b or (a == "?" and b != "-") for a, b in zip(row, right, strict=True)), (row, right)

@@ -44,7 +44,7 @@ class Mistaken(NumpyEngine):
 
 def said(backend):
     v = verdict(judge(backend, ["LE"]))
-    assert v.status == "FAIL" and [e.effect for e in v.findings.effects if e.failed] == [backend.claimed]
+    assert v.status == "FAIL" and {e.effect for e in v.findings.effects if e.failed} == {backend.claimed}
     return next(line for line in in_words.text(v).splitlines() if line.strip().startswith(f"{backend.claimed}:"))
 
 
@@ -104,6 +104,29 @@ def test_what_is_left_out_is_named():
     assert "as if it were left out" in said(Mistaken("quadratic_drag", c=0.0, c_v=0.0))
     assert "as if c_v were left out" in said(Mistaken("quadratic_drag", c_v=0.0))
     assert "as if z were of the other sign" in said(Mistaken("gyro_misalignment", z=0.03))
+
+
+@pytest.mark.parametrize(
+    ("effect", "left_out"),
+    [
+        ("uneven_foot_stiffness", "foot1"),
+        ("uneven_foot_damping", "foot2"),
+        ("uneven_foot_friction", "foot3"),
+        ("uneven_contact_normals", "y1"),
+        ("inertia_deviation", "xz"),
+        ("gyro_misalignment", "yz"),
+        ("gyro_bandwidth", "delay"),
+        ("base_vibration", "direction"),
+        ("cable_restraint", "height"),
+    ],
+)
+def test_a_parameter_that_does_not_show_at_the_typical_size_is_looked_for_in_a_second_vector(effect, left_out):
+    absent = catalogue.find(effect).quantities[left_out].absent
+    backend = Mistaken(effect, **{left_out: absent})
+    v = verdict(judge(backend, ["LE"]))
+    assert [e.vector > "LE-0031" for e in v.findings.effects if e.failed] == [True]
+    if absent is not None:
+        assert f"as if {left_out} were left out" in said(backend)
 
 
 def test_a_mistake_that_nobody_knows_has_no_name():
