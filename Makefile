@@ -57,7 +57,7 @@ test-all: lint  ## lint, then every test, then the mutants
 	HYPOTHESIS_PROFILE=ci $(PYTEST) $(ARGS)
 	@$(MAKE) --no-print-directory mutate
 
-golden: env  ## compute the golden files anew and say what differs
+golden: env  ## compute the golden files anew and say what differs (ten minutes)
 	$(PY) -m tests.golden.make
 
 bench: env  ## measure the speeds that the README states
