@@ -106,7 +106,9 @@ def curve(run: RunCheck, width: int = 640, height: int = 160) -> str:
     if run.first is not None:
         t = run.first["t_s"]
         lines.append(f'<line x1="{x(t):.1f}" x2="{x(t):.1f}" y1="8" y2="{bottom}" stroke="{BAD}"/>')
-        lines.append(f'<text x="{x(t) + 4:.1f}" y="18" fill="{BAD}">first outside: {t:.5g} s</text>')
+        # Below the axis, where no curve runs, and left of the end of the axis.
+        at = min(x(t), width - 230.0)
+        lines.append(f'<text x="{at:.1f}" y="{height - 6}" fill="{BAD}">first outside: {t:.5g} s</text>')
     axis = (
         f'<text x="{width - 8}" y="{height - 6}" text-anchor="end">t = {run.t[-1]:.4g} s</text>' if len(run.t) else ""
     )
