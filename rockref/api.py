@@ -25,7 +25,7 @@ from rockref.model.geometry import (
     eight_points,
     four_points,
 )
-from rockref.model.parameters import BLOCK, PROPERTIES, Parameters, check_friction, point_properties, split_54
+from rockref.model.parameters import BLOCK, GENES_12, PROPERTIES, Parameters, check_friction, point_properties, split_54
 from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, State
 from rockref.model.release import check_tilt, release_posture
 from rockref.model.response import Response
@@ -158,6 +158,21 @@ class Model:
                 raise InputError(
                     "E-SHAPE", f"properties[{key!r}]", "is not one number a point", f"Give {enough} numbers."
                 )
+
+    def acting_parameters(self) -> tuple[str, ...]:
+        """Names of those of the twelve parameters that this model is made of, in the order of Table 3.1.
+
+        Stated `properties` take the place of stiffness, damping and friction, custom points that of all but theta_0,
+        and four points have no inner ones. The others are in the file and change nothing.
+        """
+        of_points, inner = GENES_12[:6], ("beta_int", "mu_int")
+        idle: tuple[str, ...] = ()
+        if self.points == "custom":
+            idle = GENES_12[:-1]
+        else:
+            idle += of_points if self.properties is not None else ()
+            idle += (*inner, *GENES_12[6:-1]) if self.points == "four_points" else ()
+        return tuple(name for name in GENES_12 if name not in idle)
 
     def body(self) -> tuple[Block, ContactPoints]:
         """Block and contact points as arrays, with the effects on geometry and mass applied."""

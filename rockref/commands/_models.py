@@ -23,7 +23,7 @@ OwnEffects = Annotated[
 ]
 NAMED = ("table_3_1", "four_points")
 #: Errors of a run that come from what the model says, as much as from how it is run.
-OF_THE_MODEL = ("E-STEP", "E-NAN", "E-ANGLE", "E-TILT", "E-RELEASE", "E-FEET")
+OF_THE_MODEL = frozenset("E-STEP E-NAN E-ANGLE E-TILT E-RELEASE E-FEET E-MOOT".split())
 
 
 def named_model(text: str) -> Model:
@@ -109,6 +109,35 @@ def say_implausible(effects: Iterable[Effect], where: str) -> None:
             cure = f"Plausible is {plausible}; it is used as it is."
             notice = Notice("W-RANGE", f"{where}: {effect.id} {name}", f"{what}, which is not plausible", cure)
             print(f"rockref: {notice}", file=sys.stderr)
+
+
+def say_idle(model: Model | None, where: str | None) -> None:
+    """Print a remark on standard error where a fit leaves parameters out, since the model states its points itself.
+
+    Raises InputError (E-MOOT) where it leaves none.
+    """
+    if model is None or where is None:
+        return
+    from rockref.discover.baseline import moved_parameters
+    from rockref.measure.notice import Notice
+
+    with of_file(where):
+        moved = moved_parameters(model)
+    if model.properties is None:
+        return
+    what = "states stiffness, damping and friction of its points, so that no fit moves those of [parameters]"
+    cure = f"Of these {', '.join(moved)} are fitted."
+    print(f"rockref: {Notice('W-MOOT', f'{where}: [properties]', what, cure)}", file=sys.stderr)
+
+
+def say_left_out(model: Model, where: str) -> None:
+    """Print a remark on standard error where a search of the law alone leaves the effects of a model out."""
+    if not model.effects:
+        return
+    from rockref.measure.notice import Notice
+
+    what = f"has {', '.join(effect.id for effect in model.effects)}, and the law alone is searched"
+    print(f"rockref: {Notice('W-MOOT', where, what, 'They are left out; rockref fit takes effects.')}", file=sys.stderr)
 
 
 def labels(texts: Sequence[str]) -> list[str]:

@@ -54,7 +54,7 @@ def add(
         from rockref.commands._tosses import add_to_model_of_tosses
 
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
-    from rockref.commands._models import named_models
+    from rockref.commands._models import named_models, say_idle
     from rockref.commands._results import say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
@@ -62,6 +62,7 @@ def add(
     from rockref.report.output import made_folder, usable_folder
 
     given = next(iter(named_models([model] if model else [], own)), None)
+    say_idle(given, model)
     folder = usable_folder(report) if report is not None else None
     usable_files(output)
     with stages(f"adding {effect}", every_line=verbose) as say:

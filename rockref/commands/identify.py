@@ -47,7 +47,7 @@ def identify(
       rockref identify data/experiments/mystery-08 -o identified --resume
       rockref identify data/experiments/mystery-08 --dask tcp://127.0.0.1:8786
     """
-    from rockref.commands._models import named_models
+    from rockref.commands._models import named_models, say_left_out
     from rockref.commands._results import say_written
     from rockref.commands._searching import searching
     from rockref.identify.campaign import campaign
@@ -58,6 +58,7 @@ def identify(
     from rockref.report.output import made_folder
 
     (base,) = named_models([model], effect)
+    say_left_out(base, model)
     folder = made_folder(output)
     with searching(verbose) as say, campaign(workers, dask) as work:
         result, found = identify_experiment(

@@ -38,7 +38,7 @@ def plan(
       rockref plan --runs 0.117x5 --effect rolling_resistance --effect viscous_friction
       rockref plan --model model.toml --runs 0.117,0.1,0.117t --json > plan.json
     """
-    from rockref.commands._models import models_and_others
+    from rockref.commands._models import models_and_others, say_idle
     from rockref.commands._results import usable_files
     from rockref.commands._stages import stages
     from rockref.discover.diagnosis_record import plain
@@ -49,6 +49,7 @@ def plan(
     usable_files(output)
     planned = releases_from(runs)
     (given,), candidates = models_and_others([model], effect)
+    say_idle(given, model)
     with stages("planning", every_line=verbose) as say:
         found = run_plan(given, planned, candidates or None, seed=seed, workers=workers, progress=say)
     text = json.dumps(plain(found.to_dict()), indent=1, allow_nan=False)

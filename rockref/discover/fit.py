@@ -29,9 +29,6 @@ RATE_ERROR = 9e-4
 ATTITUDE_ERROR, ATTITUDE_GROWTH = 2.5e-5, 4e-5
 
 
-#: Roll of a release against the posture at rest [rad]; decided: feet of twice and half the common stiffness sink 5 to
-#: 10 um apart under half the weight, over 0.1 m.
-ROLL_UNCERTAINTY = 1e-4
 #: Rise of a window's loss, per sample value, that tells that a joint step threw it into another order of impacts.
 THROWN = 0.03
 #: Shares of a window on which its corrections are found one after the other; decided: some 25 ms at a time, the
@@ -343,56 +340,3 @@ class Fit:
             if before - point.objective < tolerance or lam > 1e4 or little == 2:
                 break
         return point
-
-
-def set_parameter(name: str):
-    """A setter for one of the twelve."""
-    if name.startswith("delta_long_"):
-        i = int(name[-1]) - 1
-
-        def set_height(model: Model, value: float) -> Model:
-            heights = list(model.parameters.delta_long)
-            heights[i] = value
-            return model.replace(delta_long=tuple(heights))
-
-        return set_height
-    return lambda model, value: model.replace(**{name: value})
-
-
-def set_tilt_offset(model: Model, value: float) -> Model:
-    """The release tilt of a run against the stated one [rad]."""
-    return replace(model, origin={**model.origin, "tilt_offset": value})
-
-
-def set_roll_offset(model: Model, value: float) -> Model:
-    """Roll of a run at its release against the settled posture, about the transverse axis [rad]."""
-    return replace(model, origin={**model.origin, "roll_offset": value})
-
-
-def roll_parameters(runs: int) -> tuple[Parameter, ...]:
-    """A roll of each run, which all its restarts share: the block was not let go quite as it stands at rest."""
-    return tuple(
-        Parameter(f"roll_offset[{i}]", set_roll_offset, 0.0, ROLL_UNCERTAINTY, run=i, unit="rad", step=0.05)
-        for i in range(runs)
-    )
-
-
-def baseline_parameters(model: Model, runs: int, tilt_uncertainty: float) -> tuple[Parameter, ...]:
-    """The eleven parameters of the law that windows can see, and a release tilt for each run.
-
-    Decided: log-normal priors of 15 % (8 % for delta_diag) about Table 3.1, half a stated digit and more; theta_0 of
-    Table 3.1 is replaced by the stated tilt of each run within the stated uncertainty.
-    """
-    p = model.parameters
-    names = ["K_N", "K_T", "beta_ext", "mu_ext"]
-    if model.points == "eight_points":
-        heights = [f"delta_long_{i}" for i in (1, 2, 3, 4)]
-        names = ["K_N", "K_T", "beta_int", "beta_ext", "mu_int", "mu_ext", *heights, "delta_diag"]
-    centre = {n: getattr(p, n) for n in names if not n.startswith("delta_long_")}
-    centre |= {f"delta_long_{i + 1}": p.delta_long[i] for i in range(4)}
-    shared = [Parameter(n, set_parameter(n), centre[n], 0.08 if n == "delta_diag" else 0.15, log=True) for n in names]
-    tilts = [
-        Parameter(f"tilt_offset[{i}]", set_tilt_offset, 0.0, tilt_uncertainty, run=i, unit="rad", step=0.01)
-        for i in range(runs)
-    ]
-    return (*shared, *tilts)

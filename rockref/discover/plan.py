@@ -19,8 +19,9 @@ import numpy as np
 
 from rockref.api import Model, simulate
 from rockref.discover import verdict as rules
+from rockref.discover.baseline import baseline_parameters
 from rockref.discover.candidates import SHAPES, kinds, parameters_of, value_of
-from rockref.discover.fit import Fit, Parameter, baseline_parameters
+from rockref.discover.fit import Fit, Parameter
 from rockref.discover.information import eliminated, information, own_parameters
 from rockref.discover.screen import PROBE
 from rockref.discover.search import MIDDLE

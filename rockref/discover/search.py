@@ -9,9 +9,10 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.approach import along_ridge, approached, placed
+from rockref.discover.baseline import baseline_parameters, roll_parameters
 from rockref.discover.beside import side_by_side
 from rockref.discover.candidates import parameters_of
-from rockref.discover.fit import Fit, Parameter, Point, baseline_parameters, roll_parameters
+from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.windows import Cut, Series, gyro_of, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment

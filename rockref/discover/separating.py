@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit import baseline_parameters
+from rockref.discover.baseline import baseline_parameters
 from rockref.discover.information import eliminated
 from rockref.discover.plan import LEFT_OUT, Release, alternatives, says, switches_of
 from rockref.discover.search import TILT_UNCERTAINTY, Setup

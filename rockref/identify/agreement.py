@@ -24,9 +24,14 @@ def horizon(t: np.ndarray, a: np.ndarray, b: np.ndarray, share: float = SHARE) -
 
 
 def difference(t: np.ndarray, a: np.ndarray, b: np.ndarray, until: float) -> np.ndarray:
-    """Quadratic mean of b - a over that of a up to `until` [s], by axis, (3,)."""
+    """Quadratic mean of b - a over that of a up to `until` [s], by axis, (3,).
+
+    About an axis with no motion at all, as on four even feet, it is zero, or infinite where only b moves.
+    """
     n = int(np.searchsorted(t, until))
-    return np.sqrt(np.mean(np.square(b[:n] - a[:n]), axis=0) / np.mean(np.square(a[:n]), axis=0))
+    apart, motion = np.mean(np.square(b[:n] - a[:n]), axis=0), np.mean(np.square(a[:n]), axis=0)
+    none = np.where(apart > 0, np.inf, 0.0)
+    return np.sqrt(np.divide(apart, motion, out=none, where=motion > 0))
 
 
 def common_horizon(t: np.ndarray, responses: Sequence[np.ndarray], share: float = SHARE) -> np.ndarray:

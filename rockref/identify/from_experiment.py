@@ -39,12 +39,13 @@ def identify_experiment(
     folder : of the checkpoints;  base : gives what is not searched;  genes : 12 or 54;  search_runs : of the
     evolutionary search, as "01,06";  report : called with (space, stage, progress).
 
-    Raises InputError (E-KEY, E-KIND, E-RUN, E-RESUME, ...).
+    Raises InputError (E-KEY, E-KIND, E-RUN, E-RESUME, E-MOOT, ...).
     """
     if genes not in (12, 54):
         raise InputError("E-KEY", "--genes", f"is {genes}", "Use 12 or 54.")
     data = load_experiment(experiment, uses=("fit",))
     targets = targets_of(data)
+    check_searched(base, genes)
     model = (base or Model.table_3_1()).replace(
         mass=data.mass, width=data.width, depth=data.width, height=data.height, points="eight_points", effects=()
     )
@@ -59,3 +60,13 @@ def identify_experiment(
     errors = run_errors(space, end.polished, targets, holdout)
     result = record(end, known, errors, chosen, targets, settings, everything.digests)
     return result, found_model(end, known, everything.digests, settings.seed)
+
+
+def check_searched(base: Model | None, genes: int) -> None:
+    """Refuse a model with which some genes would change nothing (E-MOOT)."""
+    if base is not None and base.points == "custom":
+        what = "stands on points of its own, and eight points are searched"
+        raise InputError("E-MOOT", "--model", what, "Take [custom_points] out.")
+    if base is not None and base.properties is not None and genes == 12:
+        what = "states the properties of its points, so that stiffness, damping and friction of the 12 change nothing"
+        raise InputError("E-MOOT", "--model", what, "Use --genes 54, or take [properties] out.")

@@ -61,10 +61,24 @@ def _shifted(t: np.ndarray, crv: np.ndarray, shift: float) -> np.ndarray:
     return np.stack([np.interp(t + shift, t, crv[:, k]) for k in range(3)], axis=-1)
 
 
+def varied(model: Model) -> tuple[str, ...]:
+    """The parameters that are varied: of the twelve, those that act in this model.
+
+    Raises InputError (E-MOOT) where only the release angle does.
+    """
+    names = model.acting_parameters()
+    if names == ("theta_0",):
+        what = "states the properties of its points: no parameter of Table 3.1 but theta_0 acts in it"
+        raise InputError("E-MOOT", "model", what, "Give a model on eight points without [properties].")
+    return names
+
+
 def time_steps(
     model: Model, steps: Sequence[float] = STEPS, duration: float = 6.0, workers: int | None = None
 ) -> Family:
-    """Fig. 3.5: the same release with several time steps [s], the finest first."""
+    """Fig. 3.5: the same release with several time steps [s], the finest first. Raises InputError (E-STEP) for one."""
+    if len(steps) < 2:
+        raise InputError("E-STEP", "--step", "is there once: nothing to compare it with", "Give two at least.")
     ordered = sorted(steps)
     crv = [rates([model.problem(duration, h, OUTPUT_RATE)], workers)[0] for h in ordered]
     n = min(len(c) for c in crv)
@@ -114,13 +128,14 @@ def significant_digits(
 
     A value with d digits may be off by half of the last. The response has not changed where the quadratic mean of the
     difference up to the second main impact is below `threshold` of that of the response, about both the transverse and
-    the longitudinal axis, for either sign and for all finer digits.
+    the longitudinal axis, for either sign and for all finer digits. What does not act in the model has no row.
     """
     genes = chromosome_12(model.parameters)
     base_run = rates([model.problem(1.6, step, OUTPUT_RATE)], workers)[0]
     t = np.arange(len(base_run)) / OUTPUT_RATE
     until = float(main_impacts(t, base_run).times[1])
-    trials = [(i, d, sign) for i in range(len(genes)) for d in range(1, most + 1) for sign in (-1, 1)]
+    acting = [GENES_12.index(name) for name in varied(model)]
+    trials = [(i, d, sign) for i in acting for d in range(1, most + 1) for sign in (-1, 1)]
     problems, possible = [], []
     for i, d, sign in trials:
         g = genes.copy()
@@ -138,7 +153,8 @@ def significant_digits(
     for (i, d), run in zip(possible, crv, strict=True):
         changes[i, d - 1] = max(changes[i, d - 1], float(difference(t, base, run, until)[1:].max()))
     table = []
-    for i, (name, given) in enumerate(TABLE_3_1.items()):
+    for i in acting:
+        name, given = GENES_12[i], TABLE_3_1[GENES_12[i]]
         change = changes[i]
         worst = np.maximum.accumulate(change[::-1])[::-1]
         enough = np.flatnonzero(worst < threshold)

@@ -21,6 +21,7 @@ from rockref.identify.sensitivity import (
     release_angle,
     significant_digits,
     time_steps,
+    varied,
 )
 
 SCHEMA = "rockref-sensitivity-1"
@@ -57,9 +58,10 @@ def study(
     model : released from theta_0 [rad];  seed : of the signs and of the small differences;  duration [s];
     steps [s] : of Fig. 3.5;  trials : chromosomes of Fig. 3.6 (the source shows two);  report : called with each name.
 
-    Raises InputError (E-STEP, ...) as the simulation.
+    Raises InputError (E-MOOT; E-STEP, ...) as the simulation.
     """
     say = report or (lambda name: None)
+    varied(model)
     say("time step")
     by_step = time_steps(model, steps, duration, workers)
     say("last digits")

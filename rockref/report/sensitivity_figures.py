@@ -25,7 +25,7 @@ def sensitivity_figures(study: Study) -> dict[str, Any]:
     """The four figures by name of file, without its ending."""
     titles = {
         "time_step": ("figure_3_5_time_step", "The same release with several time steps (as Fig. 3.5)"),
-        "last_digits": ("figure_3_6_last_digits", "±0.5 of the last digit of eleven parameters (as Fig. 3.6)"),
+        "last_digits": ("figure_3_6_last_digits", "±0.5 of the last digit, release angle kept (as Fig. 3.6)"),
         "release_angle": ("figure_3_7_release_angle", "Release angle ±0.08° (as Fig. 3.7)"),
     }
     found = {titles[k][0]: family_figure(f, titles[k][1]) for k, f in study.families().items()}

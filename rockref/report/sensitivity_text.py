@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rockref.identify.sensitivity_study import AXES
+from rockref.model.parameters import TABLE_3_1
 from rockref.report.page import Table
 from rockref.report.text import print_table
 
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
 
 FAMILIES = {
     "time_step": "time step",
-    "last_digits": "±0.5 of the last digit, eleven parameters",
+    "last_digits": "±0.5 of the last digit, release angle kept",
     "release_angle": "release angle ±0.08°, first impacts laid over one another",
 }
 
@@ -30,11 +31,19 @@ def sentences(result: dict[str, Any]) -> list[str]:
     """How predictable the block is, in words."""
     g = result["growth"]
     factor, spread = g["factor_per_impact"], g["spread_factor"]
-    return [
+    said = [
         f"A small difference grows {factor:.3g} times from one main impact to the next (one standard deviation over "
         f"{g['runs']} differences: from {factor / spread:.2g} to {factor * spread:.3g}): {g['digits_per_impact']:.2f} "
         "decimal digits are lost at each impact."
     ]
+    acting = [d["name"] for d in result["significant_digits"]]
+    if left_out := [name for name in TABLE_3_1 if name not in acting]:
+        said.append(f"Left out, since they change nothing in this model: {', '.join(left_out)}.")
+    if not any(d["change_stated"] for d in result["significant_digits"]):
+        said.append(
+            "The block stays in its plane: the digits, which are read off the two other axes, say nothing of it."
+        )
+    return said
 
 
 def horizons_table(result: dict[str, Any]) -> Table:

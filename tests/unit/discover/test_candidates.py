@@ -7,8 +7,8 @@ import pytest
 
 from rockref import InputError, Model
 from rockref.discover import plan as planning
+from rockref.discover.baseline import baseline_parameters
 from rockref.discover.candidates import BETWEEN, FACTORS, FIXED, SELDOM, SHAPES, kinds, parameters_of, value_of
-from rockref.discover.fit import baseline_parameters
 from rockref.discover.fitted import start_from, z_of
 from rockref.discover.fitting import known_effects
 from rockref.effects import catalogue

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.discover.baseline import baseline_parameters
 from rockref.discover.errors import STRETCHES, errors_of, stretch_of
-from rockref.discover.fit import Fit, baseline_parameters
+from rockref.discover.fit import Fit
 from rockref.discover.fitted import estimates, fitted_model, in_file_order, origin_of
 from rockref.discover.gates import off_bounds, other_start, step_small
 from rockref.discover.windows import series

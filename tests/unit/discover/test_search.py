@@ -8,7 +8,8 @@ import pytest
 
 from rockref import Model
 from rockref.discover.approach import JUMPS, along_ridge
-from rockref.discover.fit import Parameter, Point, baseline_parameters
+from rockref.discover.baseline import baseline_parameters
+from rockref.discover.fit import Parameter, Point
 from rockref.discover.search import jumped
 from tests.unit.discover.bowls import ALONE
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rockref.identify.agreement import horizon
+from rockref.identify.agreement import difference, horizon
 from rockref.identify.predictability import growth
 from rockref.identify.sensitivity import (
     RELEASE_ERROR,
@@ -16,6 +16,7 @@ from rockref.identify.sensitivity import (
     unit_of_digit,
 )
 from rockref.identify.sensitivity_study import record, study
+from rockref.model.errors import InputError
 from rockref.model.parameters import TABLE_3_1
 
 
@@ -109,3 +110,14 @@ def test_the_record_is_plain_and_says_seed_and_versions(small):
     assert found["seed"] == 3 and found["versions"]["numpy"]
     assert set(found["families"]) == {"time_step", "last_digits", "release_angle"}
     assert len(found["significant_digits"]) == 12
+
+
+def test_no_motion_about_an_axis_is_no_difference_unless_the_other_moves():
+    t, a = np.arange(3.0), np.array([[1.0, 0, 0]] * 3)
+    b = np.array([[1.5, 0, 0.1]] * 3)
+    np.testing.assert_array_equal(difference(t, a, b, 2.0), [0.5, 0.0, np.inf])
+
+
+def test_one_time_step_is_compared_with_nothing(table_3_1):
+    with pytest.raises(InputError, match="Give two at least"):
+        time_steps(table_3_1, (1e-5,), 0.1)

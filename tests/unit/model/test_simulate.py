@@ -297,3 +297,7 @@ def test_the_stiffest_contact_is_the_one_with_the_shortest_step_by_itself(direct
     k = K[direction, body, point]
     axis = "NT"[direction]
     assert loop.stiffest(stack(problems)) == f"{point} with K_{axis} = {k:.3g} N/m and C_{axis} = 0 N s/m"
+
+
+def test_points_with_names_of_their_own_are_taken():
+    assert loop.check_names(physics.points([[0, 0, 0]] * 3)) is None
