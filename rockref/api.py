@@ -45,6 +45,16 @@ class Model:
     foot_radius : [m], zero in the source
     effects : in the order in which they act
     uncertainty, origin : notes kept with the model (per parameter; where it came from)
+
+    >>> from rockref import Model
+    >>> from rockref.effects.catalogue import parse
+    >>> source = Model.table_3_1()
+    >>> light = source.replace(mass=27.0, mu_ext=0.2, effects=(parse("quadratic_drag:c=0.4"),))
+    >>> source.parameters.mu_ext, light.parameters.mu_ext, [e.id for e in light.effects]
+    (0.25, 0.2, ['quadratic_drag'])
+    >>> block, points = light.body()
+    >>> print(block.mass, points.names)
+    27.0 ('1ext', '2ext', '3ext', '4ext', '1int', '2int', '3int', '4int')
     """
 
     mass: float = BLOCK["mass"].value
@@ -87,6 +97,13 @@ class Model:
         Python; only those that are named here, or were named before in this process, are run.
 
         Raises InputError that names the file and the key (E-TRUST for an effect that was not named).
+
+        >>> import tempfile
+        >>> from rockref import Model
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     Model(mass=60.0).save(f"{folder}/mine.toml")
+        ...     Model.load(f"{folder}/mine.toml").mass
+        60.0
         """
         return model_file.load(cls, path, effects)
 
@@ -164,6 +181,10 @@ class Model:
 
         Stated `properties` take the place of stiffness, damping and friction, custom points that of all but theta_0,
         and four points have no inner ones. The others are in the file and change nothing.
+
+        >>> from rockref import Model
+        >>> Model.four_points().acting_parameters()
+        ('K_N', 'K_T', 'beta_ext', 'mu_ext', 'theta_0')
         """
         of_points, inner = GENES_12[:6], ("beta_int", "mu_int")
         idle: tuple[str, ...] = ()
@@ -217,7 +238,13 @@ class Model:
         out_of_plane: float = 0.0,
         theta_0: float | None = None,
     ) -> Problem:
-        """What the engines take. Without `start`, the release posture at theta_0 (by default the model's) [rad]."""
+        """What the engines take. Without `start`, the release posture at theta_0 (by default the model's) [rad].
+
+        >>> from rockref import Model
+        >>> problem = Model.table_3_1().problem(duration=0.5, turned=True)
+        >>> problem.duration, len(problem.points.names), problem.effects
+        (0.5, 8, ())
+        """
         block, points = self.body()
         effects = self.active_effects()
         if start is None:
@@ -267,6 +294,11 @@ def simulate(
     Raises
     ------
     InputError, NumericalError
+
+    >>> import rockref
+    >>> response = rockref.simulate(rockref.Model.table_3_1(), duration=2e-3, output_rate=1000.0)
+    >>> print(response.t, response.crv[-1].round(3))
+    [0.    0.001 0.002] [ 0.064 -0.001 -0.   ]
     """
     problem = model if isinstance(model, Problem) else model.problem(duration, step, output_rate, **start)
     return run(problem, engine=engine, progress=progress, dtype=dtype)

@@ -61,6 +61,23 @@ class Effect:
     `experiment` (what would tell them apart).
     The hooks in the order of the step. Arrays as in the model; `m` is the effect's own memory, whose entries may be
     replaced (never changed in place).
+
+    >>> from dataclasses import dataclass
+    >>> import numpy as np
+    >>> from rockref import Model, simulate
+    >>> from rockref.effects.base import Effect, Quantity
+    >>> @dataclass(frozen=True)
+    ... class Wind(Effect):
+    ...     id = "wind"
+    ...     quantities = {"force": Quantity("N", absent=0.0, low=0.0, high=5.0, typical=1.0)}
+    ...     force: float = 0.0
+    ...     def body_wrench(self, problem, c, x, Lambda, v, W, m):
+    ...         return self.force * np.array([0.0, 1.0, 0.0]) + 0 * x, 0 * x
+    >>> Wind().is_absent(), Wind.typical()
+    (True, Wind(force=1.0))
+    >>> calm, windy = (simulate(Model(effects=(Wind(F),)), duration=1e-3).crv[-1, 0] for F in (0.0, 1.0))
+    >>> bool(windy < calm)  # it pushes against the fall
+    True
     """
 
     id: ClassVar[str] = "none"

@@ -29,6 +29,24 @@ class Response:
     t : (T,) [s];  x, v : (..., T, 3) centre of mass [m, m/s];  Lambda : (..., T, 3, 3);  W : (..., T, 3) crv [rad/s]
     F : (..., T, n, 3) force of the plate on each point [N];  s : (..., T, n, 2) anchors [m]
     anchored, sliding : (..., T, n) bool;  final_state : restarts the run bit for bit
+
+    >>> import rockref
+    >>> model = rockref.Model.four_points()
+    >>> r = rockref.simulate(model, duration=0.09, step=2e-5, output_rate=1000.0, theta_0=0.01)
+    >>> r.crv.shape, r.overturned  # rates in deg/s, ninety-one rows
+    ((91, 3), False)
+    >>> print(r.main_impacts().round(4), r.tilt[[0, -1]].round(4))
+    [0.0835] [-0.01    0.0015]
+    >>> name, intervals = r.contacts()[0]
+    >>> print(name, intervals.round(3))
+    1ext [[0.    0.083]]
+    >>> print(r.energy()["dissipated"][-1].round(3))  # J, by the impact
+    0.015
+    >>> list(r.columns())[:5]
+    ['t_s', 'wx_deg_s', 'wy_deg_s', 'wz_deg_s', 'x_m']
+    >>> onward = rockref.simulate(model.problem(duration=0.01, step=2e-5, start=r.state(-1)))
+    >>> print(onward.tilt[0].round(4))
+    0.0015
     """
 
     problem: Problem
