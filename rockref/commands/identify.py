@@ -50,6 +50,7 @@ def identify(
     from rockref.commands._models import named_models, say_left_out
     from rockref.commands._results import say_written
     from rockref.commands._searching import searching
+    from rockref.identify.alone import alone_in
     from rockref.identify.campaign import campaign
     from rockref.identify.from_experiment import identify_experiment
     from rockref.identify.outcome import files_in
@@ -60,15 +61,15 @@ def identify(
     (base,) = named_models([model], effect)
     say_left_out(base, model)
     folder = made_folder(output)
-    with searching(verbose) as say, campaign(workers, dask) as work:
+    with alone_in(folder), searching(verbose) as say, campaign(workers, dask) as work:
         result, found = identify_experiment(
             experiment, Settings(population, generations, seed), work, folder, base=base, genes=genes,
             search_runs=search_runs, resume=resume, report=say,
         )  # fmt: skip
-    files = files_in(folder)
-    text = json.dumps(result, indent=1)
-    write_text(files["result"], text + "\n")
-    found.save(files["model"])
+        files = files_in(folder)
+        text = json.dumps(result, indent=1)
+        write_text(files["result"], text + "\n")
+        found.save(files["model"])
     if as_json:
         typer.echo(text)
     else:

@@ -10,7 +10,7 @@ from typing import Any
 from rockref.discover.tosses.compare import compare
 from rockref.discover.tosses.diagnose import diagnose
 from rockref.measure.tosses import load_tosses
-from rockref.model.storage import write_text
+from rockref.model.storage import write_bytes, write_text
 from rockref.report import toss_text
 from rockref.report.output import made_folder, usable_folder
 from rockref.report.page import Page
@@ -44,7 +44,7 @@ def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[
     write_text(folder / "diagnosis.json", json.dumps(record, indent=1) + "\n")
     write_text(folder / "comparison.json", json.dumps({"before": before, "after": after}, indent=1) + "\n")
     found.model.save(folder / "model.toml")
-    (folder / "staircase.png").write_bytes(staircase_picture(record))
+    write_bytes(folder / "staircase.png", staircase_picture(record))
     page = Page("Tosses of a cube, explained", record["sentence"])
     page.add_section("Stated values", "The plain law with what the data's authors state, beside published simulators.")
     page.add_table(toss_text.errors_table(before))
@@ -52,7 +52,7 @@ def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[
     page.add_section("Where the error grows", "Before, and with the effects that were found; held-out tosses.")
     failing = [r for part in (before, after) for r in part["rows"] if (r["start"], r["use"]) == ("flight", "holdout")]
     add_stretches(page, failing)
-    (folder / "stretches.png").write_bytes(stretches_picture(failing))
+    write_bytes(folder / "stretches.png", stretches_picture(failing))
     page.add_provenance({"tosses": len(tosses.tosses), "copies set aside": len(tosses.copies), "sha256": tosses.sha256})
     return page.write(folder / "index.html")
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.engines import run
+from rockref.identify.alone import alone_in
 from rockref.identify.campaign import Campaign, campaign
 from rockref.identify.candidates import releases
 from rockref.identify.from_experiment import identify_experiment
@@ -92,13 +93,26 @@ def reproduce(
     experiment : to identify, a folder; without one that study is left out and the page has no section about it.
     only : names of the parts that are wanted, on a page with their names (all, on index.html).
 
-    Raises InputError as the studies; E-KEY for a part that is not known; E-WRITE, E-PAGE-SIZE.
+    Raises InputError as the studies; E-KEY for a part that is not known; E-WRITE, E-PAGE-SIZE; E-BUSY.
     """
     for part in only:
         if part not in PARTS:
             raise InputError("E-KEY", "--only", f"is {part!r}", f"Use one of {', '.join(PARTS)}.")
     for part in ("", "pieces", "figures", "checkpoints"):
         made_folder(folder / part)
+    with alone_in(folder):
+        return _made(folder, experiment, budget, workers, say, only)
+
+
+def _made(
+    folder: Path,
+    experiment: Path | None,
+    budget: Budget,
+    workers: int | None,
+    say: Callable[[str], None],
+    only: Sequence[str],
+) -> Path:
+    """The same in a folder that is there, of this process alone."""
     digests = load_experiment(experiment).digests if experiment else {}
     kept = Pieces(folder / "pieces", {"versions": versions()})
     art = _Art(folder / "figures")

@@ -8,6 +8,7 @@ from typing import Any
 
 from rockref.discover.tosses.compare import PUBLISHED
 from rockref.discover.tosses.diagnose import sentences
+from rockref.model.storage import write_bytes
 from rockref.report import toss_text
 from rockref.report.page import Page, Table
 
@@ -31,7 +32,7 @@ def write_toss_diagnosis(record: dict[str, Any], folder: Path) -> Path:
     """Write ``index.html`` and ``staircase.png`` for a diagnosis; returns the page's path."""
     page = Page(f"What is missing: {record['experiment']}", record["sentence"])
     add_diagnosis(page, record)
-    (folder / "staircase.png").write_bytes(staircase_picture(record))
+    write_bytes(folder / "staircase.png", staircase_picture(record))
     page.add_provenance({"experiment": record["experiment"], "sha256 of the table": record["sha256"]})
     return page.write(folder / "index.html")
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from rockref.discover.blind.plan import Case, plan
 from rockref.discover.blind.sealing import MANIFEST, digests, seal, write_json
+from rockref.identify.alone import alone_in
 from rockref.model.errors import InputError
 
 #: Truths of single cases while a test is being made; gone when it is sealed.
@@ -50,18 +51,24 @@ def make(
     workers : processes; dask : address of a cluster that sees the same folder.
 
     Returns the manifest. Raises InputError E-SEALED where a finished test is there, E-SEED where another is half made,
-    E-WORKERS and E-DASK.
+    E-WORKERS and E-DASK, E-BUSY where another process is at it.
     """
     folder = Path(folder).resolve()
-    if (folder / MANIFEST).exists():
-        raise InputError("E-SEALED", str(folder), "holds a sealed blind test", "Score it, or make one elsewhere.")
     cases = plan(seed, n) if cases is None else list(cases)
     names = [f"case-{i:03d}" for i in range(1, len(cases) + 1)]
-    (folder / PARTS).mkdir(parents=True, exist_ok=True)
-    _check_same_plan(folder, [repr(case) for case in cases])
-    run_all(
-        make_one, [(str(folder), name, case) for name, case in zip(names, cases, strict=True)], workers, dask, progress
-    )
+    folder.mkdir(parents=True, exist_ok=True)
+    with alone_in(folder):
+        if (folder / MANIFEST).exists():
+            raise InputError("E-SEALED", str(folder), "holds a sealed blind test", "Score it, or make one elsewhere.")
+        (folder / PARTS).mkdir(exist_ok=True)
+        _check_same_plan(folder, [repr(case) for case in cases])
+        jobs = [(str(folder), name, case) for name, case in zip(names, cases, strict=True)]
+        run_all(make_one, jobs, workers, dask, progress)
+        return _sealed(folder, seed, names)
+
+
+def _sealed(folder: Path, seed: int, names: Sequence[str]) -> dict[str, Any]:
+    """Seal the truths of cases that are made; their parts go. Returns the manifest."""
     truths = [json.loads((folder / PARTS / f"{name}.json").read_text(encoding="utf-8")) for name in names]
     from rockref import __version__
 

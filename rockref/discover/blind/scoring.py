@@ -15,6 +15,7 @@ from rockref.discover.blind import rivals, table
 from rockref.discover.blind.making import run_all
 from rockref.discover.blind.marks import mark
 from rockref.discover.blind.sealing import MANIFEST, OPENED, SEALED, digests, unseal, write_json
+from rockref.identify.alone import alone_in
 from rockref.model.errors import InputError
 
 VERDICT, RIVALS = "verdict.json", "rivals.json"
@@ -72,10 +73,24 @@ def score(
 
     Returns `scores` (rows of the table), `rivals` (rows for each rival method), `marks` (one a case), `failures`
     (lines), `sealed` (whether truth and cases are those that were published). Writes them to scores.json too.
-    Raises InputError E-BLIND where the folder is no blind test, E-WORKERS and E-DASK.
+    Raises InputError E-BLIND where the folder is no blind test, E-WORKERS and E-DASK, E-BUSY where another process is
+    at it.
     """
     folder = Path(folder).resolve()
     manifest = _manifest(folder)
+    with alone_in(folder):
+        return _scored(folder, manifest, workers, dask, with_rivals, progress)
+
+
+def _scored(
+    folder: Path,
+    manifest: dict[str, Any],
+    workers: int | None,
+    dask: str | None,
+    with_rivals: bool,
+    progress: Callable[[float], None] | None,
+) -> dict[str, Any]:
+    """The same in a folder of this process alone."""
     names = list(manifest["cases"])
     untouched = all(digests(folder / name) == manifest["cases"][name] for name in names)
     missing = [name for name in names if not (folder / name / VERDICT).exists()]
