@@ -12,6 +12,7 @@ import pytest
 
 from rockref.identify.campaign import campaign
 from rockref.identify.from_experiment import identify_experiment
+from rockref.identify.polish import Effort
 from rockref.identify.search import Settings
 from rockref.model.errors import InputError
 from tests.shipped import two_runs
@@ -46,6 +47,24 @@ def test_killed_and_resumed_gives_the_same_record(control, tmp_path):
     record = json.loads(again)
     assert [r["use"] for r in record["runs"]] == ["fit", "holdout"]
     assert record["seed"] == 3 and record["versions"]["cmaes"] and len(record["inputs"]) >= 2
+
+
+@pytest.mark.slow
+def test_the_number_of_workers_changes_no_bit(control, tmp_path, monkeypatch):
+    """In this process and in three: checkpoints, record, model; search, least squares, a round on signals."""
+    pytest.importorskip("numba")
+    monkeypatch.setattr("rockref.identify.identification.ROUND_GENERATIONS", 2)
+    ends = []
+    for workers in (1, 3):
+        folder = tmp_path / str(workers)
+        folder.mkdir()
+        effort = Effort(windows=(), steps=1, moves=0)
+        with campaign(workers) as work:
+            record, model = identify_experiment(control, Settings(5, 2, seed=5), work, folder, effort=effort, rounds=1)
+        model.save(folder / "model.toml")
+        ends.append(json.dumps(record).encode() + b"".join(p.read_bytes() for p in sorted(folder.iterdir())))
+        assert {p.name for p in folder.iterdir()} == {"model.toml", "search.json", "signals_1.json"}
+    assert ends[0] == ends[1]
 
 
 def test_a_number_of_genes_that_is_not_known_is_refused(control, tmp_path):
