@@ -101,9 +101,6 @@ MISTAKES = (
     Mistake("no contact below a tenth of a micrometre", ("N1", "N2"), N1, N1.replace("xi >= 0", "xi >= 1e-7")),
     # Anchors and the trial force.
     Mistake(
-        "anchor of a foot that lifts is kept", ("T5",), "s if anchored and xi >= 0 else u_t", "s if anchored else u_t"
-    ),
-    Mistake(
         "a new foot is tied to the origin",
         ("T5",),
         "s if anchored and xi >= 0 else u_t",
@@ -127,7 +124,6 @@ MISTAKES = (
         "(mu if was_sliding else mu_0)",
         "(mu_0 if was_sliding else mu)",
     ),
-    Mistake("a new foot is sliding because it once did", ("T6", "T5"), "sliding and anchored", "sliding"),
     Mistake("threshold by the spring alone", ("T6", "N1"), "cone(F_N, sliding", "cone(K_N * xi, sliding"),
     Mistake("one foot slides, all have slid", ("T6",), 'memory["sliding"][i]', 'memory["sliding"].any()'),
     Mistake(
@@ -221,4 +217,13 @@ MISTAKES = (
     Mistake("rates in plate axes", ("M1",), "np.degrees(W)", 'np.degrees(np.einsum("nij,nj->ni", Lambda, W))', False),
     Mistake("57.3 for a radian", ("M1",), "np.degrees(W)", "57.3 * W", False),
     Mistake("rates in rad/s", ("M1",), '{"crv_deg_s": np.degrees(W)}', '{"crv_deg_s": W}', False),
+)
+
+#: Two of those that were written down turned out to be none: the anchor of an open foot is not read again, and a foot
+#: that is open is never sliding. They have to pass.
+HARMLESS = (
+    Mistake(
+        "anchor of a foot that lifts is kept", ("T5",), "s if anchored and xi >= 0 else u_t", "s if anchored else u_t"
+    ),
+    Mistake("a new foot is sliding because it once did", ("T6", "T5"), "sliding and anchored", "sliding"),
 )

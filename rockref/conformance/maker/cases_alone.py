@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.maker.bars import Case
-from rockref.conformance.maker.cases_short import GLUE, GONE, ICE, WEIGHTLESS, Z, ask, held, standing
+from rockref.conformance.maker.cases_short import GLUE, GONE, ICE, SOFT, WEIGHTLESS, Z, ask, held, standing
 from rockref.conformance.maker.drawing import Draw, diagonal, rotation
 
 #: The start brings a force evaluation: nothing pulls.
@@ -63,6 +63,29 @@ def feet() -> Iterator[tuple[float, Case]]:
     yield 42.4, ask({"F_N@1": "S1"}, "the second evaluation, hardly moving", 2, standing(2.0**-19), made=ICE)
 
 
+def strangers() -> Iterator[tuple[float, Case]]:
+    """T1, T6 where no two feet remember the same, before all others that look at feet with anchors; A1 of a block that
+    is not the source's, and of one that leans; an even push; what begins to slide, and what almost does; an anchor
+    that outlives a moment without a load."""
+    own = held(Draw(55).vectors(1e-5, 8, 2))
+    yield 22.8, ask({"F_T@0": "T1"}, "every foot with its own anchor", 1, standing(), made=GLUE, **own)
+    pair = {"mu": 0.25, "mu_0": 0.5}
+    some: Any = {"sliding": np.array([False] * 4 + [True, False, False, True]), **held(TIP * 1.5)}
+    yield 62.1, ask({"F_T@0": "T6"}, "between the cones, two feet slid", 1, standing(), made=pair, **some)
+    yield 30.5, ask({"x@1": "A1"}, "a lighter block, pushed up", 1, standing(2.0**-12), made=ICE, mass=37.5)
+    yield 6.5, fly({"x@1": "A1"}, "falling, leaning", v=DRIFT, Lambda=rotation((0.3, -0.2, 0.5)))
+    yield 30.7, ask({"Lambda@1": "A2"}, "pushed up evenly: it does not turn", 1, standing(2.0**-12), made=ICE)
+    far = held(TIP * 12)
+    yield 54.5, ask({"F_T@0": "T3"}, "stuck until now, far outside both cones", 1, standing(), made=pair, **far)
+    one = {"mu": 0.25, "mu_0": 0.25}
+    for place, share, where in ((60.3, 1 - 2.0**-20, "inside"), (60.6, 1 + 2.0**-20, "outside")):
+        near = held(TIP * share)
+        yield place, ask({"F_T@0": "T2"}, f"oblique, a millionth {where}", 1, standing(), made=one, **near)
+    cut: Any = {"step": 2.0**-10, "g": 1024.0, "made": SOFT | GLUE, "v": [0.25, 0.125, 0.0625]}
+    here = held(np.zeros((8, 2)))
+    yield 73.5, ask({"F_T@1": "T5"}, "no load for a moment: the anchor stays", 2, standing(2.0**-13), **cut, **here)
+
+
 def friction() -> Iterator[tuple[float, Case]]:
     """T1, T6, T3 where no two feet have the same constants."""
     own = GLUE | {"K_T": 5e7 * SHARES, "C_T": 16384.0 * SHARES}
@@ -79,6 +102,6 @@ def friction() -> Iterator[tuple[float, Case]]:
 
 def alone() -> Iterator[Case]:
     """All of them."""
-    for group in (afloat, tops, feet, friction):
+    for group in (afloat, tops, feet, friction, strangers):
         for place, case in group():
             yield replace(case, place=place)

@@ -21,8 +21,10 @@ def assembly() -> Iterator[Case]:
     P = table_3_1()["P"]
     force, moment = {"force": ("A1", "A1")}, {"force": ("A1", "A1"), "moment": ("A2", "A2"), "T": ("A2", "A3")}
 
-    def ask(rule: str, fields: dict, flags: tuple[str, ...], F: np.ndarray, Lambda: np.ndarray = UPRIGHT) -> Case:
-        inputs = {"Lambda": Lambda, "r": turned(Lambda, P[: len(F)]), "F": F, "mass": 54.0, "g": 9.81}
+    def ask(
+        rule: str, fields: dict, flags: tuple[str, ...], F: np.ndarray, Lambda: np.ndarray = UPRIGHT, **other: float
+    ) -> Case:
+        inputs = {"Lambda": Lambda, "r": turned(Lambda, P[: len(F)]), "F": F, "mass": 54.0, "g": 9.81, **other}
         return Case(rule, "L2", "assemble", inputs, fields, flags)
 
     yield ask("A1", force, ("weight alone",), np.zeros((8, 3)))
@@ -42,6 +44,8 @@ def assembly() -> Iterator[Case]:
     for angle in (0.1, 0.2, 1.0, 3.0):
         for _ in range(2):
             yield ask("A3", leaning, ("eight forces", "leaning"), d.vectors(2000, 8), d.rotation(angle))
+    yield ask("A1", force, ("weight alone", "another gravity"), np.zeros((8, 3)), g=3.75)
+    yield ask("A1", force, ("weight alone", "another mass"), np.zeros((8, 3)), mass=37.5)
 
 
 #: Angles [rad] of the exponential, on both sides of where a series may be exchanged for another.

@@ -44,7 +44,7 @@ def derived() -> Iterator[Case]:
 
 def released(q: dict, theta: float, flag: str) -> Case:
     """R1 of a block on its points by Table 3.1, changed, at that tilt [rad]."""
-    inputs = {k: q[k] for k in ("mass", "P", "K_N")} | {"g": G, "theta_0": theta}
+    inputs = {k: q[k] for k in ("mass", "P", "K_N")} | {"g": q.get("g", G), "theta_0": theta}
     return Case("R1", "L0", "release", inputs, {"x": ("R1", "R1"), "Lambda": ("R1", "R1")}, (flag,))
 
 
@@ -65,6 +65,11 @@ def inner_pivots() -> Iterator[Case]:
     """R1 where external feet are so high that the block leans on internal ones: on one, on two."""
     yield released(table_3_1(delta_long=(0.0, 8e-4, 1e-4, 0.0)), 0.09375, "an internal pivot")
     yield released(stiffened(table_3_1(delta_long=(9e-4, 8e-4, 0.0, 0.0))), 0.09375, "two internal pivots")
+
+
+def elsewhere() -> Iterator[Case]:
+    """R1 of another mass, under another gravity: what is not looked at when the source's numbers stand in the code."""
+    yield released(table_3_1() | {"mass": 37.5, "g": 3.75}, THETA_0, "another mass and gravity")
 
 
 def channel() -> Iterator[Case]:

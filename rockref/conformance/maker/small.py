@@ -18,7 +18,7 @@ from rockref.conformance.vectors import SCHEMA, vector_of
 
 #: The questions of each layer, in order. The seed of a question is its place.
 QUESTIONS = {
-    "L0": (cases_derived.derived, cases_derived.release, cases_derived.inner_pivots),
+    "L0": (cases_derived.derived, cases_derived.release, cases_derived.inner_pivots, cases_derived.elsewhere),
     "L1": (cases_point.all_points,),
     "L2": (cases_body.assembly,),
     "L3": (cases_body.exponentials, cases_body.steps, cases_body.no_rotation),

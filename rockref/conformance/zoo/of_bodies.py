@@ -120,11 +120,23 @@ def on_the_corners(block, points, theta_0):
     return release.release_posture(block, replace(points, P=out_of_reach), theta_0)
 
 
+def weight_of_the_source(block, points, theta_0):
+    return release.release_posture(replace(block, mass=0 * block.mass + 54, g=0 * block.g + 9.81), points, theta_0)
+
+
 # -- A: sums over the points ----------------------------------------------------------------------------------------
 
 
 def other_gravity(F, mass, g):
     return resultant_force(F, mass, 0 * g + 9.80665)
+
+
+def gravity_of_the_source(F, mass, g):
+    return resultant_force(F, mass, 0 * g + 9.81)
+
+
+def mass_of_the_source(F, mass, g):
+    return resultant_force(F, 0 * mass + 54, g)
 
 
 def weight_up(F, mass, g):
@@ -299,10 +311,13 @@ OF_PARAMETERS = (
     ),
     Mistake("Z87", "R1", "tilted about X only: one corner hangs in the air", _one(release=without_roll)),
     Mistake("Z102", "R1", "pivots among the external points only", _one(release=on_the_corners)),
+    Mistake("Z104", "R1", "the source's block, 54 kg and 9.81 m/s2, in the code", _one(release=weight_of_the_source)),
 )  # fmt: skip
 
 OF_SUMS = (
     Mistake("Z64", "A1", "standard gravity in place of the g that is given", _one(force=other_gravity)),
+    Mistake("Z105", "A1", "the source's gravity, 9.81 m/s2, in the code", _one(force=gravity_of_the_source)),
+    Mistake("Z106", "A1", "the source's mass, 54 kg, in the weight", _one(force=mass_of_the_source)),
     Mistake("Z65", "A1", "weight with the wrong sign", _one(force=weight_up)),
     Mistake("Z66", "A1", "friction forces left out of the sum", _one(force=no_friction_in_the_sum)),
     Mistake("Z67", "A2", "F x r for r x F", _one(moment=force_cross_lever)),

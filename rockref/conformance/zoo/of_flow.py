@@ -73,6 +73,17 @@ def slid_for_touched(rules: Rules, problem: Problem, state: State, x, Lambda, v,
     return k, c._replace(touching=c.sliding)
 
 
+def anchor_of_the_foot_before(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
+    """Every foot is handed the anchor of another one."""
+    return evaluate_contact(rules, problem, replace(state, s=np.roll(state.s, 1, axis=-2)), x, Lambda, v, W)
+
+
+def one_slid_all_slid(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
+    """Whether a foot was sliding is kept once for all feet."""
+    slid = np.broadcast_to(np.any(state.sliding, axis=-1, keepdims=True), state.sliding.shape)
+    return evaluate_contact(rules, problem, replace(state, sliding=slid), x, Lambda, v, W)
+
+
 def lever_from_the_origin(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
     """The lever arm is counted from the origin of the plate."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
@@ -103,6 +114,8 @@ OF_FLOW = (
     Mistake("Z05", "S1", "penetration rate by differences of positions", _one(contact=rate_by_differences)),
     Mistake("Z15", "T3", "sliding force by the normal force of the step before", _one(contact=last_normal_force)),
     Mistake("Z18", "T1", "slip added up after the force: a step late", _one(contact=slip_after_the_force)),
+    Mistake("Z107", "T1", "trial force with the anchor of the foot before", _one(contact=anchor_of_the_foot_before)),
+    Mistake("Z108", "T6", "one foot has slid: all are held to have slid", _one(contact=one_slid_all_slid)),
     Mistake("Z20", "T5", "anchor kept in body axes", _one(contact=anchor_turns_with_the_block)),
     Mistake("Z92", "T5", "the flags of touching and sliding exchanged", _one(contact=slid_for_touched)),
     Mistake("Z23", "A2", "lever arm from the origin of the plate", _one(contact=lever_from_the_origin)),

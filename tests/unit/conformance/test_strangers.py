@@ -1,0 +1,40 @@
+"""The mistakes of strangers are still mistakes of the tutorial backend, and the judge still names them."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
+from strangers import counted, of_mistake, planted, seen
+from strangers_list import HARMLESS, MISTAKES
+
+from rockref.conformance.rules import BY_ID
+
+
+def test_every_mistake_is_planted_in_one_place_and_of_a_rule():
+    for mistake in MISTAKES + HARMLESS:
+        assert hasattr(planted(mistake), "simulate"), mistake.says
+        assert mistake.rules and set(mistake.rules) <= set(BY_ID), mistake.says
+    assert len({m.says for m in MISTAKES}) == len(MISTAKES) > 56
+    assert {rule for m in MISTAKES for rule in m.rules} >= set(BY_ID) - {"R1"}, "no piece of the tutorial shows R1"
+
+
+@pytest.mark.parametrize("mistake", MISTAKES[::9], ids=lambda m: m.says)
+def test_with_pieces_a_mistake_is_named(mistake):
+    found = seen(planted(mistake), mistake)
+    assert found["detected"] and found["named"], found
+
+
+@pytest.mark.parametrize("mistake", HARMLESS, ids=lambda m: m.says)
+def test_what_nothing_follows_from_passes(mistake):
+    ways = of_mistake(mistake)["ways"]
+    assert len(ways) == 3 and not any(a["detected"] for a in ways.values())
+
+
+def test_ways_are_counted_apart():
+    right, wrong = {"detected": True, "named": True, "alike": True}, {"detected": True, "named": False, "alike": True}
+    found = [{"ways": {"pieces": right}}, {"ways": {"pieces": wrong, "runs": wrong}}]
+    table = counted(found)
+    assert table["pieces"] == {"asked": 2, "detected": 2, "named": 1, "alike": 2}
+    assert table["runs"] == {"asked": 1, "detected": 1, "named": 0, "alike": 1}
