@@ -268,7 +268,7 @@ def trusted(spec: str, place: str) -> str:
     Raises InputError: E-TRUST for one that he has not named, E-FILE where there is none, E-EFFECT as `load_user`.
     """
     path = file_and_class(spec)[0]
-    if not is_file(path):
+    if not os.path.isfile(path):
         raise InputError("E-FILE", place, f"names {short(path)!r}, which is no file", "Check the path.")
     if os.path.realpath(path) in NAMED:
         return spec
@@ -278,14 +278,6 @@ def trusted(spec: str, place: str) -> str:
     what = f"names {typed}, a program, which nothing runs unless you name it, too"
     cure = f"If you trust it, add --effect {typed}; in Python, Model.load(path, effects=[...])."
     raise InputError("E-TRUST", place, what, cure)
-
-
-def is_file(path: str) -> bool:
-    """Whether there is a file of this name; there is none of a name that no file can have."""
-    try:
-        return os.path.isfile(path)
-    except ValueError:
-        return False
 
 
 def to_table(effects: Iterable[Effect], beside: Path | None = None) -> dict[str, dict[str, Any]]:

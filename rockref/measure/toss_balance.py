@@ -120,6 +120,8 @@ def first_impacts(poses: Poses, P: np.ndarray, inertia: np.ndarray, g: np.ndarra
     which, spans = [], []
     for i in range(len(first)):
         f, n = int(first[i]), int(poses.frames[i])
+        if f >= n or not (near[i, f] or due[i, f - 1]):  # still in flight where no more frames of it are used
+            continue
         end = f
         while end < n and near[i, end]:
             end += 1

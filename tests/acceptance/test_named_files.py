@@ -144,6 +144,14 @@ def test_other_places_for_a_file_run_none_either(folder, line, code):
     assert found.value.code == code and not (folder / "trace").exists()
 
 
+def test_an_effect_of_another_id_is_refused(folder):
+    (folder / "MODEL").write_text('[effects.brake]\nfile = "mine.py:EddyBrake"\n', encoding="utf-8")
+    with pytest.raises(
+        InputError, match=r"the effect in mine.py:EddyBrake is 'eddy_brake'. Write \[effects.eddy_brake\]"
+    ):
+        Model.load("MODEL", effects=["mine.py:EddyBrake"])
+
+
 def test_what_is_to_be_typed_is_one_word_of_a_shell(folder):
     """A path comes from data: it ends no command, and moves no cursor."""
     for path, typed in (("a; rm x.py", "'a; rm x.py:EddyBrake'"), ("a\x1b[2J.py", r"'a\x1b[2J.py:EddyBrake'")):

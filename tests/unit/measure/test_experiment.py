@@ -12,6 +12,7 @@ from rockref.measure.experiment import load_experiment
 from rockref.measure.repeatability import repeat_groups
 from rockref.model import storage
 from rockref.model.errors import InputError
+from tests.shipped import two_runs
 
 
 def rewrite(folder, old, new, count=1):
@@ -213,3 +214,16 @@ def test_toss_has_poses_instead_of_a_release(folder):
     run = experiment.runs[0]
     assert run.crv is None and run.release_tilt is None
     assert np.array_equal(run.pose[1], [1, 2, 3, 0, 1, 0, 0])
+
+
+def test_a_run_that_is_not_there_is_named_with_those_that_are(tmp_path):
+    experiment = load_experiment(two_runs(tmp_path / "e"))
+    assert experiment.run("03").use == "holdout"
+    with pytest.raises(InputError, match=r"there is no run '99'. There are 01, 03. \[E-RUN\]"):
+        experiment.run("99")
+
+
+def test_a_folder_of_tosses_is_told_from_releases(tmp_path):
+    (tmp_path / "tosses.csv").write_text("", encoding="utf-8")
+    with pytest.raises(InputError, match="holds tosses; this is not for tosses"):
+        load_experiment(tmp_path)

@@ -10,8 +10,9 @@ from rockref.effects.shape.inertia_deviation import InertiaDeviation
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.shape.rounded_corners import RoundedCorners
 from rockref.measure.flight import flight_frames, side_by_side
-from rockref.measure.toss_balance import flight_arcs
+from rockref.measure.toss_balance import first_impacts, flight_arcs
 from rockref.measure.tosses import CUBE_INERTIA, CUBE_MU, load_tosses
+from rockref.model.errors import InputError
 from tests.tosses import made, stated, write_tosses
 
 OFF = (0.001, -0.0005, 0.006)
@@ -77,3 +78,17 @@ def test_no_impact_gains_energy(tosses):
     energy = measured(tosses.tosses, tosses, stated())["measured_centre"]["energy_change"]
     assert energy["tosses"] > 10
     assert energy["largest"] < 0
+
+
+def test_tosses_that_never_land_say_nothing_of_impacts(tosses):
+    poses = side_by_side(tosses.tosses, tosses.rate)
+    high = poses._replace(x=poses.x + [0, 0, 10.0])
+    with pytest.raises(InputError) as refused:
+        first_impacts(high, nominal_corners(stated()), np.eye(3), np.array([0, 0, -9.81]), 2e-3)
+    assert refused.value.code == "E-SIZE"
+
+
+def test_too_few_arcs_measure_nothing(tosses):
+    poses = side_by_side(tosses.tosses, tosses.rate)
+    found = flight_arcs(poses, np.zeros(len(poses.frames), int))
+    assert found.values == {}

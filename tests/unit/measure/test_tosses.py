@@ -142,3 +142,35 @@ def test_a_release_is_no_toss(tmp_path):
     (tmp_path / "experiment.toml").write_text('kind = "release"\n')
     assert not is_toss_folder(tmp_path)
     assert not is_toss_folder(tmp_path / "nowhere")
+
+
+def test_the_split_may_be_all_of_one_use(six, tmp_path):
+    folder = write_tosses(tmp_path / "t", *six)
+    every = [load_tosses(folder, split) for split in ("rule", "all_fit", "all_holdout")]
+    assert [len(tosses.used("holdout")) for tosses in every] == [3, 0, 6]
+    assert [len(tosses.used("fit")) for tosses in every] == [3, 6, 0]
+    with pytest.raises(InputError, match="E-CHOICE"):
+        load_tosses(folder, "half")
+
+
+def test_the_table_may_be_named_itself(six, tmp_path):
+    table = write_tosses(tmp_path / "t", *six) / "tosses.csv.gz"
+    assert is_toss_folder(table) and len(load_tosses(table).tosses) == 6
+
+
+def test_a_table_without_a_toss_that_can_be_used_is_refused(six, tmp_path):
+    """The tracking has lost the cube from the first frame on."""
+    x, Lambda = six
+    lost = x * (np.arange(x.shape[1]) % 2)[:, None]
+    with pytest.raises(InputError, match="holds no toss that can be used"):
+        load_tosses(write_tosses(tmp_path / "t", lost, Lambda))
+
+
+def test_a_quaternion_of_another_length_is_refused(six, tmp_path):
+    folder = write_tosses(tmp_path / "t", *six)
+    lines = gzip.decompress((folder / "tosses.csv.gz").read_bytes()).decode().splitlines()
+    row = lines[1].split(",")
+    lines[1] = ",".join([*row[:6], "0.9", "0", "0", "0"])
+    (folder / "tosses.csv.gz").write_bytes(gzip.compress("\n".join(lines).encode()))
+    with pytest.raises(InputError, match="frame 0: its quaternion has not length 1"):
+        load_tosses(folder)
