@@ -1,6 +1,7 @@
 """`rockref diagnose`: what it prints and writes, with which exit code; the diagnosis itself is made up."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -9,6 +10,8 @@ from rockref.discover import diagnose as engine
 from rockref.discover.diagnosis_record import KEYS, plain, read
 from rockref.model.errors import InputError
 from tests.unit.discover import fakes
+
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture(scope="module")
@@ -73,10 +76,11 @@ def test_record_written_beside_reads_back(capsys, monkeypatch, made, tmp_path):
 
 def test_options_reach_the_engine(capsys, monkeypatch, made):
     calls = answer(monkeypatch, fakes.diagnosis("none", made))
-    run(capsys, "anywhere", "--seed", "7", "--workers", "2", "--model", "four_points", "--effect", "my.py:Brake")
+    brake = f"{ROOT / 'examples/my_effect.py'}:EddyBrake"
+    run(capsys, "anywhere", "--seed", "7", "--workers", "2", "--model", "four_points", "--effect", brake)
     (path, model, seed, workers), options = calls[0]
     assert (str(path), model.points, seed, workers) == ("anywhere", "four_points", 7, 2)
-    assert options["own"] == ["my.py:Brake"]
+    assert options["own"] == [brake]
 
 
 def test_unusable_input_ends_with_2(capsys, tmp_path):
