@@ -7,6 +7,7 @@ import pytest
 
 from rockref import InputError, Model, cli
 from rockref.discover.baseline import baseline_parameters, moved_parameters
+from rockref.effects.catalogue import parse
 from rockref.identify.sensitivity import last_digits, significant_digits
 from rockref.model.parameters import GENES_12, PROPERTIES
 from tests.shipped import two_runs
@@ -96,6 +97,37 @@ def test_identify_finds_properties_only_as_54(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, told = said(capsys, "identify", "EXPERIMENT", "--model", "stated.toml")
     assert code == 2 and "Use --genes 54" in told.err
+
+
+@pytest.mark.parametrize(
+    "command, place",
+    [
+        ("fit EXPERIMENT", "rockref.discover.fitting.fit_experiment"),
+        ("diagnose EXPERIMENT", "rockref.discover.diagnose.diagnose"),
+        ("add gyro_scale EXPERIMENT", "rockref.discover.add.add"),
+        ("plan", "rockref.discover.plan.plan"),
+    ],
+)
+def test_what_is_left_out_is_said(capsys, tmp_path, monkeypatch, command, place):
+    def work(*given, **named):
+        raise InputError("E-STOP", "here", "stop", "")
+
+    two_runs(tmp_path / "EXPERIMENT")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(place, work)
+    for name, remarks in (("eight, properties", 1), ("eight", 0), ("four", 0)):
+        MODELS[name].save("m.toml")
+        code, told = said(capsys, *command.split(), "--model", "m.toml")
+        assert code == 2 and "[E-STOP]" in told.err and told.err.count("[W-MOOT]") == remarks, name
+        feet = "delta_long_1, delta_long_2, delta_long_3, delta_long_4, delta_diag"
+        assert ("m.toml: [properties]: states stiffness" in told.err and feet in told.err) == bool(remarks)
+
+
+def test_identify_says_that_it_leaves_effects_out(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    TABLE.replace(effects=(parse("quadratic_drag:c=0.4"),)).save("dragged.toml")
+    code, told = said(capsys, "identify", "anywhere", "--model", "dragged.toml")
+    assert code == 2 and "dragged.toml: has quadratic_drag, and the law alone is searched" in told.err
 
 
 @pytest.mark.slow

@@ -1,0 +1,70 @@
+"""An identification in words and tables says what its record says."""
+
+import copy
+import io
+
+import pytest
+from rich.console import Console
+
+from rockref.report.identification_text import print_identification
+
+RECORD = {
+    "search": {
+        "simulations": 10000, "cost": 0.1234, "weights": {"main_impacts": 2.0},
+        "terms": {"01": {"main_impacts": 0.05}, "06": {"main_impacts": 0.07}},
+    },
+    "least_squares": {
+        "at_noise_floor": True, "chi2": 1.02,
+        "values": {"K_N": 6.1e7, "theta_0": 0.1171},
+        "errors": {"K_N": 5e6, "theta_0 of 01": 1e-5, "theta_0 of 06": 3e-5},
+        "determined": {"K_N": False, "theta_0": True},
+        "trade_offs": [["K_N", "beta_ext", -0.91]],
+    },
+    "runs": [
+        {"run": "03", "use": "holdout", "release_tilt_rad": 0.11712, "rms_deg_s": [0.05, 0.06, 0.07],
+         "rms_over_noise": 1.01, "rms_over_noise_as_stated": 2.5},
+    ],
+}  # fmt: skip
+
+
+def said(record):
+    out = io.StringIO()
+    print_identification(Console(file=out, width=200), record)
+    return out.getvalue()
+
+
+def row(text, start):
+    (found,) = [line.split() for line in text.splitlines() if line.startswith(start)]
+    return found
+
+
+def test_at_the_floor_what_is_not_determined_is_named():
+    text = said(RECORD)
+    assert "10000 simulations brought the cost to 0.1234; least squares end at the noise floor" in text
+    assert "Not determined within half the last digit of Table 3.1: K_N." in text
+    assert "K_N and beta_ext trade off (correlation -0.91)." in text
+
+
+def test_above_the_floor_nothing_is_determined():
+    record = copy.deepcopy(RECORD)
+    record["least_squares"]["at_noise_floor"] = False
+    text = said(record)
+    assert "Above the noise floor nothing is determined" in text and "Not determined within" not in text
+
+
+def test_errors_are_shown_in_last_digits_and_that_of_the_tilt_is_its_largest():
+    """K_N is stated to 1e7, theta_0 to 1e-4."""
+    text = said(RECORD)
+    assert row(text, "K_N ") == ["K_N", "6.1e+07", "5e+06", "0.5", "6e+07", "N/m"]
+    assert row(text, "theta_0") == ["theta_0", "0.1171", "3e-05", "0.3", "0.117", "rad"]
+
+
+@pytest.mark.parametrize(
+    "start, wanted",
+    [
+        ("main impacts", ["main", "impacts", "2", "0.05", "0.07"]),
+        ("03", ["03", "holdout", "0.11712", "0.050", "0.060", "0.070", "1.01", "2.50"]),
+    ],
+)
+def test_terms_and_runs_have_a_row_each(start, wanted):
+    assert row(said(RECORD), start) == wanted
