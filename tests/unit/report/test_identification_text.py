@@ -55,7 +55,7 @@ def test_above_the_floor_nothing_is_determined():
 def test_errors_are_shown_in_last_digits_and_that_of_the_tilt_is_its_largest():
     """K_N is stated to 1e7, theta_0 to 1e-4."""
     text = said(RECORD)
-    assert row(text, "K_N ") == ["K_N", "6.1e+07", "5e+06", "0.5", "6e+07", "N/m"]
+    assert row(text, "K_N  ") == ["K_N", "6.1e+07", "5e+06", "0.5", "6e+07", "N/m"]
     assert row(text, "theta_0") == ["theta_0", "0.1171", "3e-05", "0.3", "0.117", "rad"]
 
 
