@@ -67,8 +67,9 @@ def strangers() -> Iterator[tuple[float, Case]]:
     """T1, T6 where no two feet remember the same, before all others that look at feet with anchors; A1 of a block that
     is not the source's, and of one that leans; an even push; what begins to slide, and what almost does; an anchor
     that outlives a moment without a load."""
-    own = held(Draw(55).vectors(1e-5, 8, 2))
-    yield 22.8, ask({"F_T@0": "T1"}, "every foot with its own anchor", 1, standing(), made=GLUE, **own)
+    # All eight are held: a foot without a trial force would speak of T3.
+    own = held(Draw(55).vectors(1e-5, 8, 2)) | {"anchored": np.ones(8, bool)}
+    yield 22.8, ask({"F_T@0": "T1"}, "every foot with its own anchor", 1, standing(2.0**-12), made=GLUE, **own)
     pair = {"mu": 0.25, "mu_0": 0.5}
     some: Any = {"sliding": np.array([False] * 4 + [True, False, False, True]), **held(TIP * 1.5)}
     yield 62.1, ask({"F_T@0": "T6"}, "between the cones, two feet slid", 1, standing(), made=pair, **some)
