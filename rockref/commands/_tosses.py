@@ -122,7 +122,7 @@ def add_to_model_of_tosses(
     as_json: bool,
 ) -> None:
     """Fit an effect into a model of tosses, print the errors before and after, write the model."""
-    from rockref.commands._models import named_models
+    from rockref.commands._models import known_files, named_models
     from rockref.commands._stages import console, stages
     from rockref.discover.tosses.fitting import add_to_tosses
     from rockref.measure.tosses import load_tosses
@@ -131,6 +131,7 @@ def add_to_model_of_tosses(
     usable_files(output)
     folder = usable(report)
     tosses = load_tosses(path)
+    known_files([effect])
     given = next(iter(named_models([model] if model else [], own)), None)
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = add_to_tosses(effect, tosses, given, progress=say)

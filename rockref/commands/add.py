@@ -54,13 +54,14 @@ def add(
         from rockref.commands._tosses import add_to_model_of_tosses
 
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
-    from rockref.commands._models import named_models, say_idle
+    from rockref.commands._models import known_files, named_models, say_idle
     from rockref.commands._results import say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
     from rockref.discover.diagnosis_record import plain
     from rockref.report.output import made_folder, usable_folder
 
+    known_files([effect])
     given = next(iter(named_models([model] if model else [], own)), None)
     say_idle(given, model)
     folder = usable_folder(report) if report is not None else None

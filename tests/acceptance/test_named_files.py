@@ -112,6 +112,23 @@ def test_a_command_that_adds_none_says_so(capsys, folder, words, effect):
     assert code == 2 and "this command adds none" in err and "[E-EFFECT]" in err
 
 
+def test_the_effect_that_is_added_names_its_file_too(capsys, monkeypatch, folder):
+    """A second class of the same file is added to a model that has the first."""
+    other = (folder / "mine.py").read_text(encoding="utf-8").replace("EddyBrake", "Second").replace("eddy_", "second_")
+    with (folder / "mine.py").open("a", encoding="utf-8") as stream:
+        stream.write(other.replace("from __future__ import annotations", ""))
+    arrived = []
+
+    def work(*given, **named):
+        arrived.append(given)
+        raise InputError("E-ARRIVED", "here", "stop", "")
+
+    monkeypatch.setattr("rockref.discover.add.add", work)
+    code, err = said(capsys, "add mine.py:Second EXPERIMENT --model MODEL")
+    assert code == 2 and "[E-ARRIVED]" in err
+    assert arrived[0][0] == "mine.py:Second" and arrived[0][2].effects[0].id == "eddy_brake"
+
+
 def test_another_file_of_that_name_is_not_run(capsys, folder):
     (folder / "other").mkdir()
     shutil.copy(EXAMPLE, folder / "other/mine.py")
