@@ -3,7 +3,7 @@
 Each mistake of `strangers_list.py` is planted in the tutorial backend, which is judged three times: with its pieces,
 by runs alone, and by runs that show no forces. Named: the verdict has the rule that was planted. Alike: it has that
 rule, or says that runs cannot tell it from the one that it has. The fingerprints of the zoo are not consulted: none of
-its mistakes helps. Five minutes of processor time.
+its mistakes helps. A minute of processor time.
 """
 
 from __future__ import annotations
