@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are forked, so that they need not load first")
-@pytest.mark.parametrize("name, kills", [("diagnose", 100), ("golden", 20)])
+@pytest.mark.parametrize("name, kills", [("diagnose", 100), ("golden", 20), ("report", 30)])
 def test_no_file_is_half_and_the_next_run_gives_the_same_bytes(tmp_path, name, kills):
     pytest.importorskip("numba")
     words = [sys.executable, "-m", "tests.acceptance.dying", name, str(tmp_path), str(kills)]
