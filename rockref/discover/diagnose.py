@@ -39,7 +39,7 @@ from rockref.discover.search import FRESH, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows import gyro_of
-from rockref.discover.winning import exchanged, to_the_end, upheld
+from rockref.discover.winning import exchanged, finished, to_the_end, upheld
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
@@ -129,6 +129,9 @@ def diagnose(
     setup, sets, seen = suspects(setup)
     null, start = beginning(setup, sets, seen)
     start, looks = grown(setup, start, seed, say)
+    if start.effects and not looks:
+        # What the release named leaves no room for a look, in which it would have been fitted to its end.
+        start = finished(setup, start, seed)
     if len(start.effects) == 2 and (needless := [e for e in start.effects if size_of(start, e) < rules.LEAST_SIZE]):
         start = without(setup, start, needless[0])
         say(f"  without {needless[0]}: structured {structured(start):.3f}, room {room(start):.0f}")

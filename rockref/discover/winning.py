@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -35,6 +36,12 @@ def upheld(look: Look, winner: Family, second: bool, seed: int, say: Callable[[s
     return None
 
 
+def finished(setup: Setup, family: Family, seed: int) -> Family:
+    """A family fitted as far as it goes, from changed sizes too."""
+    family = Family(family.effects, family.fit.twin(setup.log), family.point)
+    return resized(setup, refit(family, 3 * POLISH, seed, relative=LITTLE / 5), seed)
+
+
 def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int, say: Callable[[str], None]) -> Family:
     """The winner and its nearest rivals fitted as far as they go; the best of them that is an effect. Gains are mended.
 
@@ -42,15 +49,11 @@ def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int
     Where most windows contradict the winner another effect is missing, and its rivals stay where they are.
     """
 
-    def finished(own: Setup, family: Family) -> Family:
-        family = Family(family.effects, family.fit.twin(own.log), family.point)
-        return resized(own, refit(family, 3 * POLISH, seed, relative=LITTLE / 5), seed)
-
     least = CONTENDS * look.gains[winner.effects[-1]]
     rivals = [f for f in look.order if f.effects != winner.effects and look.gains[f.effects[-1]] > least]
     if structured(winner) > MISSING:
         rivals = []
-    ended = ranked(look.kept, side_by_side(setup, finished, [winner, *rivals[:CONTENDERS]]), say)
+    ended = ranked(look.kept, side_by_side(setup, partial(finished, seed=seed), [winner, *rivals[:CONTENDERS]]), say)
     look.gains |= {id: max(gain, look.gains[id]) for id, gain in ended.gains.items()}
     left = [f for f in look.order if f.effects[-1] not in ended.gains]
     look.order = sorted([*ended.order, *left], key=lambda f: -look.gains[f.effects[-1]])

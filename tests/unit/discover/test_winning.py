@@ -10,7 +10,7 @@ from rockref.discover import winning
 from rockref.discover.families import gain_over
 from rockref.discover.fit import Parameter
 from rockref.discover.looking import Look
-from rockref.discover.winning import CONTENDS, exchanged, to_the_end, upheld
+from rockref.discover.winning import CONTENDS, exchanged, finished, to_the_end, upheld
 from tests.unit.discover.bowls import ALONE, Bowl, family
 
 ROLLING, DRAG = ("rolling_resistance",), ("quadratic_drag",)
@@ -44,6 +44,11 @@ def test_a_baseline_that_does_as_well_from_there_leaves_no_effect():
     look = looked(kept, wider)
     assert look.gains["rolling_resistance"] > rules.DETECTED
     assert upheld(look, wider, False, 0, quiet) is None
+
+
+def test_what_is_finished_has_arrived():
+    halfway = family(ROLLING, Bowl(np.array([0.2, 0.5])), np.array([0.0, 0.25]))
+    np.testing.assert_allclose(finished(ALONE, halfway, 0).point.z, [0.2, 0.5], atol=1e-3)
 
 
 def test_a_rival_that_had_not_arrived_overtakes():
