@@ -58,13 +58,21 @@ def spec_of(words: str) -> str:
 
 
 def models_and_others(texts: Iterable[str], effects: Iterable[str] | None) -> tuple[list[Model], list[str]]:
-    """The models, and of the effects that are named those that are no user's own effect of any of them."""
-    from rockref.effects.catalogue import names_file
+    """The models, and of the effects that are named those that are no user's own effect of any of them.
+
+    Raises InputError (E-EFFECT) for numbers beside the name of one that a model has: they would change nothing.
+    """
+    from rockref.model.errors import InputError
 
     effects = list(effects or ())
     known_files(effects)
     models = [named_model(text) for text in texts]
-    return models, [words for words in effects if not (names_file(words) and any(has(m, words) for m in models))]
+    theirs = [words for words in effects if any(has(m, words) for m in models)]
+    for words in theirs:
+        if words.strip() != spec_of(words):
+            what = "has more than a name: the effect stays as the model has it"
+            raise InputError("E-EFFECT", f"--effect {words}", what, f"Write {spec_of(words)}.")
+    return models, [words for words in effects if words not in theirs]
 
 
 def has(model: Model, words: str) -> bool:

@@ -63,10 +63,13 @@ def identify_experiment(
 
 
 def check_searched(base: Model | None, genes: int) -> None:
-    """Refuse a model with which some genes would change nothing (E-MOOT)."""
+    """Refuse a model on other points than are searched, or with which some genes would change nothing (E-MOOT)."""
     if base is not None and base.points == "custom":
         what = "stands on points of its own, and eight points are searched"
         raise InputError("E-MOOT", "--model", what, "Take [custom_points] out.")
+    if base is not None and base.points == "four_points":
+        cure = "Give a model on eight points; rockref fit takes four."
+        raise InputError("E-MOOT", "--model", "stands on four points, and eight are searched", cure)
     if base is not None and base.properties is not None and genes == 12:
         what = "states the properties of its points, so that stiffness, damping and friction of the 12 change nothing"
         raise InputError("E-MOOT", "--model", what, "Use --genes 54, or take [properties] out.")
