@@ -70,7 +70,7 @@ def models_and_others(texts: Iterable[str], effects: Iterable[str] | None) -> tu
     theirs = [words for words in effects if any(has(m, words) for m in models)]
     for words in theirs:
         if words.strip() != spec_of(words):
-            what = "has more than a name: the effect stays as the model has it"
+            what = "gives numbers to an effect that a model has, which stays as the model has it"
             raise InputError("E-EFFECT", f"--effect {words}", what, f"Write {spec_of(words)}.")
     return models, [words for words in effects if words not in theirs]
 

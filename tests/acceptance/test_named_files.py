@@ -112,6 +112,14 @@ def test_a_command_that_adds_none_says_so(capsys, folder, words, effect):
     assert code == 2 and "this command adds none" in err and "[E-EFFECT]" in err
 
 
+@pytest.mark.parametrize(
+    "words", ["compare EXPERIMENT", "diagnose EXPERIMENT", "plan", "sensitivity", "identify EXPERIMENT", "fit TOSSES"]
+)
+def test_numbers_that_would_change_nothing_are_refused(capsys, folder, words):
+    code, err = said(capsys, f"{words} --model MODEL --effect mine.py:EddyBrake:c=0.9")
+    assert code == 2 and "stays as the model has it. Write mine.py:EddyBrake." in err and "[E-EFFECT]" in err
+
+
 def test_the_effect_that_is_added_names_its_file_too(capsys, monkeypatch, folder):
     """A second class of the same file is added to a model that has the first."""
     other = (folder / "mine.py").read_text(encoding="utf-8").replace("EddyBrake", "Second").replace("eddy_", "second_")

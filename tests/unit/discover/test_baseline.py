@@ -99,6 +99,13 @@ def test_identify_finds_properties_only_as_54(capsys, tmp_path, monkeypatch):
     assert code == 2 and "Use --genes 54" in told.err
 
 
+def test_identify_does_not_search_eight_points_for_a_model_on_four(capsys, tmp_path, monkeypatch):
+    two_runs(tmp_path / "EXPERIMENT")
+    monkeypatch.chdir(tmp_path)
+    code, told = said(capsys, "identify", "EXPERIMENT", "--model", "four_points")
+    assert code == 2 and "stands on four points, and eight are searched" in told.err and "[E-MOOT]" in told.err
+
+
 @pytest.mark.parametrize(
     "command, place",
     [
