@@ -128,13 +128,14 @@ def significant_digits(
 
     A value with d digits may be off by half of the last. The response has not changed where the quadratic mean of the
     difference up to the second main impact is below `threshold` of that of the response, about both the transverse and
-    the longitudinal axis, for either sign and for all finer digits. What does not act in the model has no row.
+    the longitudinal axis, for either sign and for all finer digits. What does not act in the model, or is zero,
+    has no row.
     """
     genes = chromosome_12(model.parameters)
     base_run = rates([model.problem(1.6, step, OUTPUT_RATE)], workers)[0]
     t = np.arange(len(base_run)) / OUTPUT_RATE
     until = float(main_impacts(t, base_run).times[1])
-    acting = [GENES_12.index(name) for name in varied(model)]
+    acting = [i for i in (GENES_12.index(name) for name in varied(model)) if genes[i] != 0]
     trials = [(i, d, sign) for i in acting for d in range(1, most + 1) for sign in (-1, 1)]
     problems, possible = [], []
     for i, d, sign in trials:

@@ -75,13 +75,16 @@ def study(
 
 
 def record(study: Study) -> dict[str, Any]:
-    """What the study found, for JSON; a horizon that was not reached within the run is null."""
+    """What the study found, for JSON.
+
+    Null: a horizon that was not reached within the run; a change that is infinite, where nothing moved before.
+    """
     return {
         "schema": SCHEMA,
         "seed": study.seed,
         "versions": versions(),
         "families": {name: _family(f) for name, f in study.families().items()},
-        "significant_digits": [asdict(d) for d in study.digits],
+        "significant_digits": [{k: None if v == np.inf else v for k, v in asdict(d).items()} for d in study.digits],
         "growth": {
             "factor_per_impact": study.growth.per_impact,
             "spread_factor": study.growth.spread,

@@ -38,8 +38,8 @@ def sentences(result: dict[str, Any]) -> list[str]:
     ]
     acting = [d["name"] for d in result["significant_digits"]]
     if left_out := [name for name in TABLE_3_1 if name not in acting]:
-        said.append(f"Left out, since they change nothing in this model: {', '.join(left_out)}.")
-    if not any(d["change_stated"] for d in result["significant_digits"]):
+        said.append(f"Without digits, since they are zero or change nothing in this model: {', '.join(left_out)}.")
+    if all(d["change_stated"] == 0 for d in result["significant_digits"]):
         said.append(
             "The block stays in its plane: the digits, which are read off the two other axes, say nothing of it."
         )
@@ -60,6 +60,11 @@ def horizons_table(result: dict[str, Any]) -> Table:
     return Table("Until when responses agree", columns, rows, note)
 
 
+def percent(change: float | None, places: int) -> str:
+    """A change of the response as it is shown; None is infinite."""
+    return "∞" if change is None else f"{100 * change:.{places}f} %"
+
+
 def digits_table(result: dict[str, Any]) -> Table:
     """The significant digits of Table 3.1, as stated and by the definition."""
     rows = [
@@ -67,16 +72,17 @@ def digits_table(result: dict[str, Any]) -> Table:
             d["name"],
             f"{d['value']:.4g}",
             str(d["stated"]),
-            f"{100 * d['change_stated']:.0f} %",
+            percent(d["change_stated"], 0),
             str(d["found"]),
-            f"{100 * d['change']:.1f} %",
+            percent(d["change"], 1),
         ]
         for d in result["significant_digits"]
     ]
+    endless = any(None in (d["change_stated"], d["change"]) for d in result["significant_digits"])
     note = (
         "Change: of the response up to the second main impact when the value is off by half of its last digit, about "
         "the axis that changes more, transverse or longitudinal. Found: the fewest digits that change it by less than "
-        "a tenth."
+        "a tenth." + (" ∞: about an axis with no motion before, or the tilt is impossible." if endless else "")
     )
     columns = ("parameter", "value", "digits stated", "change", "digits found", "change")
     return Table("Significant digits of Table 3.1", columns, rows, note)

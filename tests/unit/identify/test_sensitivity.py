@@ -1,5 +1,7 @@
 """What changes a response and until when: families that agree with themselves, digits by their definition, growth."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -18,6 +20,7 @@ from rockref.identify.sensitivity import (
 from rockref.identify.sensitivity_study import record, study
 from rockref.model.errors import InputError
 from rockref.model.parameters import TABLE_3_1
+from rockref.report.sensitivity_text import digits_table, sentences
 
 
 @pytest.fixture(scope="module")
@@ -121,3 +124,16 @@ def test_no_motion_about_an_axis_is_no_difference_unless_the_other_moves():
 def test_one_time_step_is_compared_with_nothing(table_3_1):
     with pytest.raises(InputError, match="Give two at least"):
         time_steps(table_3_1, (1e-5,), 0.1)
+
+
+def test_a_block_in_its_plane_until_a_foot_is_off_is_written_as_json(table_3_1):
+    """Its other axes are at rest, so a change is infinite; JSON has no such number. A height of zero has no digits."""
+    even = table_3_1.replace(delta_long=(4e-4, 4e-4, 4e-4, 4e-4))
+    found = record(study(even, 1, 1.6, (2e-5, 1e-5), 2, workers=1))
+    json.dumps(found, allow_nan=False)
+    changes = {d["name"]: d["change_stated"] for d in found["significant_digits"]}
+    assert changes["delta_long_1"] is None and changes["K_N"] == 0.0
+    table, said = digits_table(found), " ".join(sentences(found))
+    assert "∞" in [row[3] for row in table.rows] and "∞: " in table.note and "in its plane" not in said
+    low = significant_digits(table_3_1.replace(delta_long=(9e-4, 8e-4, 0.0, 4e-4)), workers=1, most=4)
+    assert "delta_long_3" not in [d.name for d in low] and len(low) == 11
