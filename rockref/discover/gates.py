@@ -43,7 +43,7 @@ class Gate:
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers and words."""
         return {
-            "name": self.name, "passed": self.passed, "value": round(self.value, 4), "limit": self.limit,
+            "name": self.name, "passed": bool(self.passed), "value": round(float(self.value), 4), "limit": self.limit,
             "sentence": self.sentence,
         }  # fmt: skip
 

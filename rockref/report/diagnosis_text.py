@@ -99,7 +99,11 @@ def amplitudes_table(d: dict[str, Any]) -> Table:
     for name, a in d["amplitudes"].items():
         unit = "" if a["unit"] == "1" else a["unit"]
         rows.append([name, *(number(a[k]) for k in ("value", "low", "high")), unit])
-    return Table("How large", ("number", "value", "low", "high", "unit"), rows, "Intervals of 90 %.")
+    note = "Intervals of 90 %."
+    bounds = d.get("gates", {}).get("off_bounds")
+    if bounds and not bounds["passed"]:
+        note += f" Take them with care: {bounds['sentence']}"
+    return Table("How large", ("number", "value", "low", "high", "unit"), rows, note)
 
 
 def number(value: float | None) -> str:

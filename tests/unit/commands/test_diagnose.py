@@ -61,6 +61,22 @@ def test_verdict_comes_first_and_errors_before_and_after(capsys, monkeypatch, ma
     assert "Turn the block <by half a turn> & repeat." in out
 
 
+def test_sizes_come_with_a_caution_where_a_number_is_at_its_bound(capsys, monkeypatch, made):
+    found = fakes.diagnosis("named", made)
+    answer(monkeypatch, found)
+    assert "with care" not in run(capsys, "anywhere")[1]
+    sentence = "gyro_misalignment.xz is farthest from the centre of its prior: 6.7 deviations."
+    found.gates["off_bounds"] = {
+        "name": "off_bounds",
+        "passed": False,
+        "value": 6.7,
+        "limit": 3.0,
+        "sentence": sentence,
+    }
+    out = " ".join(run(capsys, "anywhere")[1].split())
+    assert f"Take them with care: {sentence}" in out
+
+
 def test_nothing_found_shows_no_amplitude(capsys, monkeypatch, made):
     answer(monkeypatch, fakes.diagnosis("none", made))
     _, out, _ = run(capsys, "anywhere")
