@@ -119,6 +119,11 @@ def short(words: str) -> str:
     return words if len(words) <= SHOWN else words[: SHOWN - 3] + "..."
 
 
+def short_path(path: str) -> str:
+    """A path as a message shows it: its end says which file it is."""
+    return path if len(path) <= SHOWN else "..." + path[3 - SHOWN :]
+
+
 def find(id: str, where: str = "effect") -> type[Effect]:
     """The effect of this id: of the catalogue, or a user's own that this process was told of. No file is run for it.
 
@@ -269,7 +274,7 @@ def trusted(spec: str, place: str) -> str:
     """
     path = file_and_class(spec)[0]
     if not os.path.isfile(path):
-        raise InputError("E-FILE", place, f"names {short(path)!r}, which is no file", "Check the path.")
+        raise InputError("E-FILE", place, f"names {short_path(path)!r}, which is no file", "Check the path.")
     if os.path.realpath(path) in NAMED:
         return spec
     # It may stand in a command line, and comes from data.

@@ -76,9 +76,12 @@ def test_a_model_file_names_it_from_where_it_lies(tmp_path, monkeypatch):
     ],
 )
 def test_a_model_file_that_names_no_file_is_explained(tmp_path, value, said):
-    (tmp_path / "model.toml").write_text(f"[effects.mine]\nfile = {value}\n", encoding="utf-8")
+    # In a folder of a long name, too, the message ends with the file's own.
+    folder = tmp_path / ("deep" * 30)
+    folder.mkdir()
+    (folder / "model.toml").write_text(f"[effects.mine]\nfile = {value}\n", encoding="utf-8")
     with pytest.raises(InputError) as found:
-        Model.load(tmp_path / "model.toml")
+        Model.load(folder / "model.toml")
     assert said in str(found.value)
 
 
