@@ -234,10 +234,6 @@ def conclude(
         loud=(loud(final.point.loss, final.fit.series.count), loud(with_effect.loss, with_effect.count)),
     )
     decision = rules.decide(facts)
-    # What was there before the last look is ranked by what all gain over the plain baseline, and not by what it had in
-    # that look, where it may have stood as a second effect.
-    before = [e for e in final.effects if e not in look.gains or e != final.effects[-1]]
-    gains = look.gains | {e: gain_between(null, final) for e in before}
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
     card = signature(null.fit, null.point, final.fit, final.point)
     noise = float(np.degrees(gyro_of(setup.experiment).noise))
@@ -251,7 +247,7 @@ def conclude(
         experiment=experiment,
         verdict=decision.verdict,
         effects=decision.effects,
-        ranking=rules.ranking(gains),
+        ranking=rules.ranking(ranked_by(null, final, look)),
         amplitudes=amplitudes(final) if kept else {},
         error={
             "unit": "deg/s RMS",
@@ -273,6 +269,16 @@ def conclude(
         seconds=time.perf_counter() - begun,
         model=shown.fit.models(shown.point.z)[0][0],
     )
+
+
+def ranked_by(null: Family, final: Family, look: Look) -> dict[str, float]:
+    """Gain of every effect, by which it is ranked: that of the last look.
+
+    What was there before that look counts with what all gain over the plain baseline, and not with what it had in the
+    look, where it may have stood as a second effect.
+    """
+    before = [e for e in final.effects if e not in look.gains or e != final.effects[-1]]
+    return look.gains | {e: gain_between(null, final) for e in before}
 
 
 def clipped(experiment: Experiment, seen: dict) -> bool:

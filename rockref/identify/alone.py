@@ -23,7 +23,7 @@ def alone_in(folder: Path) -> Iterator[None]:
     except ImportError:
         yield
         return
-    descriptor = os.open(folder, os.O_RDONLY)  # children do not inherit it
+    descriptor = os.open(folder, os.O_RDONLY)  # workers are spawned, and do not inherit it
     try:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)

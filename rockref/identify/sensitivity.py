@@ -92,8 +92,8 @@ def last_digits(
     rng, genes = np.random.default_rng(seed), chromosome_12(model.parameters)
     half = np.array([0.5 * given.precision for given in TABLE_3_1.values()])
     half[GENES_12.index("theta_0")] = 0.0
-    varied = [genes, *(genes + half * rng.choice([-1.0, 1.0], len(genes)) for _ in range(trials))]
-    models = [model.replace(parameters=from_chromosome_12(g)) for g in varied]
+    changed = [genes, *(genes + half * rng.choice([-1.0, 1.0], len(genes)) for _ in range(trials))]
+    models = [model.replace(parameters=from_chromosome_12(g)) for g in changed]
     crv = rates([m.problem(duration, step, OUTPUT_RATE) for m in models], workers)
     return family(["as stated", *(f"trial {i + 1}" for i in range(trials))], crv)
 

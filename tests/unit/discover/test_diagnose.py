@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rockref.discover import diagnose
-from rockref.discover.diagnose import beginning, without
+from rockref.discover.diagnose import beginning, ranked_by, without
+from rockref.discover.looking import Look
 from tests.unit.discover.bowls import WINDOWS, Bowl, family
 
 
@@ -48,3 +49,14 @@ def test_what_the_release_suggested_is_built_on_if_it_explains_what_follows(monk
     null, start = beginning(setup, [(), ("gyro_scale",)], seen)
     assert (null.effects, start.effects) == ((), builds_on)
     assert asked == [(), ("gyro_scale",)] + [()] * (sensor > 1.5)
+
+
+def test_the_first_of_a_pair_is_ranked_by_what_both_gain():
+    """It may have a small gain of its own in the last look, as a second effect beside the one whose place it took."""
+    null = family((), Bowl(np.zeros(1), floor=1.5), np.zeros(1))
+    pair = family(("rolling_resistance", "quadratic_drag"), Bowl(np.array([0.1, 0.5, 1.0])), [0.1, 0.5, 1.0])
+    gains = ranked_by(null, pair, Look(null, [], {"rolling_resistance": 5.0, "quadratic_drag": 300.0, "adhesion": 7.0}))
+    assert gains["rolling_resistance"] > 100 and gains["quadratic_drag"] == 300.0 and gains["adhesion"] == 7.0
+    # What the release named was in no look.
+    alone = family(("rolling_resistance",), Bowl(np.array([0.1, 0.5])), [0.1, 0.5])
+    assert ranked_by(null, alone, Look(alone, [], {}))["rolling_resistance"] > 100
