@@ -10,10 +10,11 @@ import numpy as np
 
 from rockref.model.rotation import apply, apply_to_points, cross
 
+PRECISIONS = (np.float32, np.float64, np.longdouble)
+#: Zero in each precision, as an array: NumPy meets it twice as fast as Python's.
+ZERO = {np.dtype(real): np.zeros((), real) for real in PRECISIONS}
 #: Sums of two squares above it are rounded like any other number, in each precision.
-LEAST_SQUARE = {
-    np.dtype(real): np.finfo(real).tiny / np.finfo(real).eps for real in (np.float32, np.float64, np.longdouble)
-}
+LEAST_SQUARE = {np.dtype(real): np.array(np.finfo(real).tiny / np.finfo(real).eps) for real in PRECISIONS}
 
 
 class Kinematics(NamedTuple):
@@ -65,7 +66,8 @@ def point_kinematics(x, Lambda, v, W, P, radius=None, plate=None) -> Kinematics:
 
 def kelvin_voigt(xi: np.ndarray, xi_rate: np.ndarray, K_N: np.ndarray, C_N: np.ndarray) -> np.ndarray:
     """Rule N1: Kelvin-Voigt normal force without tension [N], for xi >= 0. All (..., n). Source: (3.5a)."""
-    return np.maximum(K_N * xi + C_N * xi_rate, 0)  # (3.5a)
+    F = K_N * xi + C_N * xi_rate
+    return np.maximum(F, ZERO[F.dtype])  # (3.5a)
 
 
 def altered_normal_force(k: Kinematics, points, effects) -> np.ndarray:
@@ -81,7 +83,7 @@ def altered_normal_force(k: Kinematics, points, effects) -> np.ndarray:
 
 def open_gap(xi: np.ndarray, F_N: np.ndarray) -> np.ndarray:
     """Rule N2: no normal force [N] where the point is above the plate, xi [m] < 0. All (..., n). Source: (3.5b)."""
-    return F_N * (xi >= 0)  # (3.5b)
+    return F_N * (xi >= ZERO[xi.dtype])  # (3.5b)
 
 
 def touch(xi: np.ndarray, u_t: np.ndarray, s: np.ndarray, had_anchor: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -98,7 +100,7 @@ def touch(xi: np.ndarray, u_t: np.ndarray, s: np.ndarray, had_anchor: np.ndarray
 
     Decided (the source is silent): the anchor dies with the contact and is born at the next touching point.
     """
-    touching = xi >= 0
+    touching = xi >= ZERO[xi.dtype]
     keep = touching & had_anchor
     return np.where(keep[..., None], s, u_t), touching
 
@@ -122,11 +124,12 @@ def norm(F: np.ndarray) -> np.ndarray:
     Where the sum of squares leaves the normal numbers the larger component is taken out first: otherwise a force of
     1e-170 N has length zero and passes the test of the cone although it is outside.
     """
-    x, y = F[..., 0], F[..., 1]
-    squares = x * x + y * y
+    squares = F * F
+    squares = squares[..., 0] + squares[..., 1]
     small = squares < LEAST_SQUARE[F.dtype]
     size = np.sqrt(squares)
     if np.count_nonzero(small):
+        x, y = F[..., 0], F[..., 1]
         largest = np.maximum(np.abs(x), np.abs(y))
         unit = np.where(largest > 0, largest, 1)
         size = np.where(small, largest * np.sqrt((x / unit) * (x / unit) + (y / unit) * (y / unit)), size)
