@@ -148,6 +148,17 @@ def say_left_out(model: Model, where: str) -> None:
     print(f"rockref: {Notice('W-MOOT', where, what, 'They are left out; rockref fit takes effects.')}", file=sys.stderr)
 
 
+def say_other_points(stated: str, where: Path) -> None:
+    """Print a remark on standard error where an experiment states other points than are searched."""
+    if stated == "eight_points":
+        return
+    from rockref.measure.notice import Notice
+
+    what = f"states {stated} as its baseline, and eight points are searched"
+    cure = "rockref fit finds the parameters of the points that are stated."
+    print(f"rockref: {Notice('W-MOOT', str(where), what, cure)}", file=sys.stderr)
+
+
 def labels(texts: Sequence[str]) -> list[str]:
     """Return a short name for each model: the file's without its ending; what is twice keeps its path."""
     short = [text if text in NAMED else Path(text).stem for text in texts]

@@ -47,12 +47,12 @@ def identify(
       rockref identify data/experiments/mystery-08 -o identified --resume
       rockref identify data/experiments/mystery-08 --dask tcp://127.0.0.1:8786
     """
-    from rockref.commands._models import named_models, say_left_out
+    from rockref.commands._models import named_models, say_left_out, say_other_points
     from rockref.commands._results import say_written
     from rockref.commands._searching import searching
     from rockref.identify.alone import alone_in
     from rockref.identify.campaign import campaign
-    from rockref.identify.from_experiment import identify_experiment
+    from rockref.identify.from_experiment import answered, question
     from rockref.identify.outcome import files_in
     from rockref.identify.search import Settings
     from rockref.model.storage import write_text
@@ -60,12 +60,12 @@ def identify(
 
     (base,) = named_models([model], effect)
     say_left_out(base, model)
+    asked = question(experiment, base, genes, search_runs)
+    say_other_points(asked.stated, experiment)
     folder = made_folder(output)
     with alone_in(folder), searching(verbose) as say, campaign(workers, dask) as work:
-        result, found = identify_experiment(
-            experiment, Settings(population, generations, seed), work, folder, base=base, genes=genes,
-            search_runs=search_runs, resume=resume, report=say,
-        )  # fmt: skip
+        settings = Settings(population, generations, seed)
+        result, found = answered(asked, settings, work, folder, resume=resume, report=say)
         files = files_in(folder)
         text = json.dumps(result, indent=1)
         write_text(files["result"], text + "\n")

@@ -3,43 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rockref.api import Model
 from rockref.identify.campaign import Campaign
-from rockref.identify.genes import space_12, space_54
+from rockref.identify.genes import Space, space_12, space_54
 from rockref.identify.identifiability import identifiability
 from rockref.identify.identification import ROUNDS, identify
 from rockref.identify.outcome import found_model, record
 from rockref.identify.polish import Effort
 from rockref.identify.runs import run_errors
 from rockref.identify.search import Progress, Settings
-from rockref.identify.target import chosen_runs, targets_of
+from rockref.identify.target import Target, chosen_runs, targets_of
 from rockref.measure.experiment import load_experiment
 from rockref.model.errors import InputError
 
 
-def identify_experiment(
-    experiment: Path,
-    settings: Settings,
-    work: Campaign,
-    folder: Path,
-    *,
-    base: Model | None = None,
-    genes: int = 12,
-    search_runs: str | None = None,
-    resume: bool = False,
-    report: Callable[[Any, str, Progress], None] | None = None,
-    effort: Effort = Effort(),  # noqa: B008 - frozen
-    rounds: int = ROUNDS,
-) -> tuple[dict[str, Any], Model]:
-    """The record (`rockref.identify.outcome.record`) and the model that were identified from an experiment.
+@dataclass(frozen=True)
+class Question:
+    """What is to be identified, checked: nothing was written for it, and no holdout run was opened.
 
-    folder : of the checkpoints;  base : gives what is not searched;  genes : 12 or 54;  search_runs : of the
-    evolutionary search, as "01,06";  report : called with (space, stage, progress).
+    targets : the fit runs;  chosen : those of the evolutionary search;  space : the genes;  stated : the baseline that
+    the experiment states.
+    """
 
-    Raises InputError (E-KEY, E-KIND, E-RUN, E-RESUME, E-MOOT, ...).
+    experiment: Path
+    targets: tuple[Target, ...]
+    chosen: tuple[Target, ...]
+    space: Space
+    stated: str
+
+
+def question(experiment: Path, base: Model | None = None, genes: int = 12, search_runs: str | None = None) -> Question:
+    """What is to be identified from an experiment's fit runs.
+
+    base : gives what is not searched;  genes : 12 or 54;  search_runs : of the evolutionary search, as "01,06".
+
+    Raises InputError (E-KEY, E-KIND, E-RUN, E-MOOT, ...).
     """
     if genes not in (12, 54):
         raise InputError("E-KEY", "--genes", f"is {genes}", "Use 12 or 54.")
@@ -51,14 +53,33 @@ def identify_experiment(
     )
     chosen = chosen_runs(targets, search_runs)
     space = (space_12 if genes == 12 else space_54)(model, chosen[0].tilt)
+    return Question(experiment, targets, chosen, space, data.baseline)
+
+
+def answered(
+    asked: Question,
+    settings: Settings,
+    work: Campaign,
+    folder: Path,
+    *,
+    resume: bool = False,
+    report: Callable[[Any, str, Progress], None] | None = None,
+    effort: Effort = Effort(),  # noqa: B008 - frozen
+    rounds: int = ROUNDS,
+) -> tuple[dict[str, Any], Model]:
+    """The record (`rockref.identify.outcome.record`) and the model that answer a question.
+
+    folder : of the checkpoints;  report : called with (space, stage, progress).  Raises InputError (E-RESUME, ...).
+    """
+    space, targets = asked.space, asked.targets
     say = None if report is None else (lambda stage, p: report(space, stage, p))
-    end = identify(space, chosen, targets, settings, work, folder, resume, say, rounds, effort=effort)
+    end = identify(space, asked.chosen, targets, settings, work, folder, resume, say, rounds, effort=effort)
     known = identifiability(space, targets, end.polished)
     # Only now, with the parameters fixed, are the holdout runs opened.
-    everything = load_experiment(experiment)
+    everything = load_experiment(asked.experiment)
     holdout = targets_of(everything, everything.holdout_runs())
     errors = run_errors(space, end.polished, targets, holdout)
-    result = record(end, known, errors, chosen, targets, settings, everything.digests)
+    result = record(end, known, errors, asked.chosen, targets, settings, everything.digests)
     return result, found_model(end, known, everything.digests, settings.seed)
 
 

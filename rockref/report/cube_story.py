@@ -9,7 +9,8 @@ from typing import Any
 
 from rockref.discover.tosses.compare import compare
 from rockref.discover.tosses.diagnose import diagnose
-from rockref.measure.tosses import load_tosses
+from rockref.identify.alone import alone_in
+from rockref.measure.tosses import Tosses, load_tosses
 from rockref.model.storage import write_bytes, write_text
 from rockref.report import toss_text
 from rockref.report.output import made_folder, usable_folder
@@ -28,12 +29,17 @@ def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[
     Raises
     ------
     InputError
-        E-FOLDER, where no tosses are named; E-WRITE, before the work, for a folder that cannot be written to.
+        E-FOLDER, where no tosses are named; E-WRITE, before the work, for a folder that cannot be written to; E-BUSY.
     """
     path = data or named_folder()
     usable_folder(folder)
     tosses = load_tosses(path)
-    folder = made_folder(folder)
+    with alone_in(made_folder(folder)):
+        return _made(tosses, folder, quick, say)
+
+
+def _made(tosses: Tosses, folder: Path, quick: bool, say: Callable[[str], None]) -> Path:
+    """The same in a folder that is there, of this process alone."""
     say("stated values")
     before = compare(tosses).to_dict()
     only: dict[str, Any] = {"candidates": ("mass_eccentricity",), "stages": ((25, 2), (120, 2))} if quick else {}

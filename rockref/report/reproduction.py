@@ -15,7 +15,7 @@ from rockref.engines import run
 from rockref.identify.alone import alone_in
 from rockref.identify.campaign import Campaign, campaign
 from rockref.identify.candidates import releases
-from rockref.identify.from_experiment import identify_experiment
+from rockref.identify.from_experiment import answered, question
 from rockref.identify.genes import space_12
 from rockref.identify.pieces import Pieces
 from rockref.identify.polish import Effort
@@ -153,8 +153,8 @@ def _studies(
 
     def identified() -> dict[str, Any]:
         assert experiment is not None
-        result, found = identify_experiment(
-            experiment, budget.identification, work, folder / "checkpoints", resume=True, rounds=0,
+        result, found = answered(
+            question(experiment), budget.identification, work, folder / "checkpoints", resume=True, rounds=0,
             effort=budget.identification_effort,
         )  # fmt: skip
         found.save(folder / "model.toml")

@@ -22,7 +22,7 @@ import numpy as np
 from rockref import cli
 from rockref.discover import diagnose as engine
 from rockref.identify.campaign import campaign
-from rockref.identify.from_experiment import identify_experiment
+from rockref.identify.from_experiment import answered, question
 from rockref.identify.polish import Effort
 from rockref.identify.search import Settings
 from rockref.model.storage import write_text
@@ -34,7 +34,7 @@ def identify(experiment: Path, folder: Path) -> None:
     effort = Effort(windows=(), steps=1, moves=0)
     settings = Settings(4, 12, seed=3)
     with campaign(1) as work:
-        record, model = identify_experiment(experiment, settings, work, folder, resume=True, effort=effort, rounds=0)
+        record, model = answered(question(experiment), settings, work, folder, resume=True, effort=effort, rounds=0)
     write_text(folder / "result.json", json.dumps(record))
     model.save(folder / "model.toml")
 

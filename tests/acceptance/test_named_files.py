@@ -25,7 +25,7 @@ COMMANDS = {
     "fit": ("fit EXPERIMENT --model MODEL", "rockref.discover.fitting.fit_experiment"),
     "diagnose": ("diagnose EXPERIMENT --model MODEL", "rockref.discover.diagnose.diagnose"),
     "add": ("add rolling_resistance EXPERIMENT --model MODEL", "rockref.discover.add.add"),
-    "identify": ("identify EXPERIMENT --model MODEL", "rockref.identify.from_experiment.identify_experiment"),
+    "identify": ("identify EXPERIMENT --model MODEL", "rockref.identify.from_experiment.question"),
     "plan": ("plan --model MODEL", "rockref.discover.plan.plan"),
     "sensitivity": ("sensitivity --model MODEL", "rockref.identify.sensitivity_study.study"),
     "compare tosses": ("compare TOSSES --model MODEL", "rockref.discover.tosses.compare.compare"),

@@ -6,12 +6,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rockref import cli
 from rockref.discover.blind import making, sealing
 from rockref.identify.alone import alone_in
 from rockref.model.errors import InputError
+from tests.shipped import two_runs
+from tests.tosses import write_tosses
 
 pytest.importorskip("fcntl", reason="this system cannot lock a folder")
 #: Another process that holds a folder and says so, until it is ended.
@@ -73,13 +76,21 @@ def test_what_cannot_be_locked_is_worked_in_all_the_same(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "words",
     [
-        "identify anywhere -o HERE",
+        "identify EXPERIMENT -o HERE",
         "reproduce source HERE --quick --data anywhere",
+        "reproduce cube HERE --quick --data TOSSES",
         "blind make HERE --seed 1",
         "blind score HERE",
     ],
 )
-def test_commands_that_keep_checkpoints_refuse_it_before_the_work(tmp_path, capsys, words, other):
+def test_commands_that_work_long_in_a_folder_refuse_it_before_the_work(
+    tmp_path, tmp_path_factory, capsys, words, other
+):
+    data = tmp_path_factory.mktemp("data")
+    two_runs(data / "EXPERIMENT")
+    write_tosses(data / "TOSSES", np.zeros((1, 30, 3)), np.broadcast_to(np.eye(3), (1, 30, 3, 3)))
+    for name in ("EXPERIMENT", "TOSSES"):
+        words = words.replace(name, str(data / name))
     (tmp_path / sealing.MANIFEST).write_text("{}")
     (tmp_path / sealing.SEALED).write_text("{}")
     before = {p: p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()}

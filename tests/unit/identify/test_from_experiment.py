@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from rockref.identify.campaign import campaign
-from rockref.identify.from_experiment import identify_experiment
+from rockref.identify.from_experiment import answered, question
 from rockref.identify.polish import Effort
 from rockref.identify.search import Settings
 from rockref.model.errors import InputError
@@ -60,14 +60,14 @@ def test_the_number_of_workers_changes_no_bit(control, tmp_path, monkeypatch):
         folder.mkdir()
         effort = Effort(windows=(), steps=1, moves=0)
         with campaign(workers) as work:
-            record, model = identify_experiment(control, Settings(5, 2, seed=5), work, folder, effort=effort, rounds=1)
+            record, model = answered(question(control), Settings(5, 2, seed=5), work, folder, effort=effort, rounds=1)
         model.save(folder / "model.toml")
         ends.append(json.dumps(record).encode() + b"".join(p.read_bytes() for p in sorted(folder.iterdir())))
         assert {p.name for p in folder.iterdir()} == {"model.toml", "search.json", "signals_1.json"}
     assert ends[0] == ends[1]
 
 
-def test_a_number_of_genes_that_is_not_known_is_refused(control, tmp_path):
-    with pytest.raises(InputError) as error, campaign(1) as work:
-        identify_experiment(control, Settings(4, 1), work, tmp_path, genes=13)
+def test_a_number_of_genes_that_is_not_known_is_refused(control):
+    with pytest.raises(InputError) as error:
+        question(control, genes=13)
     assert error.value.code == "E-KEY" and error.value.where == "--genes"
