@@ -18,7 +18,7 @@ export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 export MKL_NUM_THREADS := 1
 
-.PHONY: help env demo test test-all test-oldest fuzz golden bench docs peers mutate dist lint format clean
+.PHONY: help env demo test test-all test-oldest fuzz golden bench docs peers mutate audit dist lint format clean
 
 help:  ## list the targets
 	@echo 'make <target>, where <target> is one of'
@@ -105,11 +105,16 @@ test-oldest: env  ## the tests of the law, the readers and the engines with the 
 SMALL_TESTS := tests/unit/model tests/unit/measure tests/unit/engines tests/unit/effects tests/unit/test_api.py \
   tests/unit/test_model_file.py tests/property
 
+# Asks the package index about every package of .venv; --strict: one that it cannot answer for is no success.
+audit: env  ## known weaknesses of what is installed (needs the network)
+	@$(PY) -m venv $(VENV)-audit && $(VENV)-audit/bin/python -m pip install -qq --disable-pip-version-check pip-audit
+	$(VENV)-audit/bin/pip-audit --strict --skip-editable --path "$$($(PY) -c 'import sysconfig as s; print(s.get_path("purelib"))')"
+
 dist: env  ## build wheel and source archive into dist/
 	@$(PIP) build
 	$(PY) -m build --outdir dist .
 
 clean:  ## remove what the other targets made
-	rm -rf $(VENV) $(VENV)-oldest .fuzz build dist docs/_build mutants demo_out .pytest_cache .mypy_cache .ruff_cache .import_linter_cache \
+	rm -rf $(VENV) $(VENV)-oldest $(VENV)-audit .fuzz build dist docs/_build mutants demo_out .pytest_cache .mypy_cache .ruff_cache .import_linter_cache \
 	  .hypothesis .coverage htmlcov
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
