@@ -1,7 +1,7 @@
 """What the releases tell before anything is cut into windows."""
 
 from rockref import Model
-from rockref.discover.presearch import EXPLAINED, STRONG, release_fit, suspects
+from rockref.discover.presearch import EXPLAINED, HELD, STRONG, release_fit, suspects
 from rockref.discover.search import Setup
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
@@ -21,6 +21,15 @@ def test_a_wire_that_holds_on_is_found_at_the_release():
     fit, point = release_fit(setup, ("lingering_wire_pull",))
     force = dict(zip([p.name for p in fit.parameters], point.z, strict=True))["lingering_wire_pull.force"]
     assert abs(force - 2.0) < 0.2  # in typical sizes, of 3 N; the tilts of the runs take up a part
+
+
+def test_a_slight_pull_is_found_where_a_clock_explains_nearly_as_much():
+    """Half a typical pull: a block that starts late looks like one whose time runs slowly."""
+    setup = setup_of("lingering_wire_pull:force=1.4,tau=0.36")
+    _, sets, seen = suspects(setup)
+    shares = seen["release_shares"]
+    assert STRONG < seen["loss"] < HELD and shares["clock_error"] > EXPLAINED
+    assert sets[1] == ("lingering_wire_pull",) and shares["lingering_wire_pull"] > shares["clock_error"]
 
 
 def test_nothing_is_suspected_of_a_release_that_the_baseline_explains():
