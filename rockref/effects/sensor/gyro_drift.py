@@ -41,4 +41,4 @@ class GyroDrift(Effect):
             return crv
         bias = np.array((self.bias_x, self.bias_y, self.bias_z), crv.dtype)
         rate = np.array((self.rate_x, self.rate_y, self.rate_z), crv.dtype)
-        return crv + bias + np.asarray(t)[:, None] * rate
+        return crv + bias + np.asarray(t, crv.dtype)[:, None] * rate

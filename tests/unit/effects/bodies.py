@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from rockref.model.integrator import first_evaluation, prepared_inertia, step
+from rockref.model.contact import Kinematics
+from rockref.model.integrator import Contact, first_evaluation, prepared_inertia, step
 from rockref.model.problem import Block, ContactPoints, Problem, State, as_arrays
 
 H = 1e-5
@@ -60,3 +61,23 @@ def last(problem: Problem, steps: int) -> State:
     """The state after so many steps."""
     *_, state = walk(problem, steps)
     return state
+
+
+def contact(xi, r=0.0, xi_rate=0.0, v_slide=0.0, F_N=0.0, turn=(0.0, 0.0, 0.0), t=0.0, dtype=float) -> Contact:
+    """Points that do what is stated: they touch where xi (..., n) is not negative, and carry F_N alone."""
+    xi = np.asarray(xi, dtype)
+
+    def full(a, *core):
+        return np.array(np.broadcast_to(a, xi.shape + core), dtype)
+
+    F = full(0.0, 3)
+    F[..., 2] = F_N
+    k = Kinematics(full(r, 3), full(r, 3), full(0.0, 3), xi, full(xi_rate), full(v_slide, 2))
+    touching = xi >= 0
+    return Contact(t, k, touching, np.zeros_like(touching), full(0.0, 2), full(F_N), F, np.asarray(turn, dtype))
+
+
+#: A rotation without a zero: by the angles of the 3-4-5 triangle about x, then about z.
+TURNED = np.array([[0.8, -0.6, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 1.0]]) @ np.array(
+    [[1.0, 0.0, 0.0], [0.0, 0.8, -0.6], [0.0, 0.6, 0.8]]
+)
