@@ -12,8 +12,8 @@ class ClockError(Effect):
     """A row that the recorder dates t was taken at the true time rate * t: W_m(t) = W(rate t).
 
     Above 1 the recorder's clock is slow (its second is longer than a second) and the record looks hurried. Between the
-    rows that are given it is cubic. Where rate * t lies beyond the last row the last row is held: simulate `rate` times
-    as long to have none of it.
+    rows that are given it is cubic; one row alone stays as it is. Where rate * t lies beyond the last row the last row
+    is held: simulate `rate` times as long to have none of it.
     """
 
     id = "clock_error"
@@ -33,7 +33,7 @@ class ClockError(Effect):
     rate: float = 1.0
 
     def sensor(self, t, crv):
-        if self.is_absent():
+        if self.is_absent() or len(t) < 2:
             return crv
         from scipy.interpolate import CubicSpline
 

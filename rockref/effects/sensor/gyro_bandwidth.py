@@ -32,7 +32,8 @@ class GyroBandwidth(Effect):
     """A second-order low-pass, -3 dB at `frequency`; slow motion is late by 2 damping/omega.
 
     With damping 1/sqrt(2), by default, it is Butterworth's filter; far above one it is one of first order.
-    Exact for rates that are straight between samples; settled on the first sample. The rows must be evenly spaced.
+    Exact for rates that are straight between samples; settled on the first sample, so that one row alone stays as it
+    is. The rows must be evenly spaced.
     It comes on top of the bandwidth that an experiment's file states. `delay` shows all axes later by that much more,
     as digital filters and buses do; cubic between rows, the first row held before it. No fit looks for a delay: from a
     clock whose zero is not the release it cannot be told at all, and hardly from a tilt (1.4 mrad move the first main
@@ -66,7 +67,7 @@ class GyroBandwidth(Effect):
     delay: float = 0.0
 
     def sensor(self, t, crv):
-        if self.is_absent():
+        if self.is_absent() or len(t) < 2:
             return crv
         smooth = self.smoothed(np.asarray(t), crv) if math.isfinite(self.frequency) else crv
         if self.delay == 0.0:
