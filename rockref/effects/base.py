@@ -107,8 +107,8 @@ class Effect:
 
     def check(self, where: str) -> None:
         """Refuse values that are no numbers or are unphysical. Raises InputError (E-TYPE, E-RANGE)."""
-        for name, value in self.values().items():
-            q, place = self.quantities[name], f"{where}: {self.id} {name}"
+        for name, given in self.values().items():
+            q, place, value = self.quantities[name], f"{where}: {self.id} {name}", as_float(given)
             if value is None and q.absent is None:
                 continue
             if isinstance(value, bool) or not isinstance(value, (int, float)) or math.isnan(value):
@@ -159,6 +159,16 @@ class Effect:
     def sensor(self, t, crv):
         """What the gyroscope makes of the crv, (..., N, 3) [rad/s] at the instants t (N,) [s]."""
         return crv
+
+
+def as_float(value: Any) -> Any:
+    """A whole number as a float, infinite where it is larger than every float; anything else as it is."""
+    if isinstance(value, bool) or not isinstance(value, int):
+        return value
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
 
 
 def implausible(effect: Effect) -> list[tuple[str, str, str]]:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.effects.base import Effect
+from rockref.effects.base import Effect, as_float
 from rockref.effects.contact.adhesion import Adhesion
 from rockref.effects.contact.hertzian_contact import HertzianContact
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
@@ -176,8 +176,7 @@ def make(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
             near = difflib.get_close_matches(name.lower(), kind.quantities, 1)
             cure = f"Did you mean {near[0]!r}?" if near else f"It has {', '.join(kind.quantities) or 'none'}."
             raise InputError("E-KEY", where, f"{kind.id} has no parameter {short(name)!r}", cure)
-    plain = {k: float(v) if isinstance(v, int) and not isinstance(v, bool) else v for k, v in given.items()}
-    effect = kind(**plain)
+    effect = kind(**{name: as_float(value) for name, value in given.items()})
     effect.check(where)
     return effect
 

@@ -178,6 +178,8 @@ def test_an_effect_at_its_absent_value_is_absent():
         ({"quadratic_drag": {"c": "0.4"}}, "E-TYPE", "is '0.4'"),
         ({"quadratic_drag": {"c": True}}, "E-TYPE", "is True"),
         ({"quadratic_drag": {"c": [0.4]}}, "E-TYPE", "is [0.4]"),
+        ({"quadratic_drag": {"c": 10**400}}, "E-RANGE", "is inf N m s2"),
+        ({"plate_tilt": {"x": -(10**400)}}, "E-RANGE", "is -inf rad"),
         ({"quadratic_drag": {"cc": 0.4}}, "E-KEY", "Did you mean 'c'"),
         ([], "E-TYPE", "is not a table"),
     ],
