@@ -1,0 +1,241 @@
+"""What the guard of a user's own effect lets pass and what it refuses, hook by hook."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+from rockref import InputError
+from rockref.effects.base import Effect
+from rockref.effects.guard import AXES, LOOKS, NotFinite, are_finite, guard, line_in, numbers, pair
+from rockref.effects.probe import sample_problem
+from rockref.model.problem import as_arrays, stack
+
+PROBLEM = sample_problem()
+BATCH = as_arrays(stack([PROBLEM, PROBLEM]))
+#: The word for one run, and for two side by side.
+RUNS = pytest.mark.parametrize("problem", [PROBLEM, BATCH], ids=["one run", "two runs"])
+
+
+def refusal(call, *arguments):
+    """The error with which something is refused; its code and place are the same everywhere."""
+    with pytest.raises(InputError) as found:
+        call(*arguments)
+    assert (found.value.code, found.value.where) == ("E-EFFECT", "mine.py:Mine.hook")
+    return found.value.what, found.value.cure
+
+
+def looked(name, arguments, result):
+    """The error with which the result of a hook is refused."""
+    return refusal(LOOKS[name], "mine.py:Mine.hook", arguments, result)
+
+
+def passes(name, arguments, result):
+    """Whether the result of a hook is let pass."""
+    return LOOKS[name]("mine.py:Mine.hook", arguments, result) is None
+
+
+NOT_FINITE = ("a holds a number that is not finite", "Look for 0/0, roots and powers of negatives.")
+
+
+@pytest.mark.parametrize("a", [np.ones(2), [1.0, 2.0], (1, 2), np.array([True, False]), np.array([1, 2], np.uint8)])
+def test_numbers_may_be_of_any_kind_that_is_real(a):
+    numbers("here", "a", a, (2,))
+
+
+@pytest.mark.parametrize("a", ["ab", [[1.0], [1.0, 2.0]], {"a": 1.0}, np.array([1j, 2j]), None, np.array(["1", "2"])])
+def test_what_is_no_array_of_numbers_is_refused(a):
+    said = refusal(numbers, "mine.py:Mine.hook", "a", a, (2,))
+    assert said == (f"a is {type(a).__name__}", "Return an array of numbers.")
+
+
+def test_another_shape_and_numbers_that_are_not_finite_are_refused():
+    said = refusal(numbers, "mine.py:Mine.hook", "a", np.ones(3), (2,))
+    assert said == ("a has shape (3,), the law's has (2,)", AXES)
+    for lost in (np.nan, np.inf, -np.inf):
+        with pytest.raises(NotFinite):
+            numbers("mine.py:Mine.hook", "a", np.array([1.0, lost]), (2,))
+        assert refusal(numbers, "mine.py:Mine.hook", "a", np.array([1.0, lost]), (2,)) == NOT_FINITE
+
+
+def test_a_pair_is_a_tuple_of_two():
+    assert pair("here", (1, "b")) == (1, "b")
+    for given in (1.0, [1, 2], (1,), (1, 2, 3), None):
+        said = refusal(pair, "mine.py:Mine.hook", given)
+        assert said == (f"gives back {type(given).__name__}", "Return two things, with a comma between them.")
+
+
+@pytest.mark.parametrize(
+    "things, finite",
+    [
+        (np.ones(2), True), (np.array([1.0, np.nan]), False), (np.array([1.0, np.inf]), False), (1.5, True),
+        (np.inf, False), (np.arange(3), True), (np.array([True]), True), (("a", 1, PROBLEM, None), True), ({}, True),
+        ({"q": np.ones(2)}, True), ({"q": np.array([np.nan])}, False), ((np.ones(2), {"q": np.array(np.nan)}), False),
+        ((PROBLEM, (1.0, np.nan)), False),
+    ],
+)  # fmt: skip
+def test_arguments_are_finite_where_all_arrays_in_them_are(things, finite):
+    assert are_finite(things) is finite
+
+
+@RUNS
+def test_a_hook_of_points_gives_back_a_body_and_its_points(problem):
+    given = (problem.block, problem.points)
+    assert passes("points", given, given)
+    wider = replace(problem.points, P=np.zeros((*problem.points.P.shape[:-1], 4)))
+    n = problem.points.P.shape[:-1]
+    assert looked("points", given, (problem.block, wider)) == (
+        f"P has shape {(*n, 4)}, the law's has {(*n, 3)}", AXES
+    )  # fmt: skip
+    for key in ("K_N", "K_T", "C_N", "C_T", "mu_0", "mu"):
+        fewer = replace(problem.points, **{key: getattr(problem.points, key)[..., :5]})
+        said = f"{key} has shape {(*n[:-1], 5)}, the law's has {n}"
+        assert looked("points", given, (problem.block, fewer)) == (said, AXES)
+    for key in ("mass", "inertia"):
+        a = getattr(problem.block, key)
+        lost = replace(problem.block, **{key: a * np.nan})
+        assert looked("points", given, (lost, problem.points))[0] == f"{key} holds a number that is not finite"
+        odd = replace(problem.block, **{key: np.zeros((*np.shape(a), 5))})
+        said = f"{key} has shape {(*np.shape(a), 5)}, the law's has {np.shape(a)}"
+        assert looked("points", given, (odd, problem.points)) == (said, AXES)
+
+
+def test_points_may_be_more_than_they_were():
+    """As the eight of a block that had four."""
+    p = PROBLEM.points
+    four = replace(p, **{k: getattr(p, k)[:4] for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu", "names")})
+    assert passes("points", (PROBLEM.block, four), (PROBLEM.block, p))
+
+
+def test_a_hook_of_points_that_gives_back_something_else_is_told():
+    given = (PROBLEM.block, PROBLEM.points)
+    assert looked("points", given, PROBLEM.points)[0] == "gives back ContactPoints"
+    assert looked("points", given, given[::-1]) == ("gives back ContactPoints, Block", "Return block, points.")
+    assert looked("points", given, (PROBLEM.block, 1.0)) == ("gives back Block, float", "Return block, points.")
+    assert looked("points", given, (1.0, PROBLEM.points))[0] == "gives back float, ContactPoints"
+
+
+@RUNS
+def test_a_hook_of_the_release_gives_back_a_state_like_the_one_that_came_in(problem):
+    given = (problem.block, problem.points, problem.start)
+    assert passes("release", given, problem.start)
+    assert looked("release", given, None) == ("gives back NoneType", "Return dataclasses.replace(state, ...).")
+    for key in ("x", "Lambda", "v", "W"):
+        a = getattr(problem.start, key)
+        odd = replace(problem.start, **{key: a[..., :2]})
+        said = f"{key} has shape {a[..., :2].shape}, the law's has {a.shape}"
+        assert looked("release", given, odd) == (said, AXES)
+
+
+def test_a_memory_begins_with_the_runs():
+    assert passes("start", (PROBLEM,), {}) and passes("start", (PROBLEM,), {"q": 0.0, "held": np.zeros((8, 2))})
+    assert passes("start", (BATCH,), {"q": np.zeros(2), "held": np.zeros((2, 8))})
+    assert looked("start", (BATCH,), [1.0]) == ("gives back list", "Return a dict of arrays, or leave it out.")
+    assert looked("start", (BATCH,), {"q": np.zeros(2), "held": np.zeros((8, 2))}) == (
+        "memory 'held' has shape (8, 2) for a batch of shape (2,)",
+        "Begin its shape as those of the problem's arrays, with np.zeros_like.",
+    )
+
+
+@pytest.mark.parametrize("runs", [(), (2,), (2, 4)])
+def test_a_plate_moves_along_three_axes_or_not_at_all(runs):
+    good, short = np.zeros((*runs, 3)), np.zeros((*runs, 2))
+    assert passes("plate_motion", (0.0, {}), None) and passes("plate_motion", (0.0, {}), (good, good))
+    said = f"has shape {(*runs, 2)}, the law's has {(*runs, 3)}"
+    assert looked("plate_motion", (0.0, {}), (short, good)) == (f"displacement {said}", AXES)
+    assert looked("plate_motion", (0.0, {}), (good, short)) == (f"velocity {said}", AXES)
+    assert looked("plate_motion", (0.0, {}), good)[0] == "gives back ndarray"
+
+
+def test_a_normal_force_has_a_number_for_each_point():
+    given = (np.zeros(8), "kinematics", PROBLEM.points, {})
+    assert passes("normal_force", given, np.ones(8))
+    assert looked("normal_force", given, np.ones(7)) == ("F has shape (7,), the law's has (8,)", AXES)
+
+
+def test_both_coefficients_have_a_number_for_each_point():
+    given = (0.5, 0.4, np.zeros(8), "kinematics", PROBLEM.points, {})
+    good, short = np.ones(8), np.ones(7)
+    assert passes("friction_coefficient", given, (good, good))
+    said = "has shape (7,), the law's has (8,)"
+    assert looked("friction_coefficient", given, (short, good)) == (f"mu_0 {said}", AXES)
+    assert looked("friction_coefficient", given, (good, short)) == (f"mu {said}", AXES)
+    assert looked("friction_coefficient", given, good)[0] == "gives back ndarray"
+
+
+@RUNS
+@pytest.mark.parametrize("name", ["point_wrench", "body_wrench"])
+def test_force_and_moment_are_those_of_each_run(name, problem):
+    shape = problem.start.x.shape
+    good, short = np.zeros(shape), np.zeros((5, 3))
+    assert passes(name, (problem,), None) and passes(name, (problem,), (good, good))
+    said = f"has shape (5, 3), the law's has {shape}"
+    assert looked(name, (problem,), (short, good)) == (f"force {said}", AXES)
+    assert looked(name, (problem,), (good, short)) == (f"moment {said}", AXES)
+    assert looked(name, (problem,), 1.0)[0] == "gives back float"
+
+
+def test_a_memory_that_goes_on_is_finite():
+    assert passes("advance", (PROBLEM, "contact", 1e-5, {"q": np.zeros(3), "n": np.arange(2)}), None)
+    lost = {"q": np.zeros(3), "held": np.array([0.0, np.nan])}
+    assert looked("advance", (PROBLEM, "contact", 1e-5, lost), None) == (
+        "memory 'held'" + NOT_FINITE[0][1:],
+        NOT_FINITE[1],
+    )
+
+
+def test_a_sensor_shows_as_many_rates_as_came_in():
+    given = (np.arange(7.0), np.zeros((7, 3)))
+    assert passes("sensor", given, np.ones((7, 3)))
+    assert looked("sensor", given, np.ones((6, 3))) == ("crv has shape (6, 3), the law's has (7, 3)", AXES)
+
+
+def test_only_the_hooks_that_a_class_has_of_its_own_are_guarded():
+    @dataclass(frozen=True)
+    class Mine(Effect):
+        def sensor(self, t, crv):
+            return crv[:1]
+
+    guard(Mine, "mine.py:Mine")
+    assert Mine.normal_force is Effect.normal_force and Mine.release is Effect.release
+    with pytest.raises(InputError) as found:
+        Mine().sensor(np.arange(7.0), np.zeros((7, 3)))
+    assert (found.value.where, found.value.what) == (
+        "mine.py:Mine.sensor", "crv has shape (1, 3), the law's has (7, 3)"
+    )  # fmt: skip
+
+
+def fails_at_once():
+    raise KeyError("speed")
+
+
+def fails_further_in():
+    fails_at_once()
+
+
+def fails_deep_in():
+    fails_further_in()
+
+
+def line_of(function):
+    """The only line of a function."""
+    return function.__code__.co_firstlineno + 1
+
+
+@pytest.mark.parametrize("fails", [fails_at_once, fails_further_in, fails_deep_in])
+def test_the_line_of_an_error_is_the_last_one_in_the_file(fails):
+    from pathlib import Path
+
+    with pytest.raises(KeyError) as found:
+        fails()
+    assert line_in(found.value, Path(__file__)) == f", line {line_of(fails_at_once)}"
+    assert line_in(found.value, Path("another.py")) == ""
+
+
+def test_an_error_of_one_line_has_that_line():
+    from pathlib import Path
+
+    try:
+        raise KeyError("speed")
+    except KeyError as e:
+        assert line_in(e, Path(__file__)).startswith(", line ")
