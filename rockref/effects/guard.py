@@ -114,8 +114,13 @@ def look_at_points(where: str, arguments: tuple, result: Any) -> None:
     numbers(where, "P", points.P, np.shape(points.P)[:-1] + (3,))
     for key in PER_POINT:
         numbers(where, key, getattr(points, key), np.shape(points.P)[:-1])
-    numbers(where, "mass", block.mass, np.shape(arguments[0].mass))
-    numbers(where, "inertia", block.inertia, np.shape(arguments[0].inertia))
+    if points.radius is not None:
+        numbers(where, "radius", points.radius, np.shape(points.P)[:-1])
+    names, n = points.names, np.shape(points.P)[-2]
+    if not isinstance(names, tuple) or len(names) != n:
+        raise wrong(where, f"names are {names!r}"[:80], f"Give each of the {n} points a name, in a tuple.")
+    for key in ("mass", "inertia", "g"):
+        numbers(where, key, getattr(block, key), np.shape(getattr(arguments[0], key)))
 
 
 def look_at_release(where: str, arguments: tuple, result: Any) -> None:

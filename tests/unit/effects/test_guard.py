@@ -91,13 +91,25 @@ def test_a_hook_of_points_gives_back_a_body_and_its_points(problem):
         fewer = replace(problem.points, **{key: getattr(problem.points, key)[..., :5]})
         said = f"{key} has shape {(*n[:-1], 5)}, the law's has {n}"
         assert looked("points", given, (problem.block, fewer)) == (said, AXES)
-    for key in ("mass", "inertia"):
+    assert passes("points", given, (problem.block, replace(problem.points, radius=np.full(n, 1e-3))))
+    odd = replace(problem.points, radius=np.full(4, 1e-3))
+    assert looked("points", given, (problem.block, odd)) == (f"radius has shape (4,), the law's has {n}", AXES)
+    for key in ("mass", "inertia", "g"):
         a = getattr(problem.block, key)
         lost = replace(problem.block, **{key: a * np.nan})
         assert looked("points", given, (lost, problem.points))[0] == f"{key} holds a number that is not finite"
         odd = replace(problem.block, **{key: np.zeros((*np.shape(a), 5))})
         said = f"{key} has shape {(*np.shape(a), 5)}, the law's has {np.shape(a)}"
         assert looked("points", given, (odd, problem.points)) == (said, AXES)
+
+
+@RUNS
+@pytest.mark.parametrize("names", [("1ext", "2ext"), list(PROBLEM.points.names), None])
+def test_every_point_has_a_name(problem, names):
+    """A point without one would be missing in every table."""
+    odd = replace(problem.points, names=names)
+    what, cure = looked("points", (problem.block, problem.points), (problem.block, odd))
+    assert what == f"names are {names!r}"[:80] and cure == "Give each of the 8 points a name, in a tuple."
 
 
 def test_points_may_be_more_than_they_were():

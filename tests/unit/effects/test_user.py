@@ -148,6 +148,18 @@ MISTAKES = {
         "    def points(self, block, points):\n        return block, replace(points, K_N=points.K_N[:4])\n",
         "points: K_N has shape (4,), the law's has (8,)",
     ),
+    "radius of a foot, not of a point": (
+        "    def points(self, block, points):\n        return block, replace(points, radius=np.full(4, self.c))\n",
+        "points: radius has shape (4,), the law's has (8,)",
+    ),
+    "names lost": (
+        "    def points(self, block, points):\n        return block, replace(points, names=points.names[:5])\n",
+        "Give each of the 8 points a name",
+    ),
+    "gravity lost": (
+        "    def points(self, block, points):\n        return replace(block, g=block.g / (1 - self.c)), points\n",
+        "points: g holds a number that is not finite",
+    ),
     "release lost": ("    def release(self, block, points, state):\n        pass\n", "Return dataclasses.replace"),
     "sensor of one axis": ("    def sensor(self, t, crv):\n        return crv[:, 0]\n", "sensor: crv has shape (50,)"),
     "plate": ("    def plate_motion(self, t, m):\n        return 0.0\n", "plate_motion: gives back float"),
