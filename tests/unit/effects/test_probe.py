@@ -12,9 +12,6 @@ from rockref.effects.probe import absent_arguments, probe, probe_absent, same, s
 from rockref.model.integrator import evaluate_contact
 from rockref.model.problem import as_arrays, stack
 
-ONE = sample_problem()
-TWO = as_arrays(stack([ONE, ONE]))
-
 
 def alike(a, b):
     """Whether two arguments of a hook are equal in every number."""
@@ -28,13 +25,13 @@ def alike(a, b):
 
 
 def test_the_small_problem_is_the_sources_block_at_release_turning_a_little():
-    model = Model.table_3_1()
+    model, found = Model.table_3_1(), sample_problem()
     wanted = model.problem(duration=1.0, output_rate=2000.0, step=1e-5)
-    assert alike(ONE.block, wanted.block) and alike(ONE.points, wanted.points)
-    assert alike(replace(ONE.start, W=wanted.start.W), wanted.start)
+    assert alike(found.block, wanted.block) and alike(found.points, wanted.points)
+    assert alike(replace(found.start, W=wanted.start.W), wanted.start)
     # It turns about all axes, as slowly as a block that rocks.
-    assert np.all(ONE.start.W > 0) and np.all(ONE.start.W < 0.5)
-    assert (ONE.step, ONE.duration, ONE.output_rate, ONE.effects) == (1e-5, 1.0, 2000.0, ())
+    assert np.all(found.start.W > 0) and np.all(found.start.W < 0.5)
+    assert (found.step, found.duration, found.output_rate, found.effects) == (1e-5, 1.0, 2000.0, ())
 
 
 calls = []
@@ -84,8 +81,9 @@ IN_STEP = ["start", "plate_motion", "normal_force", "friction_coefficient", "poi
 def test_every_hook_is_tried_on_one_run_and_those_of_the_step_on_two_side_by_side():
     calls.clear()
     probe(Recorder(), "mine.py:Mine")
-    wanted = [(name, arguments_of(problem)[name]) for problem in (ONE, TWO) for name in IN_STEP]
-    wanted += [(name, arguments_of(ONE)[name]) for name in ("points", "release", "sensor")]
+    one = sample_problem()
+    wanted = [(name, arguments_of(p)[name]) for p in (one, as_arrays(stack([one, one]))) for name in IN_STEP]
+    wanted += [(name, arguments_of(one)[name]) for name in ("points", "release", "sensor")]
     assert [name for name, _ in calls] == [name for name, _ in wanted]
     for (name, given), (_, expected) in zip(calls, wanted, strict=True):
         assert alike(given, expected), name
@@ -95,7 +93,7 @@ def test_an_absent_effect_is_asked_the_same():
     found = absent_arguments(Recorder())
     assert [name for name, _ in found] == [name for name in HOOKS if name not in ("start", "advance")]
     for name, given in found:
-        assert alike(given, arguments_of(ONE)[name]), name
+        assert alike(given, arguments_of(sample_problem())[name]), name
 
 
 def test_an_effect_whose_memory_cannot_be_made_while_it_is_absent_is_asked_nothing():
@@ -188,13 +186,19 @@ def test_arrays_are_the_same_but_for_a_rounding_of_the_largest(a, b, alike):
         ((np.zeros(3), np.zeros(3)), None, True), ((np.zeros(3), np.array([0.0, 1e-300])), None, False),
         (None, None, True), (("1ext", "2ext"), ("1ext", "2ext"), True), (("1ext",), ("2ext",), False),
         (0.1, 0.1, True), (0.1, 0.2, False), ((A, ("1ext",)), (A, ("1ext",)), True),
-        (ONE.points, sample_problem().points, True), (ONE.start, sample_problem().start, True),
-        (replace(ONE.points, mu=ONE.points.mu * 1.01), ONE.points, False),
-        (replace(ONE.points, names=ONE.points.names[::-1]), ONE.points, False),
-        (replace(ONE.points, radius=np.full(8, 1e-3)), ONE.points, False),
-        ((replace(ONE.block, g=np.array(9.8)), ONE.points), (ONE.block, ONE.points), False),
     ],
 )  # fmt: skip
 def test_results_are_the_same_where_all_that_they_hold_is(a, b, alike):
     """A load or a motion of zero is none."""
     assert same(a, b) is alike
+
+
+def test_bodies_points_and_states_are_the_same_where_all_their_numbers_and_names_are():
+    one, other = sample_problem(), sample_problem()
+    points = one.points
+    assert same(points, other.points) is same(one.start, other.start) is same((one.block, points), (one.block, points))
+    assert same(points, other.points) is True
+    for changed in ({"mu": points.mu * 1.01}, {"names": points.names[::-1]}, {"radius": np.full(8, 1e-3)}):
+        assert same(replace(points, **changed), points) is False, changed
+    heavier = replace(one.block, g=np.array(9.8))
+    assert same((heavier, points), (one.block, points)) is False

@@ -16,7 +16,11 @@ from tests.unit.effects.bodies import body, contact, points_at
 
 #: Rounding of a few products and powers.
 ROUNDED = 1e-14
-AT_REST = State.at_rest(np.array([0.1, 0.2, 0.5]), np.eye(3), 2)
+
+
+def at_rest():
+    """A body of two points at rest."""
+    return State.at_rest(np.array([0.1, 0.2, 0.5]), np.eye(3), 2)
 
 
 def two_points(K_N, **kwargs):
@@ -40,14 +44,15 @@ def test_the_pull_of_each_point_acts_downward_where_the_point_is():
 
 def test_a_block_that_is_held_down_stands_deeper_by_the_pull_over_the_stiffness():
     """Of two pivots, 8 N on 1e6 N/m and on 2e6 N/m, the middle."""
-    state = Adhesion(8.0, 2e-5).release(None, two_points([1e6, 2e6]), AT_REST)
+    before = at_rest()
+    state = Adhesion(8.0, 2e-5).release(None, two_points([1e6, 2e6]), before)
     assert state.x == pytest.approx([0.1, 0.2, 0.5 - 6e-6], rel=ROUNDED)
-    assert np.array_equal(AT_REST.x, [0.1, 0.2, 0.5]) and state.W is AT_REST.W
+    assert np.array_equal(before.x, [0.1, 0.2, 0.5]) and state.W is before.W
 
 
 def test_without_a_force_the_range_holds_nothing():
-    absent = Adhesion(0.0, 1e-4)
-    assert absent.point_wrench(None, contact([0.0]), {}) is None and absent.release(None, None, AT_REST) is AT_REST
+    absent, before = Adhesion(0.0, 1e-4), at_rest()
+    assert absent.point_wrench(None, contact([0.0]), {}) is None and absent.release(None, None, before) is before
 
 
 def test_a_hertzian_spring_is_the_linear_one_at_its_reference():
@@ -64,17 +69,18 @@ def test_a_hertzian_block_is_released_where_its_springs_carry_it():
     """The depth d has K x0 (d/x0)^p = m g/2 at each of two pivots; the law's is m g/2 K."""
     mass, g, p, x0, K_N = 4.0, 10.0, 1.5, 2e-5, 2.5e5
     block = body(points_at([(0, 0, 0)]), mass=mass, g=g).block
-    state = HertzianContact(p, x0).release(block, two_points([K_N, K_N]), AT_REST)
-    depth = mass * g / 2 / K_N - (state.x[2] - AT_REST.x[2])
+    before = at_rest()
+    state = HertzianContact(p, x0).release(block, two_points([K_N, K_N]), before)
+    depth = mass * g / 2 / K_N - (state.x[2] - before.x[2])
     # The height of half a metre is kept to 1e-16 m, of a depth of 5e-5 m.
     assert K_N * x0 * (depth / x0) ** p == pytest.approx(mass * g / 2, rel=1e-10)
-    assert np.array_equal(state.x[:2], AT_REST.x[:2]) and state.v is AT_REST.v
+    assert np.array_equal(state.x[:2], before.x[:2]) and state.v is before.v
 
 
 def test_a_hertzian_block_on_unequal_springs_stands_at_their_mean():
     block = body(points_at([(0, 0, 0)]), mass=4.0, g=10.0).block
     effect = HertzianContact(2.0, 2e-5)
-    heights = [effect.release(block, two_points(K_N), AT_REST).x[2] for K_N in ((1e6, 1e6), (4e6, 4e6), (1e6, 4e6))]
+    heights = [effect.release(block, two_points(K_N), at_rest()).x[2] for K_N in ((1e6, 1e6), (4e6, 4e6), (1e6, 4e6))]
     # Heights of half a metre, kept to 1e-16 m.
     assert heights[2] == pytest.approx((heights[0] + heights[1]) / 2, abs=2e-16)
     # At the load that the reference names the spring is the law's: 20 N at 1e6 N/m is 2e-5 m.
@@ -82,8 +88,8 @@ def test_a_hertzian_block_on_unequal_springs_stands_at_their_mean():
 
 
 def test_an_exponent_of_one_leaves_force_and_release():
-    absent, F = HertzianContact(1.0, 5e-5), np.array([1.0])
-    assert absent.release(None, None, AT_REST) is AT_REST and absent.normal_force(F, None, None, {}) is F
+    absent, before, F = HertzianContact(1.0, 5e-5), at_rest(), np.array([1.0])
+    assert absent.release(None, None, before) is before and absent.normal_force(F, None, None, {}) is F
 
 
 def test_hunt_and_crossleys_damper_grows_with_depth():
