@@ -15,7 +15,7 @@ class Breeze(Effect):
 
     id = "breeze"
     quantities = {
-        "height": Quantity("m", None, 0.5, 2.0, None),
+        "height": Quantity("m", None, 0.5, 2.0, None, least=-1.0),
         "force": Quantity("N", 0.0, 1.0, 5.0, 2.0, "+", "push", 0.0, 100.0),
         "share": Quantity("1", 1.0, 0.5, 2.0, 1.5, "any", "share of it", POSITIVE),
     }
@@ -53,6 +53,7 @@ def test_an_effect_is_absent_where_all_that_brings_it_in_is():
 def test_a_number_within_its_limits_is_taken(force):
     Breeze(0.7, force, 0.1).check("here")
     Breeze(None, force).check("here")
+    Breeze(-1.0, force).check("here")
 
 
 @pytest.mark.parametrize(
@@ -85,7 +86,8 @@ FORCE = "Give a number of at least 0 N and of at most 100 N; plausible is 1 to 5
         (Breeze(force=math.inf), "force", "is inf N", FORCE),
         (Breeze(share=0.0), "share", "is 0.0", "Give a number above 0; plausible is 0.5 to 2."),
         (Breeze(share=math.inf), "share", "is inf", "Give a number above 0; plausible is 0.5 to 2."),
-        (Breeze(height=-math.inf), "height", "is -inf m", "Give a number that is finite; plausible is 0.5 to 2 m."),
+        (Breeze(height=-1.5), "height", "is -1.5 m", "Give a number of at least -1 m; plausible is 0.5 to 2 m."),
+        (Breeze(height=-math.inf), "height", "is -inf m", "Give a number of at least -1 m; plausible is 0.5 to 2 m."),
     ],
 )
 def test_a_number_beyond_its_limits_is_refused(effect, place, what, cure):

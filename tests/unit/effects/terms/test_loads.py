@@ -142,7 +142,7 @@ def still_point(P, middle):
 
 def test_a_push_turns_the_body_about_the_middle_of_its_lowest_points_on_either_side():
     """Of each side the lowest; TURNED, body y and z count for the height: 0.6 y + 0.8 z."""
-    left, right = np.array([-0.2, 0.1, -0.5]), np.array([0.1, -0.1, -0.4])
+    left, right = np.array([-0.2, -0.15, -0.5]), np.array([0.1, -0.1, -0.4])
     others = [(0.3, 0.2, -0.4), (-0.1, 0.2, -0.5)]
     assert still_point([others[0], left, others[1], right], (left + right) / 2) == pytest.approx([0] * 3, abs=1e-16)
 
