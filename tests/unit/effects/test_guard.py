@@ -120,6 +120,13 @@ def test_every_point_has_a_name(problem, names):
     assert what == f"names are {names!r}"[:80] and cure == "Give each of the 8 points a name, in a tuple."
 
 
+def test_a_message_about_many_names_can_be_read():
+    """It is cut at eighty characters."""
+    given = (one_run().block, one_run().points)
+    odd = replace(given[1], names=("left",) * 100)
+    assert len(looked("points", given, (given[0], odd))[0]) == 80
+
+
 def test_points_may_be_more_than_they_were():
     """As the eight of a block that had four."""
     p = one_run().points
@@ -138,7 +145,8 @@ def test_a_hook_of_points_that_gives_back_something_else_is_told():
 def test_a_hook_of_the_release_gives_back_a_state_like_the_one_that_came_in(problem):
     given = (problem.block, problem.points, problem.start)
     assert passes("release", given, problem.start)
-    assert looked("release", given, None) == ("gives back NoneType", "Return dataclasses.replace(state, ...).")
+    for nothing, kind in ((None, "NoneType"), (1.0, "float")):
+        assert looked("release", given, nothing) == (f"gives back {kind}", "Return dataclasses.replace(state, ...).")
     for key in ("x", "Lambda", "v", "W"):
         a = getattr(problem.start, key)
         odd = replace(problem.start, **{key: a[..., :2]})

@@ -154,6 +154,12 @@ def test_a_round_corner_is_a_sphere_that_touches_its_three_faces():
     assert block == "block" and np.array_equal(points.radius, [0.25] * 4)
 
 
+def test_a_point_in_a_middle_plane_stays_in_it():
+    """P - rho sign(P): there is no side to move away from."""
+    _, points = RoundedCorners(0.25).points(None, points_at([(0.0, 4.0, -2.0), (3.0, 0.0, 2.0)]))
+    assert np.array_equal(points.P + [0, 0, 0.25], [(0.0, 3.75, -1.75), (2.75, 0.0, 1.75)])
+
+
 @pytest.mark.parametrize(
     "kind", [FootDefects, DimensionDeviation, InertiaDeviation, MassEccentricity, RoundedFeet, RoundedCorners]
 )
