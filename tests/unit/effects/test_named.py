@@ -83,6 +83,7 @@ def test_words_name_an_effect_and_its_numbers():
     assert parse("gyro_scale") == EFFECTS["gyro_scale"].typical()
     assert parse("mine.py:Mine:c=2").values() == {"c": 2.0, "d": 1.0}
     assert parse("mine.py:Mine").values() == {"c": 1.5, "d": 1.25} == parse("mine").values()
+    assert refusal(parse, "mine.py:Mine:c=other.py:1")[2] == "'other.py:1' is no number"
     assert parse("mine.py:Mine:d=0.75,c=0.5").values() == {"c": 0.5, "d": 0.75}
 
 
@@ -166,6 +167,9 @@ def test_no_file_is_run_that_the_user_has_not_named(folder):
     assert (code, where) == ("E-TRUST", "m: [effects.mine]") and not marker.exists()
     assert what == "names 'models/a b.py:Mine', a program, which nothing runs unless you name it, too"
     assert cure == "If you trust it, add --effect 'models/a b.py:Mine'; in Python, Model.load(path, effects=[...])."
+    (folder / "models/ab.py").write_text(program, encoding="utf-8")
+    cure = refusal(from_table, "m", {"mine": {"file": "ab.py:Mine"}}, Path("models"))[3]
+    assert cure.startswith("If you trust it, add --effect models/ab.py:Mine;") and not marker.exists()
     named("models/a b.py:Mine")
     assert marker.exists() and from_table("m", table, Path("models"))[0].values() == {"c": 1.5, "d": 1.25}
 
@@ -199,4 +203,16 @@ def test_a_file_is_written_as_it_is_found_from_the_models_folder(folder, monkeyp
     os.symlink(folder / "models", folder / "linked")
     monkeypatch.chdir(folder / "models")
     assert file_beside("../mine.py:Mine", folder / "linked") == "../mine.py:Mine"
-    assert file_beside("a:b/mine.py:Mine", folder) == "models/a:b/mine.py:Mine"
+    assert file_beside("a:b/../mine.py:Mine", folder) == "models/mine.py:Mine"
+
+
+def test_a_file_on_another_drive_is_written_with_its_whole_path(folder, monkeypatch):
+    """As Windows has them: from one to the other there is no way."""
+
+    def no_way(path, start):
+        raise ValueError("path is on mount 'C:', start on mount 'D:'")
+
+    with monkeypatch.context() as windows:
+        windows.setattr(os.path, "relpath", no_way)
+        found = file_beside("mine.py:Mine", Path("models"))
+    assert found == f"{os.path.realpath(folder)}/mine.py:Mine"

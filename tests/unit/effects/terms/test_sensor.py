@@ -133,9 +133,12 @@ def test_rows_may_be_a_little_uneven_and_not_more():
 LINE = 0.2 + np.outer(T, (3.0, -1.0, 0.5))
 
 
-def test_a_delay_holds_the_first_row_until_it_is_over():
-    late = 0.2 + np.outer(np.maximum(T - 0.0017, 0.0), (3.0, -1.0, 0.5))
-    assert GyroBandwidth(delay=0.0017).sensor(T, LINE) == pytest.approx(late, abs=1e-12)
+@pytest.mark.parametrize("delay, slower", [(0.0017, 1), (1.0, 100)])
+def test_a_delay_holds_the_first_row_until_it_is_over(delay, slower):
+    """Of three rows and a half, and of the longest that there is, on rows at 20 Hz."""
+    t = slower * T
+    late = 0.2 + np.outer(np.maximum(t - delay, 0.0) / slower, (3.0, -1.0, 0.5))
+    assert GyroBandwidth(delay=delay).sensor(t, LINE) == pytest.approx(late, abs=1e-12)
 
 
 @pytest.mark.parametrize("rate", [0.7, 1.3])
