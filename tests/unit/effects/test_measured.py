@@ -70,6 +70,15 @@ def test_the_channel_scales_filters_adds_asks_the_clock_and_cuts():
     assert measured([EFFECTS["adhesion"](1.0)], T, CRV) is CRV
 
 
+@pytest.mark.parametrize("place", ["gyro_misalignment", "gyro_drift", "clock_error", "gyro_saturation"])
+def test_whatever_stands_in_the_channel_is_given_the_instants_of_the_rows(place):
+    @dataclass(frozen=True)
+    class Stamp(Offset):
+        id = place
+
+    assert np.array_equal(rates(measured([Stamp(0.25)], T, CRV)), T + 0.25 + T)
+
+
 def test_an_effect_is_made_of_its_parameters_and_a_strange_one_is_told():
     effect = make(Offset, {"b": 2}, "here")
     assert effect == Offset(2.0) and isinstance(effect.b, float)
