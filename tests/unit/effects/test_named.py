@@ -170,6 +170,8 @@ def test_no_file_is_run_that_the_user_has_not_named(folder):
     (folder / "models/ab.py").write_text(program, encoding="utf-8")
     cure = refusal(from_table, "m", {"mine": {"file": "ab.py:Mine"}}, Path("models"))[3]
     assert cure.startswith("If you trust it, add --effect models/ab.py:Mine;") and not marker.exists()
+    cure = refusal(from_table, "m", {"mine": {"file": "../mine.py:Mine"}}, Path("models"))[3]
+    assert cure.startswith("If you trust it, add --effect mine.py:Mine;")
     named("models/a b.py:Mine")
     assert marker.exists() and from_table("m", table, Path("models"))[0].values() == {"c": 1.5, "d": 1.25}
 
