@@ -77,6 +77,40 @@ def test_vector_product(batch, dtype):
         assert np.array_equal(rotation.apply_to_points(rotation.hat(a), r), c)
 
 
+@pytest.mark.parametrize("dtype", REALS)
+def test_vector_product_of_two_vectors_has_the_bits_of_a_batch_of_one(dtype):
+    for seed in range(20):
+        for a, b in zip(orders((), (3,), dtype, seed), orders((), (3,), dtype, 100 + seed), strict=True):
+            c = rotation.cross(a, b)
+            assert c.dtype == dtype
+            assert np.array_equal(c, [a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))])
+            assert np.array_equal(c, rotation.cross(a[None], b[None])[0])
+
+
+def test_vector_product_of_two_axes_is_the_third():
+    """Right-handed, and with zeros among the components: nothing is divided by."""
+    x, y, z = np.eye(3)
+    for a, b, c in ((x, y, z), (y, z, x), (z, x, y)):
+        assert np.array_equal(rotation.cross(a, b), c)
+        assert np.array_equal(rotation.cross(b, a), -c)
+        assert np.array_equal(rotation.cross(a, a), np.zeros(3))
+
+
+def test_one_vector_is_broadcast_over_many():
+    a, many = np.array([1.0, -2.0, 3.5]), np.random.default_rng(7).normal(size=(8, 3))
+    assert np.array_equal(rotation.cross(many, a), [rotation.cross(b, a) for b in many])
+    assert np.array_equal(rotation.cross(a, many), [rotation.cross(a, b) for b in many])
+
+
+def test_vector_product_keeps_the_batch_fastest_in_memory():
+    """Where one of the two has it so, whichever it is: the other may lie in any order."""
+    many = rotation.empty((5,), (8, 3), float)
+    many[...] = 1
+    for one in (np.ones((5, 1, 3)), rotation.empty((5,), (1, 3), float)):
+        one[...] = 2
+        assert rotation.cross(one, many).strides == rotation.cross(many, one).strides == many.strides
+
+
 def test_vector_products_with_no_points_are_none():
     a, nothing = np.ones((5, 1, 3)), rotation.empty((5,), (0, 3), float)
     for one in (a, rotation.empty((5,), (1, 3), float)):
@@ -147,11 +181,37 @@ def test_exponential_is_the_matrix_form():
     assert np.all(np.abs(rotation.exp_minus_identity(Theta) - (s * H + c * (H @ H))) <= 3e-16 * angle)
 
 
-def test_exponential_refuses_half_a_turn():
-    with pytest.raises(InputError) as refused:
-        rotation.exp_minus_identity(np.array([0.0, 3.3, 0.0]))
-    assert refused.value.code == "E-ANGLE"
-    rotation.exp_minus_identity(np.array([0.0, 3.19, 0.0]))
+@pytest.mark.parametrize("size", [0, 1e-7, 1e-5, 0.00999, 0.01001, 0.3, 3.1])
+@pytest.mark.parametrize("dtype", REALS)
+def test_exponential_of_one_vector_has_the_bits_of_a_batch_of_one(size, dtype):
+    for seed in range(5):
+        axis = np.random.default_rng(seed).normal(size=3)
+        Theta = (axis / np.linalg.norm(axis)).astype(dtype) * dtype(size)
+        E = rotation.exp_minus_identity(Theta)
+        assert E.dtype == dtype
+        assert np.array_equal(E, rotation.exp_minus_identity(Theta[None])[0])
+
+
+@pytest.mark.parametrize("dtype", REALS)
+def test_exponential_refuses_half_a_turn(dtype):
+    """3.3 rad, of one block or of one among others: the largest turn is named."""
+    too_far, near, little = np.array([[0, 3.3, 0], [0, 3.19, 0], [1e-5, 0, 0]], dtype)
+    for Theta in (too_far, np.stack([little, too_far, near]), np.stack([[near, little], [little, too_far]])):
+        with pytest.raises(InputError) as refused:
+            rotation.exp_minus_identity(Theta)
+        assert refused.value.code == "E-ANGLE"
+        assert str(refused.value) == (
+            "Theta: a step turns the block by 3.3 rad. Use a smaller step or a smaller angular velocity. [E-ANGLE]"
+        )
+    rotation.exp_minus_identity(near)
+    rotation.exp_minus_identity(np.stack([near, little]))
+
+
+def test_a_truth_holds_somewhere_in_one_number_or_in_many():
+    for none in (False, np.False_, np.array(False), np.zeros(3, bool), np.zeros((0,), bool)):
+        assert rotation.somewhere(none) is False
+    for some in (True, np.True_, np.array(True), np.array([False, True]), np.array([[False], [True]])):
+        assert rotation.somewhere(some) is True
 
 
 def test_one_large_angle_in_a_batch_does_not_touch_the_others():
