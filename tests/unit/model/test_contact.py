@@ -94,6 +94,31 @@ class TestN2:
         F = contact.kelvin_voigt(np.array([0.0]), np.array([1e-2]), np.array([6e7]), np.array([2e4]))
         assert contact.open_gap(np.array([0.0]), F) == 200.0
 
+    @pytest.mark.parametrize("dtype", REALS)
+    def test_zero_is_that_of_the_precision(self, dtype):
+        """One block or many: no precision is gained or lost at the limits, and the least number is not zero."""
+        least = np.finfo(dtype).smallest_subnormal
+        for xi in (np.array([-least, 0, least], dtype), np.array([[-least, 0, least]] * 2, dtype)):
+            one = np.ones_like(xi)
+            F = contact.kelvin_voigt(xi, np.zeros_like(xi), one, one)
+            assert F.dtype == contact.open_gap(xi, one).dtype == dtype
+            assert np.array_equal(F, np.broadcast_to(np.array([0, 0, least], dtype), xi.shape))
+            assert np.array_equal(contact.open_gap(xi, one), np.broadcast_to([0, 1, 1], xi.shape))
+            s, touching = contact.touch(xi, np.zeros(xi.shape + (2,), dtype), np.ones(xi.shape + (2,), dtype), xi == xi)
+            assert np.array_equal(touching, np.broadcast_to([False, True, True], xi.shape))
+            assert s.dtype == dtype
+
+    def test_with_no_effects_spring_and_damper_add_as_without(self):
+        """Going down the damper pushes as well, going up it holds back."""
+        points = type("P", (), {"K_N": np.full(2, 6e7), "C_N": np.full(2, 2e4)})()
+        for speed, force in ((-1e-3, 80.0), (1e-3, 40.0)):
+            s = {**moving_block(), "P": np.zeros((2, 3)), "W": np.zeros(3)}
+            s |= {"x": np.array([0, 0, -1e-6]), "v": np.array([0, 0, speed])}
+            k = contact.point_kinematics(**s)
+            F = contact.altered_normal_force(k, points, [])
+            assert F == pytest.approx(np.full(2, force), rel=1e-14)
+            assert np.array_equal(F, contact.kelvin_voigt(k.xi, k.xi_rate, points.K_N, points.C_N))
+
     def test_effects_act_before_the_cut(self):
         class Pulled:
             def normal_force(self, F_N, k, points, m):
