@@ -36,7 +36,7 @@ def regular_samples(
     step = 1.0 / sample_rate
     jumps = np.diff(t)
     missing = _missing(jumps / step)
-    _check_rate(t, jumps, sample_rate, where, notices)
+    _check_rate(t, jumps, missing, sample_rate, where, notices)
     _check_gaps(t, missing, table, name, step)
     _check_start(t, step, where, notices)
     jitter = float(np.abs(jumps - step * (missing + 1)).max()) / step
@@ -73,15 +73,16 @@ def check_forward(table: Table) -> None:
         raise InputError("E-TIME", f"{table.path}, line {row + 2}, column {name}", what, cure)
 
 
-def _check_rate(t: np.ndarray, jumps: np.ndarray, rate: float, where: str, notices: list[Notice]) -> None:
+def _check_rate(
+    t: np.ndarray, jumps: np.ndarray, missing: np.ndarray, rate: float, where: str, notices: list[Notice]
+) -> None:
     median = 1.0 / float(np.median(jumps))
     cure = "Correct sample_rate_hz, or the unit of the time column."
     # The median does not see holes; stamps rounded to whole milliseconds make it useless for fine differences.
     if abs(median / rate - 1.0) > 0.2:
         raise InputError("E-RATE", where, f"samples come at {median:.6g} Hz, not at {rate:g} Hz", cure)
-    whole = np.rint(jumps * rate)
-    whole[whole < 1] = 1
-    mean = float(whole.sum() / (t[-1] - t[0]))
+    # An early stamp makes one interval short and the next one long: only what is missing counts beside the intervals.
+    mean = float((len(jumps) + missing.sum()) / (t[-1] - t[0]))
     off = abs(mean / rate - 1.0)
     # With few samples the rounding of the first and last stamp is larger than the tolerance.
     slack = 1.0 / len(t)
