@@ -25,3 +25,18 @@ def test_half_width_in_samples(window, half):
     t = np.arange(2000) / 1000.0
     assert half_width(t, window) == half
     assert sample_step(t) == pytest.approx(1e-3, rel=1e-12)
+
+
+def test_the_interval_is_a_mean_wherever_time_begins():
+    assert sample_step(np.array([5.0, 5.125, 5.5])) == 0.25
+
+
+@pytest.mark.parametrize(("window", "half"), [(0.0049, 2), (0.0051, 3)])
+def test_half_a_window_is_rounded_to_the_nearest_sample(window, half):
+    assert half_width(7.0 + np.arange(2000) / 1000.0, window) == half
+
+
+def test_sums_are_taken_in_double_precision():
+    x = np.full(100_000, 0.1, np.float32)
+    # In single precision the last of so many sums is wrong in its fourth digit.
+    assert np.allclose(running_mean(x, 3), float(x[0]), rtol=1e-9)

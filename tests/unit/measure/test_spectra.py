@@ -65,3 +65,17 @@ def test_stretch_without_samples_is_refused():
     with pytest.raises(InputError) as caught:
         amplitude_spectrum(t, np.zeros((1000, 3)), 0.5, 0.505)
     assert caught.value.code == "E-STRETCH"
+
+
+def test_eight_samples_are_enough_and_frequencies_any_sequence():
+    t = np.arange(1000) / 1000.0
+    found = amplitude_spectrum(t, np.zeros((1000, 3)), 0.492, 0.5, [5, 10])
+    assert found.frequencies.dtype == np.float64 and found.amplitudes.shape == (3, 2)
+
+
+def test_what_is_said_of_seven_samples():
+    t = np.arange(1000) / 1000.0
+    with pytest.raises(InputError) as caught:
+        amplitude_spectrum(t, np.zeros((1000, 3)), 0.493, 0.5)
+    said = "arguments start, end: 7 samples between 0.493 and 0.5 s. Give a stretch of the run. [E-STRETCH]"
+    assert str(caught.value) == said
