@@ -26,6 +26,8 @@ def test_sigma_and_whiteness_of_windows_that_are_all_alike():
     # 19 windows of 40 samples, every 20 of 400, count for 20 ms each.
     assert np.allclose(found.calm, 19 * 0.020, rtol=1e-9)
     assert np.array_equal(found.resolution, np.zeros(3))
+    # Without the last sample the last window is not whole.
+    assert np.allclose(noise_floor(t[:-1], np.tile(PATTERN, (20, 1))[:-1]).calm, 18 * 0.020, rtol=1e-9)
 
 
 def test_a_cubic_is_no_noise():
