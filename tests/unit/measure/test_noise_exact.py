@@ -30,6 +30,12 @@ def test_sigma_and_whiteness_of_windows_that_are_all_alike():
     assert np.allclose(noise_floor(t[:-1], np.tile(PATTERN, (20, 1))[:-1]).calm, 18 * 0.020, rtol=1e-9)
 
 
+def test_windows_of_41_samples_follow_every_20():
+    """40 ms at 1025 Hz: half of a window is 20 whole samples, of which 19 windows count."""
+    found = noise_floor(np.arange(401) / 1025.0, np.tile(PATTERN, (21, 1))[:401])
+    assert np.allclose(found.calm, 19 * 20 / 1025.0, rtol=1e-9)
+
+
 def test_a_cubic_is_no_noise():
     t = np.arange(400) / 1000.0
     cubic = np.stack([(t - 0.1) ** 3, 2.0 + t - t**2, -5.0 * t**3], axis=-1)
