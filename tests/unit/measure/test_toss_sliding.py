@@ -1,5 +1,7 @@
 """Friction of a flat face, from slides of known deceleration."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -93,19 +95,22 @@ def test_friction_is_the_median_of_a_class_of_speed():
 
 
 def test_without_a_slide_there_is_no_friction():
-    found = sliding_friction(slides([0.01, 0.0], [0.0, 0.0]), P, 9.81)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = sliding_friction(slides([0.01, 0.0], [0.0, 0.0]), P, 9.81)
     assert found.values == {} and found.tosses == 0 and np.isnan(found.scatter)
 
 
 def test_rest_height_is_that_of_the_lowest_four_corners_in_the_last_frame():
+    """Of three boxes, at 1, 2 and 1.5 mm in their last frames, the third of which has nine; the fourth is on edge."""
     poses = slides(np.zeros((4, 2)), np.zeros((4, 2)))
-    poses.x[:, -1, 2] = HALF + np.array([1e-3, -2e-3, 5e-4, 7e-4])
-    # The last one stands on an edge; the third is measured for nine frames, in which it lies on the plate.
+    poses.frames[2] = 9
+    for box, frame, height in ((0, 10, 1e-3), (1, 10, 2e-3), (2, 8, 1.5e-3)):
+        poses.x[box, frame, 2] += height
     c = np.sqrt(0.5)
     poses.Lambda[3] = np.array([[c, 0.0, c], [0.0, 1.0, 0.0], [-c, 0.0, c]])
-    poses.frames[2] = 9
-    assert rest_height(poses, P) == pytest.approx(0.0, abs=1e-12)
-    assert rest_height(poses, P + [0.0, 0.0, 1e-3]) == pytest.approx(1e-3, abs=1e-12)
+    assert rest_height(poses, P) == pytest.approx(1.5e-3, abs=1e-12)
+    assert rest_height(poses, P + [0.0, 0.0, 1e-3]) == pytest.approx(2.5e-3, abs=1e-12)
     poses.Lambda[:] = poses.Lambda[3]
     assert rest_height(poses, P) == 0.0
 
