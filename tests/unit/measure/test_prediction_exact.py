@@ -2,14 +2,16 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from rockref.measure import prediction
 from rockref.measure.experiment import Experiment, Gyro, Run
-from rockref.measure.prediction import FINE_RATE, STEP, gyro_of, problem_of, solve
+from rockref.measure.prediction import FINE_RATE, STEP, Prediction, gyro_of, problem_of, solve
 from rockref.model.errors import InputError
 
 GYRO = Gyro(1000.0, 1e-3, 300.0, 0.0)
@@ -132,3 +134,29 @@ def test_predictions_carry_run_release_step_and_gyroscope(monkeypatch):
     assert found[1].crv == pytest.approx(np.ones((400, 3)), rel=1e-9)
     prediction.predict(MODEL, runs, gyro)
     assert (asked["engine"], asked["progress"], asked["problems"][0].step) == ("auto", None, STEP)
+
+
+def shown(gyro=GYRO, effects=()):
+    """What is shown of rates of 1 + t, 2 and -3 rad/s from 0 to 0.1 s at 4 kHz."""
+    t = np.arange(401) / 4000.0
+    crv = np.stack([1.0 + t, 0 * t + 2.0, 0 * t - 3.0], axis=-1)
+    return Prediction("01", SimpleNamespace(t=t, problem=SimpleNamespace(effects=effects)), crv, gyro)
+
+
+def test_rates_are_sampled_between_held_before_and_unknown_beyond():
+    found = shown().at([-0.5, 0.0, 0.01003, 0.1, 0.1 + 0.9e-9])
+    assert found[:, 0] == pytest.approx([1.0, 1.0, 1.01003, 1.1, 1.1], rel=1e-12)
+    assert found[:, 1:] == pytest.approx(np.tile([2.0, -3.0], (5, 1)), rel=1e-12)
+    assert np.isnan(shown().at(np.array([0.05, 0.1 + 1.1e-9, 1.0]))).all(axis=1).tolist() == [False, True, True]
+
+
+def test_the_ranges_of_data_sheet_and_effects_cut_what_is_shown():
+    assert np.abs(shown(replace(GYRO, range=0.5)).at(np.array([0.05]))).tolist() == [[0.5, 0.5, 0.5]]
+
+    class Noted(GyroSaturation):
+        """A range that shows the instants it is asked about."""
+
+        def sensor(self, t, crv):
+            return crv * 0.0 + np.asarray(t)[:, None]
+
+    assert shown(effects=(Noted(0.7),)).at([0.02, 0.03]).tolist() == [[0.02] * 3, [0.03] * 3]

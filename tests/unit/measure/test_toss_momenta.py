@@ -1,5 +1,6 @@
 """Flight arcs, and the balance of momenta over an impact, on motion in closed form."""
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from rockref.measure.flight import Poses, Starts
 from rockref.measure.toss_balance import (
     Impacts,
+    Measured,
     corner_ratios,
     corner_shape,
     crossing,
@@ -281,7 +283,9 @@ def test_thirty_degrees_and_a_fifth_of_a_metre_a_second_still_slide():
 
 
 def test_four_corners_are_too_few_for_a_median():
-    found = corner_ratios(sliding([[0.0, 0.0, -1.0]] * 4, [[0.0, 0.0, 0.5]] * 4))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = corner_ratios(sliding([[0.0, 0.0, -1.0]] * 4, [[0.0, 0.0, 0.5]] * 4))
     assert found.values == {} and found.tosses == 0 and np.isnan(found.scatter)
 
 
@@ -311,3 +315,11 @@ def test_what_is_said_where_nothing_lands():
     with pytest.raises(InputError) as caught:
         first_impacts(poses._replace(x=poses.x + [0.0, 0.0, 9.0]), BODY, np.eye(3), G, 2e-3)
     assert str(caught.value) == "tosses: none has a first impact with flight on both sides. Give more tosses. [E-SIZE]"
+
+
+def test_what_is_measured_is_written_as_plain_numbers():
+    rows = {"radius": (np.float64(0.003), np.float64(0.001), "m")}
+    found = Measured(rows, 7, np.float64(0.5)).to_dict()
+    assert found == {"values": {"radius": {"value": 0.003, "se": 0.001, "unit": "m"}}, "tosses": 7, "scatter": 0.5}
+    numbers = [*found["values"]["radius"].values()][:2] + [found["scatter"]]
+    assert [type(number) for number in numbers] == [float] * 3
