@@ -101,6 +101,7 @@ def test_the_plain_engine_takes_them_side_by_side_as_long_as_the_longest(engine)
     assert solve(PROBLEMS, "numpy", shares.append) == [(longest, 0), (longest, 1), (longest, 2)]
     ((batch, name),) = engine
     assert name == "numpy" and batch.start.x.shape == (3, 3) and shares == [0.5, 1.0]
+    assert solve(PROBLEMS[:2], "numpy", None) == [(longest, 0), (longest, 1)]
 
 
 def test_the_plain_engine_takes_a_single_run_as_it_is(engine):

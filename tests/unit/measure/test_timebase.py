@@ -196,9 +196,7 @@ def test_what_is_said_of_a_wide_hole():
     assert str(caught.value) == f"run.csv, line 302, column t_s: {what}. {cure} [E-GAP]"
 
 
-@pytest.mark.parametrize(
-    ("start", "codes"), [(-0.0004, []), (0.0014, []), (0.0016, ["W-START"]), (0.0999, ["W-START"])]
-)
+@pytest.mark.parametrize(("start", "codes"), [(-0.0005, []), (0.0015, []), (0.0016, ["W-START"]), (0.1, ["W-START"])])
 def test_time_begins_at_the_release(start, codes):
     assert [n.code for n in regular_samples(table(CLEAN + start), 1000.0)[3]] == codes
 
