@@ -37,7 +37,7 @@ def regular_samples(
     jumps = np.diff(t)
     missing = _missing(jumps / step)
     _check_rate(t, jumps, missing, sample_rate, where, notices)
-    _check_gaps(t, missing, table, name, step)
+    _check_gaps(t, missing, table, name)
     _check_start(t, step, where, notices)
     jitter = float(np.abs(jumps - step * (missing + 1)).max()) / step
     # decided: stamps rounded to half a sample are off by as much; beyond, it is the clock that wanders.
@@ -93,7 +93,7 @@ def _check_rate(
         notices.append(Notice("W-RATE", where, what, "The time stamps were believed, not the stated rate."))
 
 
-def _check_gaps(t: np.ndarray, missing: np.ndarray, table: Table, name: str, step: float) -> None:
+def _check_gaps(t: np.ndarray, missing: np.ndarray, table: Table, name: str) -> None:
     cure = "Use a run without holes, or cut the record before it."
     wide = np.flatnonzero(missing > MAX_FILLED)
     if len(wide):
