@@ -9,6 +9,7 @@ import pytest
 
 from rockref import Model
 from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from rockref.effects.sensor.gyro_scale import GyroScale
 from rockref.measure import prediction
 from rockref.measure.experiment import Experiment, Gyro, Run
 from rockref.measure.prediction import FINE_RATE, STEP, Prediction, gyro_of, problem_of, solve
@@ -127,13 +128,15 @@ def test_predictions_carry_run_release_step_and_gyroscope(monkeypatch):
         MODEL, runs, gyro, engine="numpy", releases={"02": {"theta_0": 0.1}}, step=2e-5, progress=report
     )
     assert [p.run for p in found] == ["01", "02"] and all(p.gyro is gyro for p in found)
+    assert all(isinstance(p.response, Motion) for p in found)
     tilts = [abs(p.start.Lambda[2, 1]) for p in asked["problems"]]
     assert tilts == pytest.approx(np.sin([0.117, 0.1]), rel=1e-3)
     assert [p.step for p in asked["problems"]] == [2e-5, 2e-5]
     assert (asked["engine"], asked["progress"]) == ("numpy", report)
     # The gyroscope's low-pass keeps what stands still.
     assert found[1].crv == pytest.approx(np.ones((400, 3)), rel=1e-9)
-    prediction.predict(MODEL, runs, gyro)
+    doubled = prediction.predict(MODEL.replace(effects=(GyroScale(2.0, 2.0, 2.0),)), runs, gyro)
+    assert doubled[0].crv == pytest.approx(2.0 * np.ones((400, 3)), rel=1e-9)
     assert (asked["engine"], asked["progress"], asked["problems"][0].step) == ("auto", None, STEP)
 
 

@@ -79,3 +79,10 @@ def test_what_is_said_of_seven_samples():
         amplitude_spectrum(t, np.zeros((1000, 3)), 0.493, 0.5)
     said = "arguments start, end: 7 samples between 0.493 and 0.5 s. Give a stretch of the run. [E-STRETCH]"
     assert str(caught.value) == said
+
+
+def test_the_time_of_day_does_not_matter():
+    t = np.arange(1000) / 1024.0
+    crv = np.random.default_rng(3).standard_normal((1000, 3))
+    here, there = amplitude_spectrum(t, crv, 0.25, 0.75), amplitude_spectrum(7.0 + t, crv, 7.25, 7.75)
+    assert np.allclose(here.amplitudes, there.amplitudes, rtol=1e-9, atol=1e-15)

@@ -48,6 +48,10 @@ def test_unused_tosses_do_not_end_the_search():
     assert used(flying, resting, GOOD, GOOD[1:], GOOD) == [2, 4]
 
 
+def test_flights_of_unlike_lengths_up_to_the_last_frame_are_used_side_by_side():
+    assert used([HIGH] * 12 + [0.0] + [HIGH] * 5, [HIGH] * 5 + [0.0] + [HIGH] * 12) == [0, 1]
+
+
 def test_a_flight_that_is_longer_than_what_is_used_of_it_has_no_impact_there():
     """The frame after the last one that is used is high."""
     assert used([HIGH] * (MOST + 9)) == []

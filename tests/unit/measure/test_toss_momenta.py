@@ -124,12 +124,16 @@ def test_two_unknowns_have_the_errors_of_the_sandwich():
 @pytest.mark.parametrize(("far", "kept"), [(17.5, True), (18.9, False)])
 def test_a_gross_error_is_twelve_robust_deviations(far, kept):
     """The others are 1 or -1: their median size about the common mean is 1.05, and the limit 17.8 times that."""
-    y = np.array([1.0, -1.0] * 200 + [far])
+    y = 100.0 + np.array([1.0, -1.0] * 200 + [far])
     p, _, scatter, keep = robust(np.ones((401, 1)), y, np.arange(401))
     assert keep[:-1].all() and keep[-1] == kept
     rest = y if kept else y[:-1]
     assert p == pytest.approx([rest.mean()], abs=1e-12)
-    assert scatter == pytest.approx(np.sqrt(np.sum((rest - rest.mean()) ** 2) / (len(rest) - 1)))
+    square = np.sum((rest - rest.mean()) ** 2)
+    assert scatter == pytest.approx(np.sqrt(square / (len(rest) - 1)))
+    # Of what was lost before, the rows that are left out have their share.
+    scatter = robust(np.ones((401, 1)), y, np.arange(401), lost=40)[2]
+    assert scatter == pytest.approx(np.sqrt(square / (len(rest) - 1 - 40 * len(rest) / 401)), rel=1e-9)
 
 
 def test_gross_errors_that_hide_one_another_are_found_one_after_the_other():
