@@ -57,6 +57,13 @@ def test_a_rate_that_does_not_change_leaks_nothing(impacts):
         assert values.shape == (2,) and not values.any()
 
 
+def test_a_rate_that_does_not_change_may_stand_on_another_axis():
+    found = leakage(T, np.column_stack([T, np.full(1000, 3.0), -T]), struck(0.5))
+    assert found.slopes == pytest.approx([0.0, -1.0], abs=1e-9)
+    # Without a change on the main axis nothing leaks from it.
+    assert not leakage(T, np.column_stack([np.ones(1000), T, T]), struck(0.5)).slopes.any()
+
+
 def test_what_leaks_is_taken_out():
     crv = np.array([[2.0, 5.0, 7.0], [-1.0, 0.0, 1.0]])
     leak = Leakage(np.array([0.5, -0.25]), np.array([1.0, 2.0]), np.zeros(2))
@@ -85,6 +92,12 @@ def test_shares_of_arcs_between_impacts():
     assert found == pytest.approx([0.5, 0.25, np.nan, 0.125, np.nan, 0.125], rel=1e-12, nan_ok=True)
     leak = Leakage(np.zeros(2), np.array([0.3, -0.4]), np.zeros(2))
     assert arc_shares(T, crv, leak, struck(0.25)) == pytest.approx([0.0, 0.0], abs=1e-12)
+
+
+def test_every_sample_counts_for_the_share_of_its_arc():
+    crv = np.array([[3.0, 4.0, 0.0], [4.0, 0.0, 3.0], [1.0, 2.0, 2.0], [1.0, 0.0, 0.0]])
+    found = arc_shares(np.arange(4.0), crv, NONE, struck(1.5, 2.5))
+    assert found == pytest.approx([1.0, np.sqrt(8.0), 0.0], rel=1e-12)
 
 
 def test_small_rates_have_shares_as_well():
@@ -143,6 +156,18 @@ def test_motion_that_died_down_before_the_largest_value_is_not_the_onset():
     # And what comes down again after the largest value is no end of it.
     crv[505:, 1] = 0.0
     assert begin(crv, level=0.0205) == pytest.approx(0.491, abs=1e-12)
+
+
+def test_a_level_below_the_largest_value_alone_is_passed_before_it():
+    """A ramp that is cut at 0.505 s: means of five of 0.042, 0.044, and 0.036 at once after it."""
+    crv = ramp()
+    crv[505:, 1] = 0.0
+    assert begin(crv, level=0.041) == pytest.approx(0.501, abs=1e-12)
+
+
+def test_above_nothing_it_begins_with_the_first_sample_that_is_not_zero():
+    """The ramp has its first value after 0.48 s, which the mean over five samples shows two samples earlier."""
+    assert begin(ramp(), level=0.0) == pytest.approx(0.479, abs=1e-12)
 
 
 def test_a_level_that_is_just_reached_is_not_passed():

@@ -34,6 +34,13 @@ def test_twice_the_same_pole_answers_a_step_as_in_the_closed_form():
     assert np.abs(out - (1.0 - (1.0 + w * s) * np.exp(-w * s))).max() < (w * step) ** 2 / 6.0 + 1e-5
 
 
+def test_it_starts_as_if_the_first_sample_had_been_there_for_ever():
+    crv = np.random.default_rng(0).standard_normal((50, 3))
+    before = np.repeat(crv[:1], 3000, axis=0)
+    # After 0.3 s the start of the longer signal has died by exp(-400).
+    assert low_pass(crv, 1e-4, 300.0) == pytest.approx(low_pass(np.concatenate([before, crv]), 1e-4, 300.0)[3000:])
+
+
 def test_whole_numbers_and_single_precision_are_filtered_in_double():
     rates = np.arange(60).reshape(20, 3) % 7
     double = low_pass(rates.astype(float), 1e-4, 300.0)

@@ -111,6 +111,17 @@ def test_an_arc_is_looked_at_on_one_side_of_its_apex():
     assert ledger.rate_after[1] == pytest.approx(0.9, rel=1e-9)
 
 
+@pytest.mark.parametrize(("first", "exact"), [(0.1055, True), (0.1045, False)])
+def test_an_apex_further_away_leaves_the_100_ms_before_the_clatter(first, exact):
+    """An apex 200 ms before the impact; for 9 ms up to `first` before it the rate is another."""
+    time, rise = 1.5, 1.3
+    t = np.arange(3000) * 0.001
+    w = np.sinh(P * (t - rise)) / np.sinh(P * (time - rise))
+    w[(t > time - first - 0.009) & (t < time - first)] += 0.1
+    ledger = energy_ledger(t, along_x(w), BLOCK, struck(0.7, time, sign=-1))
+    assert (abs(ledger.rate_before[1] - 1.0) < 1e-9) == exact
+
+
 @pytest.mark.parametrize(("samples", "known"), [(10, True), (9, False)])
 def test_fewer_than_ten_samples_say_nothing(samples, known):
     """A record that ends so many samples after the clatter of the impact."""

@@ -102,15 +102,15 @@ def test_without_a_slide_there_is_no_friction():
 
 
 def test_rest_height_is_that_of_the_lowest_four_corners_in_the_last_frame():
-    """Of three boxes, at 1, 2 and 1.5 mm in their last frames, the third of which has nine; the fourth is on edge."""
+    """Of three boxes, at 1, 2 and 1.2 mm in their last frames, the third of which has nine; the fourth is on edge."""
     poses = slides(np.zeros((4, 2)), np.zeros((4, 2)))
     poses.frames[2] = 9
-    for box, frame, height in ((0, 10, 1e-3), (1, 10, 2e-3), (2, 8, 1.5e-3)):
+    for box, frame, height in ((0, 10, 1e-3), (1, 10, 2e-3), (2, 8, 1.2e-3)):
         poses.x[box, frame, 2] += height
     c = np.sqrt(0.5)
     poses.Lambda[3] = np.array([[c, 0.0, c], [0.0, 1.0, 0.0], [-c, 0.0, c]])
-    assert rest_height(poses, P) == pytest.approx(1.5e-3, abs=1e-12)
-    assert rest_height(poses, P + [0.0, 0.0, 1e-3]) == pytest.approx(2.5e-3, abs=1e-12)
+    assert rest_height(poses, P) == pytest.approx(1.2e-3, abs=1e-12)
+    assert rest_height(poses, P + [0.0, 0.0, 1e-3]) == pytest.approx(2.2e-3, abs=1e-12)
     poses.Lambda[:] = poses.Lambda[3]
     assert rest_height(poses, P) == 0.0
 
