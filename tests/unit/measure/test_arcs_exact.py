@@ -68,6 +68,18 @@ def test_a_dip_is_no_line_and_stays_where_the_rate_changes_its_sign():
     assert abs(apex(w, 2.1, 2.9) - ROOT) < 0.016
 
 
+def test_a_root_that_is_80_ms_away_is_not_that_of_this_apex():
+    """A line to zero 80 ms later, after the next impact, and a dip of 12 ms through zero."""
+    w = np.where(np.abs(T - ROOT) < 0.006, -0.01, ROOT + 0.08 - T)
+    assert abs(apex(w, 2.1, ROOT + 0.07) - ROOT) < 0.012
+
+
+def test_one_impact_leaves_the_angle_of_the_release():
+    found = arcs(T, np.stack([np.ones(1000)] * 3, axis=-1), struck(2.25))
+    assert found.fall[0] == pytest.approx(-0.25, rel=1e-9) and np.isnan(found.fall[1])
+    assert found.apex_angles[0] == pytest.approx(-0.25, rel=1e-9)
+
+
 def test_a_rate_of_one_sign_has_no_apex_and_no_angle():
     found = arcs(T, np.stack([np.ones(1000)] * 3, axis=-1), struck(2.1, 2.8))
     assert np.isnan(found.apex_times[1:]).all() and np.isnan(found.rise).all() and np.isnan(found.fall[1:]).all()

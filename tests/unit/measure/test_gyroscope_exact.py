@@ -4,8 +4,19 @@ import numpy as np
 import pytest
 
 from rockref.effects.sensor.gyro_bandwidth import natural_frequency
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from rockref.measure.experiment import Gyro
-from rockref.measure.gyroscope import expected, limited, low_pass, quantise, record, sample, sample_times, saturate
+from rockref.measure.gyroscope import (
+    add_noise,
+    expected,
+    limited,
+    low_pass,
+    quantise,
+    record,
+    sample,
+    sample_times,
+    saturate,
+)
 from rockref.model.errors import InputError
 
 COARSE = "Simulate with an output rate of 2 kHz or more, then let the gyroscope sample it. [E-STEP]"
@@ -123,11 +134,11 @@ def test_a_signal_of_two_samples_can_be_recorded_and_one_of_one_cannot():
 
 def test_the_low_pass_of_the_data_sheet_has_its_bandwidth_and_the_step_of_the_signal():
     gyro = Gyro(1000.0, 0.0, 80.0, 0.0)
-    t = 4.0 + np.arange(200) * 2.5e-4
+    t = 4.0 + np.arange(201) * 2.5e-4
     crv = wavy(t)
     assert expected(t, crv, gyro) == pytest.approx(low_pass(crv, 2.5e-4, 80.0), rel=1e-9)
     times, seen = record(t, crv, gyro)
-    assert times == pytest.approx(4.0 + np.arange(50) / 1000.0, rel=1e-15)
+    assert times == pytest.approx(4.0 + np.arange(51) / 1000.0, rel=1e-15)
     assert seen == pytest.approx(low_pass(crv, 2.5e-4, 80.0)[::4], rel=1e-9)
 
 
@@ -137,3 +148,15 @@ def test_limits_and_steps_take_anything_that_is_an_array():
     assert isinstance(saturate([1.0], None), np.ndarray) and isinstance(quantise([1.0], 0.0), np.ndarray)
     gyro = Gyro(1000.0, 0.0, 300.0, 0.0, range=2.0)
     assert limited(np.arange(2.0), np.array([[3.0, 0.0, -3.0]] * 2), gyro).tolist() == [[2.0, 0.0, -2.0]] * 2
+
+
+def test_noise_is_that_of_its_generator():
+    drawn = np.random.default_rng(5).standard_normal((4, 3))
+    assert np.array_equal(add_noise(np.ones((4, 3)), 0.5, np.random.default_rng(5)), 1.0 + 0.5 * drawn)
+
+
+def test_the_expected_record_is_cut_at_the_ranges_of_effects_as_well():
+    t = np.arange(21) * 5e-4
+    gyro = Gyro(1000.0, 0.0, 300.0, 0.0, range=2.0)
+    for effects, limit in (((), 2.0), ((GyroSaturation(0.7),), 0.7)):
+        assert record(t, np.full((21, 3), 3.0), gyro, effects=effects)[1] == pytest.approx(np.full((11, 3), limit))

@@ -96,3 +96,11 @@ def test_between_onset_and_second_impact_it_is_repeatable():
 def test_runs_that_agree_up_to_less_than_the_onset_have_no_repeatable_phase():
     got = phases(T, with_onset(1.48), impacts=struck(1.5, 2.0, 2.5, 3.0, 3.5), leak=NONE, agree_until=1.2)
     assert got.intervals == ((PLANAR, 1.0, got.onset), (ERRATIC, got.onset, T[-1]))
+
+
+def test_leakage_that_is_given_is_taken_out():
+    """Half of the main rate shows about Z, by a gyroscope that is turned so far."""
+    times = (1.5, 2.0, 2.5)
+    turned = Leakage(np.array([0.0, 0.5]), np.zeros(2), np.zeros(2))
+    got = phases(T, with_shares(0.5, 0.5, 0.5, 0.5, times=times), impacts=struck(*times), leak=turned)
+    assert got.shares == pytest.approx(np.zeros(4), abs=1e-12) and got.quasi_2d_from == T[0]

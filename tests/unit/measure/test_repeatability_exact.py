@@ -8,7 +8,7 @@ import pytest
 from rockref.measure.experiment import Run
 from rockref.measure.impacts import main_impacts
 from rockref.measure.noise import noise_floor
-from rockref.measure.repeatability import repeat_groups, repeatability
+from rockref.measure.repeatability import _aligned, repeat_groups, repeatability
 from rockref.model.errors import InputError
 
 PATTERN = 1e-3 * np.random.default_rng(7).standard_normal((20, 3))
@@ -137,6 +137,18 @@ def test_runs_are_compared_where_both_are_at_the_coarser_rate(base):
     assert 0.0 <= found.t[0] - (0.1 - zeros[0]) < 2e-3
     assert 0.0 <= (t[:1900:2][-1] - zeros[1]) - found.t[-1] < 2e-3
     assert np.abs(found.t).min() < 1e-12
+
+
+def test_samples_that_lie_on_the_common_axis_belong_to_it():
+    """The first and the last one, too, where their distance from the impact is a whole number of steps to rounding."""
+    t = 0.3 + np.arange(100) / 1000.0
+    crv = np.stack([t, t**2, t**3], axis=-1)
+    for zero in (0.35, 0.337, 0.3091):
+        grid, stack = _aligned([(t, crv), (t, crv)], [zero, zero])
+        first = np.round((t[0] - zero) * 1000.0, 6)
+        expected = np.arange(np.ceil(first), np.ceil(first) + (100 if first == np.rint(first) else 99)) / 1000.0
+        assert grid == pytest.approx(expected, abs=1e-12)
+        assert stack[1, :, 1] == pytest.approx((grid + zero) ** 2, abs=1e-9)
 
 
 def run(id, **values):
