@@ -82,6 +82,7 @@ def test_a_tooth_stands_out_of_the_noise_fourfold():
     assert found.teeth.dtype.kind == "i"
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(("end", "teeth", "periods"), [(0.05, 1, np.nan), (0.09, 2, 0.04)])
 def test_two_teeth_make_a_period(end, teeth, periods):
     t = np.arange(2000) / 2000.0
@@ -151,6 +152,15 @@ def test_a_tenth_of_a_second_without_a_tooth_is_not_long(step):
     # Half of the slowest period are 32 samples, or 31: one stretch, from 16, or 15, to 47, or 45.
     knots = [0, 64] if step == 0.1 / 64.0 else [0, 45, 64]
     assert np.allclose(found.upper[0], np.interp(t, t[knots], smooth[knots]), rtol=0.0, atol=1e-15)
+
+
+def test_less_than_a_tenth_of_a_second_is_not_long_whatever_the_time_of_day():
+    """Half of the slowest period are 31.9 samples, and 63 have room for one stretch of 31 and its half twice."""
+    t = 5.0 + np.arange(64) * 0.05 / 31.9
+    y = (t - 5.0) ** 2
+    smooth = running_mean(y, 1)
+    found = envelopes(t, on_y(t, y), 5.0, 6.0, points=64)
+    assert np.allclose(found.upper[0], np.interp(t, t[[0, -1]], smooth[[0, -1]]), rtol=0.0, atol=1e-12)
 
 
 def test_eight_samples_are_enough_and_seven_are_not():

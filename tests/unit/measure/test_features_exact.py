@@ -62,12 +62,12 @@ def test_shape_of_a_flank_with_its_tips_left_out():
     assert found.bend[0] == pytest.approx(1.0 - two / line, rel=1e-6)
 
 
-@pytest.mark.parametrize("joint", [4, 44])
-def test_a_joint_near_an_end_of_a_flank_is_found(joint):
-    """Of 61 samples 49 are left, from the sixth on: a joint at their fourth, and at their fourth but last."""
-    x = drawn([0, 30, 36 + joint, 90, 120], [0.0, 1.0, 0.2, -1.0, 0.0])
+@pytest.mark.parametrize(("end", "joint"), [(90, 2), (90, 46), (91, 20), (91, 46)])
+def test_a_joint_at_every_other_sample_of_a_flank_is_found(end, joint):
+    """Of 61 samples 49 are left, from the sixth on, of 62 there are 50: joints are up to two from the ends."""
+    x = drawn([0, 30, 36 + joint, end, 120], [0.0, 1.0, 0.5 - 0.01 * joint, -1.0, 0.0])
     found = features.flanks(x)
-    assert found.bounds.tolist() == [[30, 90]] and found.bend[0] == pytest.approx(1.0, abs=1e-9)
+    assert found.bounds.tolist() == [[30, end]] and found.bend[0] == pytest.approx(1.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("bow", [-0.4, 0.0, 0.3])

@@ -21,7 +21,7 @@ MODEL = Model.table_3_1()
 
 def a_run(end=0.5, **values):
     return Run(**{"id": "01", "file": "a.csv", "use": "fit", "release_tilt": 0.117, "block_turned": 0.0,
-                  "t": np.array([0.0, end])} | values)  # fmt: skip
+                  "t": np.array([0.0, end / 3, end])} | values)  # fmt: skip
 
 
 @pytest.mark.parametrize(("end", "margin"), [(0.5, 0.1), (3.0, 0.1), (4.0, 0.12)])

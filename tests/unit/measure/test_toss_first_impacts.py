@@ -75,6 +75,10 @@ def test_a_second_contact_between_two_frames_ends_it_as_well(last, found):
     assert used([HIGH] * 5 + [0.0] + [HIGH] * 3 + [last] + [HIGH] * 5) == found
 
 
+def test_a_second_contact_may_follow_from_the_second_frame_on():
+    assert used([HIGH] * 5 + [0.0] + [HIGH, 5.2] + [HIGH] * 9) == []
+
+
 def test_a_first_contact_between_two_frames_is_one():
     """Down by two a frame to 3; up again from 2, which from 3 seems to go on down, but is the first frame after it."""
     assert used([11.0, 9.0, 7.0, 5.0, 3.0, 2.0, 4.0, 6.0, 8.0, 10.0]) == [0]
@@ -98,3 +102,18 @@ def test_the_impact_is_not_before_the_last_frame_of_flight_nor_after_the_first_o
     # At frame 8.5 it falls at 1 m/s.
     assert found.v_before[0] == pytest.approx([0.5, 0.0, -1.0 + G[2] * (frame - 8.5) * DT], abs=1e-9)
     assert found.v_after[0] == pytest.approx([-1.5, 0.0, 1.0 + G[2] * (frame - 8.5) * DT], abs=1e-9)
+
+
+def test_frames_beside_a_contact_are_not_used():
+    """Frames 8 and 9 are near; the last one may be the first of the next contact. All others move a velocity."""
+    plain = first_impacts(bounced(0.0), POINT, np.eye(3), G, 4e-3)
+    moved = {"v_before": [], "v_after": []}
+    for frame in range(18):
+        poses = bounced(0.0)
+        poses.x[0, frame, 1] += 1e-3
+        found = first_impacts(poses, POINT, np.eye(3), G, 4e-3)
+        for name, frames in moved.items():
+            if abs(getattr(found, name)[0, 1] - getattr(plain, name)[0, 1]) > 1e-6:
+                frames.append(frame)
+    # The slope of a line does not depend on the middle of an odd number of frames.
+    assert moved == {"v_before": list(range(8)), "v_after": [10, 11, 12, 14, 15, 16]}
