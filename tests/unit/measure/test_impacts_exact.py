@@ -81,7 +81,7 @@ def test_a_flat_top_is_that_of_its_own_swing():
     wx = 0.5 * np.clip(3.0 * np.sin(np.pi * np.arange(1001) / 400.0), -1.0, 1.0)
     found = impacts(wx)
     assert found.signs.tolist() == [1, -1, 1][: len(found)] and not found.drops[:2].any()
-    assert found.times[:2] == pytest.approx([0.2, 0.6], abs=1e-9)
+    assert found.times[:2] == pytest.approx([0.2, 0.6], abs=1e-9) and found.samples[:2].tolist() == [200, 600]
 
 
 @pytest.mark.parametrize(("end", "found"), [(313, 1), (312, 0)])
@@ -120,6 +120,18 @@ def test_a_cusp_within_12_ms_of_the_begin_is_how_the_block_was_thrown(first, fou
     assert len(impacts(cut)) == found
 
 
+@pytest.mark.parametrize(("thrown", "found"), [([], 1), ([0.3], 0)])
+def test_at_100_hz_two_samples_are_kept_from_the_ends_and_three_are_looked_at_for_the_drop(thrown, found):
+    """The mean over three samples has its cusp at the third sample; where the first one is missing, at its first."""
+    wx = np.array([0.3, 0.6, 0.9, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0, 0.0])[len(thrown) :]
+    t = np.arange(len(wx)) / 100.0
+    got = main_impacts(t, np.stack([wx, 0 * wx, 0 * wx], axis=-1))
+    assert len(got) == found
+    if found:
+        # From (0.6 + 0.9 + 0.5)/3 to (0.4 + 0.3 + 0.2)/3.
+        assert got.samples[0] == 2 and got.drops[0] == pytest.approx(2.0 / 3.0 - 0.3, rel=1e-12)
+
+
 def test_swings_below_a_twentieth_of_the_largest_rate_are_not_looked_at():
     """Saw-teeth of 1, -0.055 and 0.045 rad/s; the mean over 11 samples takes a little of each."""
     k = np.arange(1000)
@@ -144,6 +156,10 @@ def test_a_swing_ends_after_the_middle_one_of_its_changes_of_sign():
     assert swings(x, 1.0) == [(0, 3, 1), (3, 6, -1)]
     assert swings(-x, 1.0) == [(0, 3, -1), (3, 6, 1)]
     assert swings(np.array([2.0, -2.0]), 1.0) == [(0, 1, 1), (1, 2, -1)]
+    # Five changes, one after three samples without, and one back that comes after the next swing has begun.
+    assert swings(np.array([2.0, 0.5, -0.5, 0.5, -0.5, 0.5, -2.0]), 1.0) == [(0, 4, 1), (4, 7, -1)]
+    assert swings(np.array([2.0, 0.5, 0.4, 0.3, -0.5, -2.0]), 1.0) == [(0, 4, 1), (4, 6, -1)]
+    assert swings(np.array([2.0, 0.5, -2.0, 0.5, -2.0]), 1.0) == [(0, 2, 1), (2, 5, -1)]
     # What only reaches the threshold is not beyond it.
     assert swings(np.array([2.0, -1.0, 2.0]), 1.0) == [(0, 3, 1)]
 
