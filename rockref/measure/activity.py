@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -70,7 +72,7 @@ def arc_shares(t: np.ndarray, crv: np.ndarray, leak: Leakage, impacts: Impacts) 
     bounds = [0, *np.searchsorted(t, impacts.times), len(t)]
     square = (out_of_plane(crv, leak) ** 2).sum(axis=1)
     shares = np.full(len(bounds) - 1, np.nan)
-    for k, (first, last) in enumerate(zip(bounds[:-1], bounds[1:], strict=True)):
+    for k, (first, last) in enumerate(pairwise(bounds)):
         main = float((crv[first:last, 0] ** 2).sum()) if last > first else 0.0
         if main > 0.0:
             shares[k] = np.sqrt(float(square[first:last].sum()) / main)
@@ -87,19 +89,19 @@ def onset(
     without an impact or without such motion. Shapes as in :func:`activity`.
     """
     if not len(impacts):
-        return float("nan")
+        return math.nan
     first = float(impacts.times[0])
     wy = running_mean(out_of_plane(crv, leak)[:, 0], half_width(t, 0.003))
     calm = t < first - BEFORE_IMPACT
     near = np.flatnonzero((t >= first - BEFORE_IMPACT) & (t <= first + FIRST_EXCURSION))
     if not calm.any() or not len(near):
-        return float("nan")
+        return math.nan
     rest = float(np.sqrt(np.mean(wy[calm] ** 2)))
     size = np.abs(wy[near])
     top = int(np.argmax(size))
     if level is None:
         level = max(ONSET_SIGMAS * float(noise.sigma[1]), ONSET_REST * rest, ONSET_SHARE * float(size[top]))
     if size[top] <= level:
-        return float("nan")
+        return math.nan
     quiet = np.flatnonzero(size[: top + 1] <= level)
     return float(t[near[quiet[-1] + 1]]) if len(quiet) else float(t[near[0]])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -58,14 +60,12 @@ def arcs(t: np.ndarray, crv: np.ndarray, impacts: Impacts) -> Arcs:
     smooth = running_mean(crv[:, 0], half_width(t, 0.01))
     starts = np.concatenate((t[:1], impacts.times))
     ends = np.concatenate((impacts.times, t[-1:]))
-    apex_times = np.array([_apex(t, crv[:, 0], smooth, a, b) for a, b in zip(starts[1:], ends[1:], strict=True)])
+    apex_times = np.array([_apex(t, crv[:, 0], smooth, a, b) for a, b in pairwise(ends)])
     apex_times = np.concatenate((t[:1], apex_times))
     at = np.interp(np.stack((starts, apex_times, ends)), t, angle)
-    at[1, ~np.isfinite(apex_times)] = np.nan
+    # Where there is no apex its time is NaN, and so is the angle there.
     rise, fall = at[1] - at[0], at[1] - at[2]
     rise[0], fall[-1] = np.nan, np.nan
-    if len(impacts) == 0:
-        fall[:] = np.nan
     return Arcs(starts, ends, apex_times, rise, fall)
 
 
@@ -81,7 +81,7 @@ def _apex(t: np.ndarray, wx: np.ndarray, smooth: np.ndarray, start: float, end: 
     inside = smooth[first:last]
     changes = np.flatnonzero(np.diff(np.signbit(inside)))
     if not len(changes):
-        return float("nan")
+        return math.nan
     apex = float(t[first + changes[len(changes) // 2]])
     # The second pass starts from a window that is centred.
     for _ in range(2):

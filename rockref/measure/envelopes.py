@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -77,7 +78,7 @@ def _tops(x: np.ndarray, least: float) -> np.ndarray:
 
 def _joined(t: np.ndarray, x: np.ndarray, knots: np.ndarray, grid: np.ndarray) -> np.ndarray:
     knots = np.concatenate(([0], knots, [len(x) - 1]))
-    knots = np.concatenate([*(_between(t, x, a, b) for a, b in zip(knots[:-1], knots[1:], strict=True)), knots[-1:]])
+    knots = np.concatenate([*(_between(t, x, a, b) for a, b in pairwise(knots)), knots[-1:]])
     return np.interp(grid, t[knots], x[knots])
 
 
@@ -88,7 +89,7 @@ def _between(t: np.ndarray, x: np.ndarray, start: int, end: int) -> np.ndarray:
     # The first and the last half period belong to the teeth on either side.
     half = int(0.5 * SLOWEST_PERIOD / (t[1] - t[0]))
     bounds = np.arange(start + half // 2, end - half // 2, half)
-    places = [a + int(np.argmax(x[a:b])) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
+    places = [a + int(np.argmax(x[a:b])) for a, b in pairwise(bounds)]
     return np.array([start, *places])
 
 

@@ -37,7 +37,7 @@ def wild_samples(crv: np.ndarray, expected: float) -> np.ndarray:
     size = np.abs(crv).max(axis=1)
     out = size > WILD * max(expected, float(np.percentile(size, 99.0)))
     edges = np.flatnonzero(np.diff(np.concatenate(([0], out.astype(np.int8), [0]))))
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
+    for first, last in edges.reshape(-1, 2):
         if last - first > WILD_SAMPLES:
             out[first:last] = False
     return out
@@ -74,7 +74,7 @@ def check_dropout(t: np.ndarray, crv: np.ndarray, standing: np.ndarray, expected
     notices = []
     same = np.concatenate(([False], np.all(crv[1:] == crv[:-1], axis=1)))
     edges = np.flatnonzero(np.diff(np.concatenate((same.astype(np.int8), [0]))))
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
+    for first, last in edges.reshape(-1, 2):
         # The value was held from `first` to `last`, both included.
         jumps = [np.abs(np.diff(crv[k : k + 2], axis=0)).max(initial=0.0) for k in (max(first - 1, 0), last)]
         moving = max(*jumps, float(np.abs(crv[first]).max())) > JUMP * expected

@@ -8,6 +8,7 @@ under a "quasi-constant, slightly convex envelope"; the longitudinal one as "a c
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -45,9 +46,9 @@ def extremes(x: np.ndarray, least: float = LEAST_TOOTH) -> np.ndarray:
 
 def flanks(x: np.ndarray) -> Flanks:
     """Return the flanks of a signal x (N,) at equal time steps. Raises InputError E-STRETCH if there are none."""
-    x = np.asarray(x, dtype=np.float64)
+    x = np.asarray(x)
     tips = extremes(x)
-    bounds = np.array([(a, b) for a, b in zip(tips[:-1], tips[1:], strict=True) if b - a >= LEAST_SAMPLES])
+    bounds = np.array([(a, b) for a, b in pairwise(tips) if b - a >= LEAST_SAMPLES])
     if not len(bounds):
         raise InputError("E-STRETCH", "argument x", "has no saw-tooth", "Give a stretch with out-of-plane motion.")
     shapes = [_shape(x[a : b + 1]) for a, b in bounds]
@@ -81,7 +82,7 @@ def curvature(x: np.ndarray) -> float:
     left out. Height of the parabola in the middle over the chord of its ends: negative is convex (sagging), positive
     concave. Raises InputError E-STRETCH for fewer than eight teeth.
     """
-    tips = extremes(np.asarray(x, dtype=np.float64))[2:-2]
+    tips = extremes(np.asarray(x))[2:-2]
     if len(tips) < 4:
         raise InputError("E-STRETCH", "argument x", "has fewer than eight extremes", "Give a whole arc.")
     heights, place = np.abs(np.asarray(x)[tips]), np.interp(tips, (tips[0], tips[-1]), (-1.0, 1.0))
@@ -90,12 +91,12 @@ def curvature(x: np.ndarray) -> float:
 
 def ripple(t: np.ndarray, x: np.ndarray, window: float = 0.075) -> np.ndarray:
     """Return x (N,) at t (N,) s without its running mean over `window` s: the saw-tooth on the main rate, (N,)."""
-    return np.asarray(x) - running_mean(np.asarray(x, dtype=np.float64), half_width(t, window))
+    return np.asarray(x) - running_mean(np.asarray(x), half_width(t, window))
 
 
 def rhythm(t: np.ndarray, x: np.ndarray) -> float:
     """Return the dominant period [s] of x (N,) at equal time steps t (N,) s: the highest line of its spectrum."""
-    x = np.asarray(x, dtype=np.float64) - np.mean(x)
+    x = np.asarray(x) - np.mean(x)
     size = 8 * len(x)  # decided: eight times finer lines than the stretch is long, so that two periods can be compared
     spectrum = np.abs(np.fft.rfft(x * np.hanning(len(x)), size))
     return float(size * (t[1] - t[0]) / np.argmax(spectrum))

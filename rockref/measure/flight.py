@@ -121,7 +121,7 @@ def ballistic_starts(poses: Poses, used: np.ndarray, gravity: np.ndarray, inerti
     left_x = (straight - x[:, None] - v[:, None] * t[:, None]) * weight[..., None]
 
     J_inverse = inverse(inertia)
-    Lambda, W = poses.Lambda[:, 0].copy(), np.zeros((len(used), 3))
+    Lambda = poses.Lambda[:, 0].copy()
     last = np.maximum(used - 1, 1)
     ends = poses.Lambda[np.arange(len(used)), last]
     W = logarithm(Lambda.swapaxes(-1, -2) @ ends) / t[last][:, None]

@@ -118,7 +118,7 @@ def energy_ledger(t: np.ndarray, crv: np.ndarray, block: RockingBlock, impacts: 
     wx = np.abs(crv[:, 0])
     out = 0.5 * (block.edge_inertia * crv[:, 1] ** 2 + block.spin_inertia * crv[:, 2] ** 2)
     release = abs(float(run_arcs.fall[0]))
-    first = float(energy_before[0]) if len(impacts) else float("nan")
+    first = float(energy_before[0]) if len(impacts) else math.nan
     return Ledger(
         times=impacts.times,
         signs=impacts.signs,
@@ -170,7 +170,7 @@ def _extrapolated(t: np.ndarray, w: np.ndarray, time: float, start: float, stop:
     """
     first, last = np.searchsorted(t, (start, stop))
     if last - first < LEAST_SAMPLES:
-        return float("nan")
+        return math.nan
     s = p * (t[first:last] - time)
     basis = np.stack((np.cosh(s), np.sinh(s)), axis=-1)
     solution, *_ = np.linalg.lstsq(basis, w[first:last], rcond=None)

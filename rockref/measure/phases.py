@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,12 +74,12 @@ def _last_planar(t: np.ndarray, shares: np.ndarray, impacts: Impacts) -> float:
     """Return the start, s, of the planar arcs with which the run ends; infinite if there are fewer than two."""
     bounds = np.concatenate((t[:1], impacts.times, t[-1:]))
     counted = np.flatnonzero(np.diff(bounds) >= SHORTEST)
-    start, count = float("inf"), 0
+    start, count = math.inf, 0
     for arc in counted[::-1]:
         if not shares[arc] < PLANAR_SHARE:
             break
         start, count = float(bounds[arc]), count + 1
-    return start if count >= LEAST_ARCS else float("inf")
+    return start if count >= LEAST_ARCS else math.inf
 
 
 def _intervals(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -53,7 +54,7 @@ def flight_arcs(poses: Poses, used: np.ndarray) -> Measured:
             right.append(poses.x[i, :n, j] - Q @ (Q.T @ poses.x[i, :n, j]))
             owner += [i] * n
     if len(rows) < 9:
-        return Measured({}, 0, float("nan"))
+        return Measured({}, 0, math.nan)
     A, y = np.concatenate(rows), np.concatenate(right)
     p, se, scatter, _ = robust(A, y, np.array(owner), lost=2 * len(rows))
     names = ("g_x", "g_y", "g_z", "drag", "centre_x", "centre_y", "centre_z")
@@ -186,8 +187,7 @@ def _segment(poses: Poses, index: np.ndarray, start: np.ndarray, count: np.ndarr
 
 def impulse_balance(k: Impacts) -> Measured:
     """Principal inertias over the mass (3) [m2] from L+ J W+ - L- J W- = m r x (v+ - v-), r the corner's lever."""
-    turned = np.einsum
-    A = turned("bij,bj->bij", k.L_after, k.W_after) - turned("bij,bj->bij", k.L_before, k.W_before)
+    A = k.L_after * k.W_after[:, None] - k.L_before * k.W_before[:, None]
     y = np.cross(k.r, k.v_after - k.v_before)
     p, se, scatter, keep = robust(A.reshape(-1, 3), y.ravel(), np.repeat(np.arange(len(y)), 3))
     names = ("inertia_xx", "inertia_yy", "inertia_zz")
@@ -229,7 +229,7 @@ def corner_ratios(k: Impacts) -> Measured:
         if len(a) > 4:
             spread = 1.4826 * np.median(np.abs(a - np.median(a)))
             values[name] = (float(np.median(a)), float(1.2533 * spread / np.sqrt(len(a))), "1")
-    return Measured(values, int(slid.sum()), float(np.std(ratio[slid])) if slid.any() else float("nan"))
+    return Measured(values, int(slid.sum()), float(np.std(ratio[slid])) if slid.any() else math.nan)
 
 
 def energy_change(k: Impacts, inertia_over_mass: np.ndarray) -> np.ndarray:

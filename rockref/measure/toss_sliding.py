@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from itertools import pairwise
+
 import numpy as np
 
 from rockref.measure.flight import Poses
@@ -40,13 +43,13 @@ def sliding_friction(poses: Poses, P: np.ndarray, g: float) -> Measured:
     """Coefficient of friction of a flat face by speed: medians of deceleration over g, with their standard errors."""
     pieces = flat_pieces(poses, P)
     values = {}
-    for low, high in zip(SPEEDS, SPEEDS[1:], strict=False):
+    for low, high in pairwise(SPEEDS):
         mu = pieces[(pieces[:, 1] > low) & (pieces[:, 1] <= high), 2] / g
         if len(mu) >= LEAST:
             spread = 1.4826 * np.median(np.abs(mu - np.median(mu)))
             # 1.2533: standard error of a median over that of a mean, for normal errors.
             values[f"{low:g} to {high:g} m/s"] = (float(np.median(mu)), float(1.2533 * spread / np.sqrt(len(mu))), "1")
-    scatter = float(np.std(pieces[:, 2] / g)) if len(pieces) else float("nan")
+    scatter = float(np.std(pieces[:, 2] / g)) if len(pieces) else math.nan
     return Measured(values, len(np.unique(pieces[:, 0])), scatter)
 
 
