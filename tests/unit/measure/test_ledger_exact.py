@@ -1,6 +1,7 @@
 """The ledger, number by number, at impacts that are given."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -161,3 +162,11 @@ def test_block_of_three_four_five():
     block = rocking_block(2.0, 3.0, 4.0)
     assert (block.radius, block.alpha) == (2.5, math.atan(0.75))
     assert block.edge_inertia == pytest.approx(50.0 / 3.0) and block.spin_inertia == pytest.approx(3.0)
+
+
+def test_every_impact_has_its_own_sign():
+    impacts = struck(0.7, 1.5)
+    with pytest.raises(ValueError):
+        energy_ledger(
+            np.arange(3000) / 1000.0, along_x(np.ones(3000)), BLOCK, replace(impacts, signs=impacts.signs[:1])
+        )

@@ -140,6 +140,12 @@ def test_predictions_carry_run_release_step_and_gyroscope(monkeypatch):
     assert (asked["engine"], asked["progress"], asked["problems"][0].step) == ("auto", None, STEP)
 
 
+def test_every_run_has_its_own_response(monkeypatch):
+    monkeypatch.setattr(prediction, "solve", lambda *_: [])
+    with pytest.raises(ValueError):
+        prediction.predict(MODEL, [a_run()], GYRO)
+
+
 def shown(gyro=GYRO, effects=()):
     """What is shown of rates of 1 + t, 2 and -3 rad/s from 0 to 0.1 s at 4 kHz."""
     t = np.arange(401) / 4000.0

@@ -94,3 +94,9 @@ def test_only_tosses_with_rates_and_three_frames_after_the_contact_are_looked_at
     assert rises([no_v, no_W, short], np.array([6, 6, 6]), *ask) == {}
     # Frame 6 + 3 is the last of ten.
     assert rises([at_heights(np.array(LEVEL[:10], float))], np.array([6]), *ask)["tosses"] == 1
+
+
+def test_every_toss_has_its_own_contact():
+    whole = at_heights(np.array(LEVEL, float))
+    with pytest.raises(ValueError):
+        rises([whole, whole], np.array([6]), np.zeros(3), np.zeros(3), 1.0)

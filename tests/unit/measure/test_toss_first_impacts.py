@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rockref.measure.flight import MOST, Poses
-from rockref.measure.toss_balance import first_impacts
+from rockref.measure.toss_balance import _segment, first_impacts
 from rockref.model.errors import InputError
 
 DT = 1.0 / 148.0
@@ -117,3 +117,13 @@ def test_frames_beside_a_contact_are_not_used():
                 frames.append(frame)
     # The slope of a line does not depend on the middle of an odd number of frames.
     assert moved == {"v_before": list(range(8)), "v_after": [10, 11, 12, 14, 15, 16]}
+
+
+def test_a_stretch_has_its_own_times_frames_and_stated_velocities():
+    poses = tosses([1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0])
+    poses = poses._replace(v=np.arange(6.0).reshape(2, 3), W=np.arange(6.0, 12.0).reshape(2, 3))
+    found = _segment(poses, np.array([1, 1, 0]), np.array([0, 2, 1]), np.array([3, 2, 1]))
+    # Behind the frames of a stretch its last one is repeated.
+    assert found.x[..., 2].tolist() == [[5.0, 6.0, 7.0], [7.0, 8.0, 8.0], [2.0, 2.0, 2.0]]
+    assert found.t.tolist() == poses.t[:3].tolist() and found.frames.tolist() == [3, 2, 1]
+    assert found.v.tolist() == poses.v[[1, 1, 0]].tolist() and found.W.tolist() == poses.W[[1, 1, 0]].tolist()
