@@ -80,7 +80,7 @@ $(VENV)/.stamp-peers: $(VENV)/.stamp
 	@touch $@
 
 # From the beginning each time: mutmut keeps its verdicts when a test changes.
-mutate: env  ## plant small faults in the law, count those that the tests notice, and hold the score to its floor
+mutate: env  ## plant small faults in the law, the effects and the measures, count those that the tests notice, and hold the scores to their floors
 	rm -rf mutants
 	HYPOTHESIS_PROFILE=mutation $(VENV)/bin/mutmut run
 	$(PY) -m tests.mutation
