@@ -87,6 +87,17 @@ def test_a_winner_that_has_not_arrived_is_not_told_from_what_it_left_less_far_be
     assert found.verdict == word and set(found.effects) <= {"cable_restraint", "quadratic_drag"}
 
 
+@pytest.mark.parametrize(
+    "gain, room, word",
+    [(1000.0, 2100.0, "something_else"), (2000.0, 1700.0, "named"), (150.0, 400.0, "named"), (4000.0, 0.0, "named")],
+)
+def test_an_effect_that_leaves_more_than_it_gains_is_not_the_cause(gain, room, word):
+    """A weak one that is there may leave more than it gains: below the room for a second effect that says nothing."""
+    found = decide(replace(facts(gains={"quadratic_drag": gain}), room=room))
+    assert found.verdict == word
+    assert word == "named" or ("quadratic_drag" in found.sentence and found.effects == ())
+
+
 def test_a_rival_that_gained_nothing_is_no_rival():
     found = decide(replace(facts(gains={"quadratic_drag": 150.0, "adhesion": 0.0}), room=500.0))
     assert (found.verdict, found.effects) == ("named", ("quadratic_drag",))
