@@ -42,7 +42,8 @@ from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError
 
 WHOLE, KEPT = "the whole", "ablation.json"
-#: How long after the second main impact a record counts without windows [s]: the impact itself takes 20 ms.
+#: How long after the second main impact a record counts without windows [s]: as long as the first window of a run goes
+#: on after its impact (`windows.series`).
 AFTER = 0.045
 
 

@@ -26,7 +26,7 @@ STRONG = 1.35
 HELD = 5.0
 #: Of these, what is looked for below HELD, too, where it must have a size: it is over when the block is on its way, and
 #: a sensor that takes its place spoils what follows (decided: half a typical pull left 2.2 in the worst run, and was
-#: taken for a clock; of feet that settle, and of ten other releases that were a little off, it explained nothing).
+#: taken for a clock; of feet that settle, and of six other releases that were a little off, it explained nothing).
 SLIGHT = ("lingering_wire_pull",)
 #: Share of the excess loss that an effect must explain to be taken along from the start.
 EXPLAINED = 0.6

@@ -18,7 +18,7 @@ DETECTED = 100.0
 SECOND, SECOND_SIZE = 900.0, 0.25
 #: What must be left to gain for a second effect to be looked for at all. If more is left than a single effect gained,
 #: and no second one was found, it is not the cause (decided: an inertia that stood in for a loose part gained 1017 and
-#: left 2101; a contact with memory that was there, the least finished of some forty right names, 2009 and 1733).
+#: left 2101; a contact with memory that was there, the least finished of ten right names, 2009 and 1733).
 SECOND_ROOM = 1500.0
 #: Share of the structured windows that a second effect may leave; what bends a first fit that has not arrived leaves
 #: nearly all of them (decided; where another law stood behind a name, a wrong second effect bettered it to 0.64;

@@ -26,6 +26,15 @@ def slides(v, a, frames=11, lifted=0):
     return Poses(np.arange(frames) / RATE, x, Lambda, np.full(B, frames), np.zeros((B, 3)), np.zeros((B, 3)))
 
 
+def tipped(poses, corner):
+    """The poses tipped about Y: two corners on the plate, two of the same face above it by `corner` [m]."""
+    tip = np.arcsin(corner / (2 * HALF))
+    c, s = np.cos(tip), np.sin(tip)
+    poses.Lambda[:] = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    poses.x[..., 2] = HALF * (c + s)
+    return poses
+
+
 def test_speed_and_deceleration_of_a_piece_are_those_of_its_middle():
     """Eleven frames: two settle, nine make a piece, whose middle is one frame after that of the eleven."""
     v, a = np.array([0.3, -0.4]), np.array([-1.0, 3.0])
@@ -53,12 +62,7 @@ def test_a_face_that_lifts_again_begins_anew():
 
 @pytest.mark.parametrize(("corner", "pieces"), [(0.0019, 1), (0.0021, 0)])
 def test_flat_is_a_fourth_corner_below_two_millimetres(corner, pieces):
-    """Tipped about Y: two corners on the plate, two of the same face above it."""
-    poses = slides([1.0, 0.0], [0.0, 0.0])
-    tip = np.arcsin(corner / (2 * HALF))
-    c, s = np.cos(tip), np.sin(tip)
-    poses.Lambda[:] = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-    poses.x[..., 2] = HALF * (c + s)
+    poses = tipped(slides([1.0, 0.0], [0.0, 0.0]), corner)
     assert len(flat_pieces(poses, P)) == pieces
     # A body of three points has no fourth corner: its highest counts, which is one of the two above.
     assert len(flat_pieces(poses, P[[4, 6, 7]])) == pieces
@@ -117,9 +121,5 @@ def test_rest_height_is_that_of_the_lowest_four_corners_in_the_last_frame():
 
 @pytest.mark.parametrize(("corner", "height"), [(0.0019, 0.00095), (0.0021, 0.0)])
 def test_a_face_that_is_tipped_by_two_millimetres_does_not_rest(corner, height):
-    poses = slides([0.0, 0.0], [0.0, 0.0])
-    tip = np.arcsin(corner / (2 * HALF))
-    c, s = np.cos(tip), np.sin(tip)
-    poses.Lambda[:] = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-    poses.x[..., 2] = HALF * (c + s)
+    poses = tipped(slides([0.0, 0.0], [0.0, 0.0]), corner)
     assert rest_height(poses, P) == pytest.approx(height, abs=1e-12)
