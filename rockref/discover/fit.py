@@ -64,6 +64,17 @@ class Parameter:
         return float(min(max(v, self.low), self.high))
 
 
+def running_mean(r: np.ndarray, samples: int) -> np.ndarray:
+    """Means of r (B, M, 3) over so many samples about each, times their root: white noise keeps its size.
+
+    At the ends the mean is over what is there, and counts for less.
+    """
+    sums = np.concatenate([np.zeros_like(r[:, :1]), np.cumsum(r, axis=1)], axis=1)
+    first = np.arange(r.shape[1]) - samples // 2
+    begin, end = np.maximum(first, 0), np.minimum(first + samples, r.shape[1])
+    return (sums[:, end] - sums[:, begin]) / np.sqrt(samples)
+
+
 @dataclass
 class Point:
     """Where a fit stands: z (G,), tilt offsets are among z; corrections (B, 5); loss per window (B,)."""
@@ -81,12 +92,13 @@ class Point:
 
 @dataclass
 class Fit:
-    """A model family over a series of windows."""
+    """A model family over a series of windows; averaged : over how many samples residuals are averaged."""
 
     series: Series
     base: Model
     parameters: tuple[Parameter, ...]
     log: Callable[[str], None] = field(default=lambda line: None)
+    averaged: int = 1
 
     def __post_init__(self):
         s = self.series
@@ -131,7 +143,8 @@ class Fit:
     def residual(self, z: np.ndarray, corrections: np.ndarray, which=None, upto=None) -> np.ndarray:
         """Residuals of the windows `which` in sigmas, of their first `upto` samples (default all)."""
         models, tilt = self.models(z)
-        return self.series.residual(models, tilt, corrections, which, upto)
+        r = self.series.residual(models, tilt, corrections, which, upto)
+        return r if self.averaged == 1 else running_mean(r, self.averaged)
 
     def counts(self, which=None, upto=None) -> np.ndarray:
         """Sample values of each window that count."""

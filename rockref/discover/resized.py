@@ -7,7 +7,7 @@ import numpy as np
 from rockref.discover.approach import along_ridge, heights_of, switches
 from rockref.discover.families import Family, refit, refit_all, structured
 from rockref.discover.fit import Fit, Point
-from rockref.discover.search import ARRIVED, LITTLE, MOST_JUMPS, TRIED, Setup
+from rockref.discover.search import LITTLE, MISSING, MOST_JUMPS, TRIED, Setup, arrived
 
 #: Factors by which the sizes of effects are changed (decided: a cable's damping, found at three times its value, came
 #: down from two thirds, half and a third of that alike).
@@ -17,8 +17,6 @@ FACTORS = (0.5, 1.5)
 AFFORDABLE, PLACES = 1.4, 4
 #: Size, in typical sizes, below which half a typical size is looked at as well.
 TRIFLE = 0.3
-#: Share of structured windows above which no size of these effects will do (decided: something else is missing).
-MISSING = 0.5
 
 
 def resized(setup: Setup, family: Family, seed: int) -> Family:
@@ -29,8 +27,7 @@ def resized(setup: Setup, family: Family, seed: int) -> Family:
     one that most windows contradict.
     """
     for _ in range(MOST_JUMPS):
-        arrived = 2 * family.point.loss.sum() < ARRIVED * family.fit.series.count.sum()
-        if arrived or structured(family) > MISSING:
+        if arrived(family.fit, family.point) or structured(family) > MISSING:
             break
         begun = [Family(family.effects, family.fit, point) for point in places(family.fit, family.point)]
         best = min([family, *refit_all(setup, begun, TRIED, seed)], key=lambda f: f.point.objective)

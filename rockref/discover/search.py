@@ -12,6 +12,7 @@ from rockref.discover.approach import along_ridge, approached, placed
 from rockref.discover.baseline import baseline_parameters, roll_parameters
 from rockref.discover.beside import side_by_side
 from rockref.discover.candidates import parameters_of
+from rockref.discover.coarse import coarse_to_fine
 from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.windows import Cut, Series, gyro_of, sensor_of, series
 from rockref.effects import catalogue
@@ -31,6 +32,8 @@ TRIED, LITTLE = 3, 0.015
 #: Mean loss below which a fit has arrived (decided: a little above NOISE, which a right model reaches), and most jumps
 #: of one that has not.
 ARRIVED, MOST_JUMPS = 0.985, 2
+#: Share of structured windows above which no place of these parameters will do (decided: something else is missing).
+MISSING = 0.5
 #: Seconds of each run that the first stage looks at.
 FIRST_STAGE = 1.6
 
@@ -124,7 +127,7 @@ def jumped(setup: Setup, fit: Fit, point: Point, rng: np.random.Generator) -> Po
         return twin.run(placed(twin, z), TRIED, np.random.default_rng(setup.seed), lam=1e-3)
 
     for _ in range(MOST_JUMPS):
-        if 2 * point.loss.sum() < ARRIVED * fit.series.count.sum():
+        if arrived(fit, point):
             break
         best = min([point, *side_by_side(setup, tried, point.z + along_ridge(fit))], key=lambda p: p.objective)
         if best is point:
@@ -134,9 +137,27 @@ def jumped(setup: Setup, fit: Fit, point: Point, rng: np.random.Generator) -> Po
 
 
 def late(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int):
-    """The second stage: longer windows over all that is used."""
-    fit = staged(setup, effects, z, MIDDLE)
-    return fit, fit.run(placed(fit, z), iterations, np.random.default_rng(setup.seed), relative=LITTLE / 5)
+    """The second stage: longer windows over all that is used, from coarse to fine where a few iterations do not do."""
+    fit, rng = staged(setup, effects, z, MIDDLE), np.random.default_rng(setup.seed)
+    point = fit.run(placed(fit, z), min(TRIED, iterations), rng, relative=LITTLE / 5)
+    if iterations > TRIED:
+        point = fit.run(led_on(fit, point, setup.seed), iterations - TRIED, rng, relative=LITTLE / 5)
+    return fit, point
+
+
+def arrived(fit: Fit, point: Point) -> bool:
+    """Whether a fit has come down to the noise."""
+    return bool(2 * point.loss.sum() < ARRIVED * fit.series.count.sum())
+
+
+def led_on(fit: Fit, point: Point, seed: int) -> Point:
+    """Where a fit that has stopped above the noise goes on from: from coarse to fine, if that leads lower.
+
+    One that most windows contradict is left as it is.
+    """
+    if arrived(fit, point) or np.mean(2 * point.loss / fit.series.count > 1.5) > MISSING:
+        return point
+    return min(point, coarse_to_fine(fit, point, seed), key=lambda p: p.objective)
 
 
 def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None = None, iterations=FRESH):

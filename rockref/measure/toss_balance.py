@@ -221,7 +221,7 @@ def corner_ratios(k: Impacts) -> Measured:
     ratio = np.hypot(dv[:, 0], dv[:, 1]) / dv[:, 2]
     speed = np.hypot(u2[:, 0], u2[:, 1])
     along = np.sum(u1[:, :2] * u2[:, :2], axis=1) / np.maximum(np.hypot(u1[:, 0], u1[:, 1]) * speed, 1e-9)
-    # The corner slid throughout where it still moves the same way: within 30 degrees, at 0.2 m/s or more (decided).
+    # The corner slid throughout where it still moves the same way: within 30 degrees, faster than 0.2 m/s (decided).
     slid = (speed > 0.2) & (along > np.cos(np.pi / 6))
     restitution = -u2[:, 2] / u1[:, 2]
     values = {}

@@ -31,6 +31,7 @@ class Bowl:
     stuck: bool = False
     series: SimpleNamespace = field(default_factory=series)
     iterations: int = 0
+    averaged: int = 1
 
     @property
     def parameters(self):
@@ -43,6 +44,9 @@ class Bowl:
 
     def twin(self, log):
         return self
+
+    def relax_states(self, point):
+        return point
 
     def run(self, point, iterations, rng, relative=0.0):
         self.iterations += iterations

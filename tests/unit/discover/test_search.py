@@ -10,8 +10,9 @@ from rockref import Model
 from rockref.discover.approach import JUMPS, along_ridge
 from rockref.discover.baseline import baseline_parameters
 from rockref.discover.fit import Parameter, Point
-from rockref.discover.search import jumped
-from tests.unit.discover.bowls import ALONE
+from rockref.discover.search import ARRIVED, arrived, jumped, led_on
+from tests.unit.discover.bowls import ALONE, Bowl
+from tests.unit.discover.bowls import WINDOWS as BOWLS
 
 WINDOWS = 20
 PARAMETERS = baseline_parameters(Model.table_3_1(), 0, 0.0014)
@@ -78,3 +79,38 @@ def test_jumps_that_do_not_help_are_not_kept():
     start, _ = fit.point(np.zeros(len(NAMES)), np.zeros((WINDOWS, 5)))
     assert jumped(ALONE, fit, start, np.random.default_rng(0)) is start
     assert fit.asked == len(JUMPS)
+
+
+@dataclass
+class Rough(Bowl):
+    """A bowl that only averaged samples show: sample by sample nothing moves."""
+
+    def run(self, point, iterations, rng, relative=0.0):
+        return super().run(point, iterations, rng, relative) if self.averaged > 1 else point
+
+
+def stands(floor: float, z: float):
+    fit = Rough(np.zeros(1), floor=floor)
+    return fit, fit.point(np.array([z]), np.zeros((BOWLS, 5)))[0]
+
+
+def test_a_fit_above_the_noise_is_led_on_by_averages():
+    fit, point = stands(0.95, 0.5)
+    assert not arrived(fit, point)
+    led = led_on(fit, point, 0)
+    # Eight iterations, each half of the way that is left.
+    assert abs(led.z[0]) == pytest.approx(0.5 / 2**8) and arrived(fit, led)
+
+
+@pytest.mark.parametrize("floor, z", [(ARRIVED - 0.01, 0.0), (1.6, 0.5)], ids=["arrived", "hopeless"])
+def test_a_fit_that_is_down_or_hopeless_stays_where_it_is(floor, z):
+    fit, point = stands(floor, z)
+    assert led_on(fit, point, 0) is point
+
+
+def test_averages_that_lead_higher_are_not_followed():
+    fit, point = stands(1.2, 0.0)
+    fit.bottom = np.array([3.0])
+    astray = fit.point(point.z, point.corrections)[0]
+    led = led_on(fit, point, 0)
+    assert led is point and point.objective < astray.objective

@@ -1,0 +1,32 @@
+"""From coarse to fine: a fit first sees residuals averaged over some milliseconds, and then every sample.
+
+A corner impact that comes a fraction of a millisecond early is a spike of some tens of noise widths. Sample by sample
+the loss is therefore rough, and least squares stops on the way down; averaged over more than the spike is long it is
+smooth, and its lowest place is near the right one. Seismologists fit waveforms in this order, from low frequencies to
+high ones, lest they fall in step with the wrong cycle (C. Bunks et al. (1995), Geophysics 60:1457-1473,
+doi:10.1190/1.1443880).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rockref.discover.fit import Fit, Point
+
+#: Samples averaged and most iterations, one stage after the other. Decided: a fit of Stribeck friction that had stopped
+#: 370 units above the place that a start at the truth leads to came down by 110, 250, 330 and 260 with 3, 6, 12 and 24
+#: samples; with these two stages by 380.
+STAGES = ((12, 5), (4, 3))
+#: Share of the objective that two iterations must gain for a stage to go on (decided: as on the long windows).
+LITTLE = 0.003
+
+
+def coarse_to_fine(fit: Fit, point: Point, seed: int = 0) -> Point:
+    """Where a fit goes on from after the coarse stages, with its windows' corrections improved on every sample."""
+    rng = np.random.default_rng(seed)
+    for samples, iterations in STAGES:
+        wide = replace(fit, averaged=samples)
+        point = wide.run(wide.point(point.z, point.corrections)[0], iterations, rng, relative=LITTLE)
+    return fit.relax_states(fit.point(point.z, point.corrections)[0])
