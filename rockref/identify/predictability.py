@@ -9,6 +9,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.identify.candidates import OUTPUT_RATE, STEP, rates
 from rockref.measure.impacts import main_impacts
+from rockref.model.errors import InputError
 from rockref.model.rotation import exponential, product
 
 #: Size of the differences put on the release [rad]. Decided: far above the rounding of 1e-16 that a run collects (some
@@ -40,6 +41,8 @@ def growth(
 
     The difference is taken as the quadratic mean over a tenth of the time to the next main impact, in the middle
     between two impacts, so that a shift of the impact itself is not counted.
+
+    Raises InputError (E-IMPACTS) where the run ends before the second main impact.
     """
     rng = np.random.default_rng(seed)
     problem = model.problem(duration, step, OUTPUT_RATE)
@@ -52,6 +55,9 @@ def growth(
     crv = rates(problems, workers)
     t = np.arange(crv.shape[1]) / OUTPUT_RATE
     impacts = main_impacts(t, crv[0]).times
+    if len(impacts) < 2:
+        what = f"reaches {len(impacts)} of two main impacts in {duration} s; a difference grows from one to the next"
+        raise InputError("E-IMPACTS", "the model", what, "Give a duration that reaches the second main impact.")
     bounds = np.concatenate(([0.0], impacts))
     sizes = []
     for a, b in zip(bounds[:-1], bounds[1:], strict=True):

@@ -106,6 +106,13 @@ def test_differences_grow_from_impact_to_impact_and_do_not_depend_on_the_workers
     assert one.digits_per_impact == pytest.approx(np.log10(one.per_impact))
 
 
+def test_growth_needs_two_impacts(table_3_1):
+    """Table 3.1 strikes at 0.51 and at 1.34 s."""
+    with pytest.raises(InputError, match="reaches 1 of two main impacts in 1.0 s") as refused:
+        growth(table_3_1, runs=2, duration=1.0, workers=1)
+    assert refused.value.code == "E-IMPACTS"
+
+
 def test_the_record_is_plain_and_says_seed_and_versions(small):
     import json
 
