@@ -17,8 +17,8 @@ DETECTED = 100.0
 #: The same for a second effect, and its least size: what the first fit left unfinished gains something for everyone.
 SECOND, SECOND_SIZE = 900.0, 0.25
 #: What must be left to gain for a second effect to be looked for at all: a little more than it has to gain (decided:
-#: of sixteen right single names one left more, thirteen less than 650; two pairs of which one effect was found left 1446
-#: and 1494).
+#: of sixteen right single names one left more, thirteen less than 650; two pairs of which one effect was found left
+#: 1446 and 1494).
 SECOND_ROOM = 1000.0
 #: If more than this is left, and more than a single effect gained, and no second one was found, it is not the cause
 #: (decided: an inertia that stood in for a loose part gained 1017 and left 2101; a contact with memory that was there,
