@@ -12,7 +12,7 @@ from rockref.discover.beside import side_by_side
 from rockref.discover.families import Family, gain_between, refit, size_of, structured
 from rockref.discover.looking import PLAIN, POLISH, Look, challenge, ranked
 from rockref.discover.resized import resized
-from rockref.discover.search import LITTLE, MISSING, Setup, baseline, led_on
+from rockref.discover.search import LITTLE, MISSING, Setup, baseline
 
 #: Share of the winner's gain above which a rival is fitted to its end, too, and most such rivals. Decided: sides that
 #: were off under the stated inertia ended at 2010 where a scale factor had 2370, and at 2300 when fitted on.
@@ -37,9 +37,8 @@ def upheld(look: Look, winner: Family, second: bool, seed: int, say: Callable[[s
 
 
 def finished(setup: Setup, family: Family, seed: int) -> Family:
-    """A family fitted as far as it goes, from coarse to fine and from changed sizes too."""
-    fit = family.fit.twin(setup.log)
-    family = Family(family.effects, fit, led_on(fit, family.point, seed))
+    """A family fitted as far as it goes, from changed sizes too."""
+    family = Family(family.effects, family.fit.twin(setup.log), family.point)
     return resized(setup, refit(family, 3 * POLISH, seed, relative=LITTLE / 5), seed)
 
 
