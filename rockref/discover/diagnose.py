@@ -192,7 +192,7 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         if start.effects and not rules.settles(structured(start), structured(wider)):
             break
         start = wider
-        if structured(start) > rules.HOPELESS:
+        if rules.is_hopeless(structured(start), look.gains[start.effects[-1]], room(start)):
             break
     return start, looks
 

@@ -48,8 +48,11 @@ UNEXPLAINED = 0.30
 #: A run contradicts the others where more than ALONE of its windows stay structured, and less than AT_PEACE of any
 #: other run's (decided: what moves the block moves it in every run).
 ALONE, AT_PEACE = 0.6, 0.1
-#: Share above which no second effect is looked for: the runs do not look like anything in the catalogue.
-HOPELESS = 0.9
+#: Share above which no second effect is looked for: the runs do not look like anything in the catalogue. Nor is one
+#: above MOST of the windows, where the first gained less than A_PART of what it left (decided: with packets that were
+#: lost, a spinning wheel and a ringing support 82 to 90 % stayed structured, and the first effect gained 0.12 to 0.22 of
+#: what was left; a spinning foot, of a pair, left 85 % and gained 0.72 of it).
+HOPELESS, MOST, A_PART = 0.9, 0.5, 0.25
 #: Mean loss of a window that is noise: the robust loss of white noise, less the five corrections (seen on
 #: simulated runs at their own parameters).
 NOISE = 0.97
@@ -110,6 +113,11 @@ def is_detected(gain: float, size: float, second: bool = False) -> bool:
 def settles(before: float, after: float) -> bool:
     """Whether a second effect explains the windows that the first one left structured (shares before and after)."""
     return after <= max(SETTLED * before, FEW_LEFT)
+
+
+def is_hopeless(bad: float, gain: float, room: float) -> bool:
+    """Whether no second effect can help: share of structured windows, gain of the first effect, what it left."""
+    return bad > HOPELESS or (bad > MOST and gain < A_PART * room)
 
 
 def contradicting(by_run: dict[str, float]) -> str | None:

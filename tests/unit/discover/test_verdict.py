@@ -61,6 +61,19 @@ def test_second_effect_must_settle_the_windows():
     assert not settles(0.125, 0.111)
 
 
+@pytest.mark.parametrize(
+    "bad, gain, room, hopeless",
+    [
+        (0.95, 5000, 100, True),  # nearly every window contradicts
+        (0.83, 431, 3658, True),  # most do, and the first effect explained next to nothing
+        (0.85, 2916, 4065, False),  # most do, and it explained much
+        (0.40, 431, 3658, False),  # some do
+    ],
+)
+def test_no_second_effect_where_the_first_explains_next_to_nothing(bad, gain, room, hopeless):
+    assert rules.is_hopeless(bad, gain, room) is hopeless
+
+
 def test_weights_add_up_and_follow_the_gains():
     table = ranking({"adhesion": 10.0, "quadratic_drag": 900.0, "clock_error": 400.0})
     assert [row["effect"] for row in table] == ["quadratic_drag", "clock_error", "adhesion"]
