@@ -49,9 +49,9 @@ UNEXPLAINED = 0.30
 #: other run's (decided: what moves the block moves it in every run).
 ALONE, AT_PEACE = 0.6, 0.1
 #: Share above which no second effect is looked for: the runs do not look like anything in the catalogue. Nor is one
-#: above MOST of the windows, where the first gained less than A_PART of what it left (decided: with packets that were
-#: lost, a spinning wheel and a ringing support 82 to 90 % stayed structured, and the first effect gained 0.12 to 0.22 of
-#: what was left; a spinning foot, of a pair, left 85 % and gained 0.72 of it).
+#: above MOST of the windows, where the first gained less than A_PART of what it left (decided: of lost packets, of a
+#: spinning wheel and of a ringing support 82 to 90 % stayed structured, and the first gained 0.12 to 0.22 of what was
+#: left; a spinning foot, of a pair, left 85 % and gained 0.72 of it).
 HOPELESS, MOST, A_PART = 0.9, 0.5, 0.25
 #: Mean loss of a window that is noise: the robust loss of white noise, less the five corrections (seen on
 #: simulated runs at their own parameters).
