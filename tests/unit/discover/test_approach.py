@@ -92,6 +92,15 @@ def test_one_sided_effect_is_moved_to_its_side_only():
     assert np.any(shares_of(by_name["mass_eccentricity.x"]) < 0)
 
 
+def test_a_ringing_plate_is_looked_for_at_every_tone():
+    """A valley of 12 % of the compliance, wherever it lies between 115 and 35 Hz, holds a place that is looked at."""
+    fit = started(effects=("compliant_support",))
+    (compliance,) = (p for p in fit.parameters if p.name == "compliant_support.frequency")
+    looked = shares_of(compliance)
+    for bottom in np.linspace((60 / 115) ** 2, (60 / 35) ** 2, 200):
+        assert np.min(np.abs(looked / bottom - 1)) < 0.06
+
+
 def test_switches_are_what_brings_an_effect_in():
     fit = started(effects=("stribeck_friction",))
     names = [p.name for p in fit.parameters]
