@@ -19,14 +19,15 @@ from rockref.discover.fit import Fit, Point
 #: 370 units above the place that a start at the truth leads to came down by 110, 250, 330 and 260 with 3, 6, 12 and 24
 #: samples; with these two stages by 380.
 STAGES = ((12, 5), (4, 3))
-#: Share of the objective that two iterations must gain for a stage to go on (decided: as on the long windows).
-LITTLE = 0.003
 
 
-def coarse_to_fine(fit: Fit, point: Point, seed: int = 0) -> Point:
-    """Where a fit goes on from after the coarse stages, with its windows' corrections improved on every sample."""
+def coarse_to_fine(fit: Fit, point: Point, seed: int = 0, relative: float = 0.0) -> Point:
+    """Where a fit goes on from after the coarse stages, with its windows' corrections improved on every sample.
+
+    relative : share of the objective that two iterations must gain for a stage to go on.
+    """
     rng = np.random.default_rng(seed)
     for samples, iterations in STAGES:
         wide = replace(fit, averaged=samples)
-        point = wide.run(wide.point(point.z, point.corrections)[0], iterations, rng, relative=LITTLE)
+        point = wide.run(wide.point(point.z, point.corrections)[0], iterations, rng, relative=relative)
     return fit.relax_states(fit.point(point.z, point.corrections)[0])

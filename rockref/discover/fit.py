@@ -34,6 +34,8 @@ THROWN = 0.03
 #: Shares of a window on which its corrections are found one after the other; decided: some 25 ms at a time, the
 #: distance of corner impacts.
 GROWTH = (0.35, 0.7, 1.0)
+#: Mean loss above which a window is structured: not explained (decided: 1 is noise).
+STRUCTURED = 1.5
 #: Mean loss above which a window's corrections are improved by themselves before each joint step (1 is noise).
 ROUGH = 1.3
 
@@ -347,7 +349,7 @@ class Fit:
             mean = 2 * point.loss / self.series.count
             self.log(
                 f"  {self.name} {i}: objective {point.objective:.0f} median {np.median(mean):.3f} "
-                f"bad {np.mean(mean > 1.5):.3f} lam {lam:.1e}"
+                f"bad {np.mean(mean > STRUCTURED):.3f} lam {lam:.1e}"
             )
             little = little + 1 if before - point.objective < relative * before else 0
             if before - point.objective < tolerance or lam > 1e4 or little == 2:

@@ -13,7 +13,7 @@ from rockref.discover.baseline import baseline_parameters, roll_parameters
 from rockref.discover.beside import side_by_side
 from rockref.discover.candidates import parameters_of
 from rockref.discover.coarse import coarse_to_fine
-from rockref.discover.fit import Fit, Parameter, Point
+from rockref.discover.fit import STRUCTURED, Fit, Parameter, Point
 from rockref.discover.windows import Cut, Series, gyro_of, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
@@ -155,9 +155,9 @@ def led_on(fit: Fit, point: Point, seed: int) -> Point:
 
     One that most windows contradict is left as it is.
     """
-    if arrived(fit, point) or np.mean(2 * point.loss / fit.series.count > 1.5) > MISSING:
+    if arrived(fit, point) or np.mean(2 * point.loss / fit.series.count > STRUCTURED) > MISSING:
         return point
-    return min(point, coarse_to_fine(fit, point, seed), key=lambda p: p.objective)
+    return min(point, coarse_to_fine(fit, point, seed, LITTLE / 5), key=lambda p: p.objective)
 
 
 def baseline(setup: Setup, effects: tuple[str, ...] = (), z: np.ndarray | None = None, iterations=FRESH):
