@@ -52,7 +52,7 @@ def run_own(batch: Batch, problems: Sequence[Problem], run_of: np.ndarray, out: 
 
     Parameters
     ----------
-    batch : B windows; wanted (B, R) rises in each and stays at the window's last step
+    batch : B windows; wanted (B, R) rises in each up to the window's last step, and is negative after it
     problems : one a run, from its release, with all effects and their memories begun
     run_of : (B,) run of each window
     """

@@ -293,7 +293,7 @@ class Series:
         state[first], memory[first] = release[first], release_memory[first]
         per_sample = int(round(1 / self.rate / (STEP / self.refine)))
         rows = np.arange(int(length.max()) * self.ROWS_PER_SAMPLE + 1) * (per_sample // self.ROWS_PER_SAMPLE)
-        wanted = np.minimum(rows[None, :], length[:, None] * per_sample).astype(np.int64)
+        wanted = np.where(rows <= length[:, None] * per_sample, rows, -1).astype(np.int64)
         return Batch(body, P, props, memory, effects, state, sensor.clock / self.rate / per_sample, wanted)
 
     def carry(self, models, tilt: np.ndarray, corrections: np.ndarray) -> bool:

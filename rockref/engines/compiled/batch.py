@@ -29,7 +29,8 @@ class Batch:
 
     body : (B, BODY);  P : (B, n, 3) [m];  props : (B, n, PROPS);  memory : (B, n, MEMORY);  effects : (B, SLOTS)
     state : (B, STATE), the starts; without accelerations given, the run evaluates them first
-    h : step [s];  wanted : (R,) or (B, R) int64, the step numbers that are recorded, rising
+    h : step [s];  wanted : (R,) or (B, R) int64, the step numbers that are recorded, rising; from a negative one on
+        nothing of that run is recorded, and its rows stay as they are
     forces : (B, n, 3) of the starts [N], or None; recorded only where step 0 of a given start is wanted
     """
 
@@ -114,10 +115,12 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
     else:
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(piece, pieces))
-    for b in np.flatnonzero(written < R):  # lost
-        states[b, written[b] :] = np.nan
+    asked = np.sum(batch.wanted >= 0, axis=1)
+    for b in np.flatnonzero(written < asked):  # lost
+        rest = slice(written[b], asked[b])
+        states[b, rest] = np.nan
         if full:
-            forces[b, written[b] :] = memories[b, written[b] :] = np.nan
+            forces[b, rest] = memories[b, rest] = np.nan
     return (states, forces, memories) if full else states
 
 

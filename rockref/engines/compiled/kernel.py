@@ -109,7 +109,8 @@ def _make_loop(groups: int, source: int):
         first, last, bodies, all_centres, all_props, memories, all_forces, effects, states, h, all_wanted, full,
         all_rows_state, all_rows_F, all_rows_memory, written,
     ):  # fmt: skip
-        """All steps of the runs `first` to `last` of a batch; rows are written at the step numbers `wanted`.
+        """All steps of the runs `first` to `last` of a batch; rows are written at the step numbers `wanted`, and none
+        from a negative one on.
 
         all_centres : contact points, raised by their radius.  written : (B,) the number of rows written; a run ends
         with the first row without numbers.  The rest as in `rockref.engines.compiled.batch.Batch`.
@@ -130,6 +131,8 @@ def _make_loop(groups: int, source: int):
                 a0, a1, a2, T0, T1, T2 = begin(body, centres, props, memory, forces, e, state)
             half, half_square = h / 2, h * h / 2
             for row in range(wanted.shape[0]):
+                if wanted[row] < 0:
+                    break
                 for _ in range(done, wanted[row]):
                     count += 1.0
                     t = origin + count * h

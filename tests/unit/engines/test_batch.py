@@ -60,6 +60,25 @@ def test_each_run_may_have_its_own_rows(problems):
         np.testing.assert_array_equal(states[i], alone[0])
 
 
+def test_from_a_negative_step_number_on_nothing_is_recorded(problems):
+    """Rows that nobody wants stay as they are; those before them are the same bits."""
+    batch = from_problems(problems)
+    own = np.array([[0, 10, 500], [0, 10, -1], [0, -1, -1], [7, -1, -1]])
+    states = run_batch(replace(batch, wanted=own), out=np.full((4, 3, col.STATE), 4.0))
+    np.testing.assert_array_equal(states[own < 0], 4.0)
+    every = run_batch(replace(batch, wanted=np.array([0, 7, 10, 500])))
+    for b, row in zip(*np.nonzero(own >= 0), strict=True):
+        np.testing.assert_array_equal(states[b, row], every[b, [0, 7, 10, 500].index(own[b, row])])
+
+
+def test_a_lost_run_has_no_numbers_in_the_rows_that_are_wanted():
+    bad = similar_problem(4, 4)
+    bad = bad.replace(start=replace(bad.start, W=np.array([np.inf, 0, 0])))
+    batch = replace(from_problems([bad]), wanted=np.array([0, 5, 9, -1]))
+    states = run_batch(batch, out=np.full((1, 4, col.STATE), 4.0))[0, :, col.W_]
+    assert np.isnan(states[1:3]).all() and states[3] == 4.0
+
+
 def test_a_run_that_loses_its_numbers_spoils_no_other():
     good, bad = similar_problem(3, 4), similar_problem(4, 4)
     bad = bad.replace(start=replace(bad.start, W=np.array([np.inf, 0, 0])))
