@@ -13,7 +13,7 @@ from rockref.discover.blind.scoring import score
 from rockref.discover.diagnose import diagnose
 
 RUNS = (("01", "fit", 0.117, False), ("02", "fit", 0.098, True), ("03", "holdout", 0.108, False))
-SECONDS, SEED = 2.0, 11
+SECONDS, SEED = 1.2, 11
 
 
 def verdict(tmp_path, *effects):

@@ -135,6 +135,23 @@ def test_the_winner_is_fitted_in_full_wherever_it_stands(stages):
     assert [f.effects for f in again] == [("adhesion",)]
 
 
+@pytest.mark.parametrize(
+    "losses, fitted",
+    [
+        pytest.param((4.5, 4.7, 4.8, 5.0), 1, id="all the same and far off"),
+        pytest.param((2.3, 3.6, 4.6, 5.2), 1, id="one is ahead"),
+        pytest.param((2.3, 2.5, 4.6, 5.2), 2, id="two are ahead"),
+        pytest.param((1.5, 1.52, 1.54, 1.56), 3, id="all the same and near"),
+    ],
+)
+def test_where_no_look_leads_anywhere_one_is_fitted_in_full(stages, losses, fitted):
+    ids = ("adhesion", "spin_friction", "clock_error", "gyro_scale")
+    stages(dict(zip(ids, losses, strict=True)))
+    kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
+    found = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None)
+    assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
+
+
 def test_rivals_begun_where_the_winner_ended_are_compared_in_its_valley():
     setup, kept = far_from("quadratic_drag:c=0.8")
     wide = setup.fit(kept.fit.series, ("cable_restraint",))
