@@ -39,9 +39,9 @@ SWAPPED, TRIED_FIRST, LEFT_BEHIND = 6, 2, 0.5
 #: windows do not tell apart (drag, a cable and rolling ended at 1.02, 1.02 and 1.03; sides that were off under the
 #: stated inertia at 1.13, where a scale of the gyroscope had 1.10 and got the name).
 AHEAD, ALIKE = 0.4, 1.05
-#: Looks of which the best leaves so large a mean loss, and such a share of the middle one's, lead nowhere: one of them is
-#: fitted in full (decided: where nothing of the catalogue was missing the best left 0.94 to 0.99 of the middle, at 2.7
-#: to 6.7; a right one that began as far off left 0.6).
+#: Looks of which the best leaves so large a mean loss, and such a share of the middle one's, lead nowhere: one of them
+#: is fitted in full (decided: where nothing of the catalogue was missing the best left 0.94 to 0.99 of the middle, at
+#: 2.7 to 6.7; a right one that began as far off left 0.6).
 FAR_OFF, ALL_THE_SAME = 2.0, 0.9
 #: Mean loss of a first look up to which its start needs no second search (decided: 1 is noise; where friction fell
 #: with speed, the right look ended at 1.04, wrong ones at 1.55 and more).
