@@ -6,13 +6,17 @@ complement); a step costs one simulation per shared parameter and five for all c
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.beside import on_threads, threads_left
 from rockref.discover.windows import STATES, Series
+
+Item = TypeVar("Item")
 
 #: Scale of the Cauchy loss in noise sigmas; decided: an impact half a sample early is some tens of sigmas and must not
 #: steer.
@@ -118,7 +122,25 @@ class Fit:
 
     def twin(self, log: Callable[[str], None]) -> Fit:
         """The same fit for another thread: what is kept from call to call is its own."""
-        return replace(self, series=self.series.twin(), log=log)
+        other = replace(self, series=self.series.twin(), log=log)
+        other._last = self._last
+        return other
+
+    def on_twins(self, do: Callable[[Fit, Item], None], items: Sequence[Item]) -> None:
+        """do(fit, item) for each item, on as many threads as are free, each thread with a twin of its own."""
+        threads = threads_left(len(items), self.series.workers)
+
+        def some(first: int) -> None:
+            twin = self.twin(self.log)
+            twin.series.workers = 1
+            for item in items[first::threads]:
+                do(twin, item)
+
+        if threads < 2:
+            for item in items:
+                do(self, item)
+        else:
+            on_threads(some, range(threads), threads)
 
     def models(self, z: np.ndarray) -> tuple[list[Model], np.ndarray]:
         """One model a run, and the release tilts [rad]; the last ones are kept."""
@@ -192,12 +214,14 @@ class Fit:
 
     def state_jacobian(self, z: np.ndarray, corrections: np.ndarray, r: np.ndarray, which=None, upto=None):
         """d residual / d corrections, (B, STATES, M, 3); the release windows have none."""
-        columns = []
-        for j in range(STATES):
+        J = np.empty((len(r), STATES, *r.shape[1:]))
+
+        def column(fit: Fit, j: int) -> None:
             moved = corrections.copy()
             moved[:, j] += STATE_STEP[j]
-            columns.append((self.residual(z, moved, which, upto) - r) / STATE_STEP[j])
-        J = np.stack(columns, axis=1)
+            J[:, j] = (fit.residual(z, moved, which, upto) - r) / STATE_STEP[j]
+
+        self.on_twins(column, range(STATES))
         J[self.series.first if which is None else self.series.first[which]] = 0
         return J
 
@@ -212,15 +236,18 @@ class Fit:
         for at, j in enumerate(only):
             p = self.parameters[j]
             together.setdefault(p.name if p.run is None else p.name.split("[")[0] + "[", []).append(at)
-        for group in together.values():
+
+        def some(fit: Fit, group: list[int]) -> None:
             moved = z.copy()
             for at in group:
                 moved[only[at]] += self.parameters[only[at]].step
-            change = self.residual(moved, corrections) - r
+            change = fit.residual(moved, corrections) - r
             for at in group:
                 p = self.parameters[only[at]]
                 mine = slice(None) if p.run is None else self.series.run_of == p.run
                 columns[at][mine] = change[mine] / p.step
+
+        self.on_twins(some, list(together.values()))
         return columns.swapaxes(0, 1)
 
     def relax_states(self, point: Point, iterations: int = 2, which=None, damping: float = 1e-3, upto=None) -> Point:

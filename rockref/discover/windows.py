@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.beside import threads_left
 from rockref.discover.clipped import unclipped
 from rockref.discover.own_windows import own_of, run_own
 from rockref.discover.reconstruct import (
@@ -202,7 +203,7 @@ class Series:
     def twin(self) -> Series:
         """The same windows for another thread: what is kept from call to call is its own."""
         other = copy.copy(self)
-        other._rates, other._prepared, other._releases = dict(self._rates), None, []
+        other._rates = dict(self._rates)
         other._rows, other._carried = np.empty((0, col.STATE)), self._carried.copy()
         return other
 
@@ -269,7 +270,7 @@ class Series:
         out = self._buffer(len(which), batch.wanted.shape[1])
         if self._releases:
             return run_own(batch, self._releases, self.run_of[which], out)
-        return run_batch(batch, self.workers, out=out)
+        return run_batch(batch, threads_left(len(which), self.workers), out=out)
 
     def counted(self, which: np.ndarray, upto: np.ndarray) -> np.ndarray:
         """Sample values of the windows `which` that count among their first `upto` samples, (len(which),)."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rockref import Model
-from rockref.discover.beside import Stopped, side_by_side
+from rockref.discover.beside import Stopped, side_by_side, threads_left
 from rockref.discover.search import Setup, early
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
@@ -30,6 +30,43 @@ def test_answers_come_in_the_order_of_the_questions(workers):
         return k * k
 
     assert side_by_side(setup_of(workers), square, range(5)) == [0, 1, 4, 9, 16]
+
+
+@pytest.mark.parametrize("items, workers, threads", [(9, 4, 4), (2, 4, 2), (9, 1, 1), (0, 4, 1)])
+def test_alone_there_is_a_thread_for_each_worker(items, workers, threads):
+    assert threads_left(items, workers) == threads
+
+
+def test_who_works_beside_others_has_the_threads_that_they_leave():
+    """Two of three workers are at work: each may take the third one too. Alone at the end, one has all three."""
+    both, alone, left = threading.Barrier(2, timeout=10), threading.Event(), {}
+
+    def job(setup, k):
+        both.wait()
+        left[k, "beside"] = threads_left(9, 3)
+        both.wait()
+        if k == 0:
+            assert alone.wait(10)
+            while threads_left(9, 3) < 3:  # the other one has said that it is done; its thread may not be there yet
+                pass
+            left[k, "alone"] = threads_left(9, 3)
+            # The work that it hands on is done while it waits.
+            left[k, "handed on"] = side_by_side(setup_of(3), lambda setup, i: threads_left(9, 3), [1])
+        else:
+            alone.set()
+
+    side_by_side(setup_of(2), job, [0, 1])
+    assert left == {(0, "beside"): 2, (1, "beside"): 2, (0, "alone"): 3, (0, "handed on"): [3]}
+    assert threads_left(9, 3) == 3
+
+
+def test_after_a_failure_all_threads_are_free_again():
+    def job(setup, k):
+        raise ValueError("no fit")
+
+    with pytest.raises(ValueError, match="no fit"):
+        side_by_side(setup_of(2), job, [0, 1])
+    assert threads_left(9, 3) == 3
 
 
 def test_no_question_no_answer():
@@ -64,7 +101,7 @@ def test_where_one_fails_the_others_end_at_their_next_line():
 
 
 def test_two_threads_find_what_one_finds():
-    """A fit on short windows with both its starts and its jumps, to the last bit."""
+    """A fit on short windows with both its starts, its jumps, and the columns of its Jacobians, to the last bit."""
     truth = Model.table_3_1().replace(effects=(parse("mass_eccentricity:x=0.002"),))
     e = experiment(truth, [{}, {"turned": True}], duration=1.2, noisy=True)
     found = []

@@ -83,14 +83,22 @@ def test_jumps_that_do_not_help_are_not_kept():
 
 @dataclass
 class Rough(Bowl):
-    """A bowl that only averaged samples show: sample by sample nothing moves."""
+    """A bowl that only averaged samples show: sample by sample nothing moves; a share of its windows is structured."""
+
+    name: str = "rolling_resistance"
+    bad: float = 0.0
+
+    def point(self, z, corrections):
+        point, r = super().point(z, corrections)
+        point.loss[: round(self.bad * BOWLS)] += self.series.count[0]
+        return point, r
 
     def run(self, point, iterations, rng, relative=0.0):
         return super().run(point, iterations, rng, relative) if self.averaged > 1 else point
 
 
-def stands(floor: float, z: float):
-    fit = Rough(np.zeros(1), floor=floor)
+def stands(floor: float, z: float, **more):
+    fit = Rough(np.zeros(1), floor=floor, **more)
     return fit, fit.point(np.array([z]), np.zeros((BOWLS, 5)))[0]
 
 
@@ -106,6 +114,14 @@ def test_a_fit_above_the_noise_is_led_on_by_averages():
 def test_a_fit_that_is_down_or_hopeless_stays_where_it_is(floor, z):
     fit, point = stands(floor, z)
     assert led_on(fit, point, 0) is point
+
+
+@pytest.mark.parametrize(
+    "name, bad, led", [("baseline", 0.1, True), ("baseline", 0.4, False), ("clock_error", 0.4, True)]
+)
+def test_a_baseline_that_lacks_something_is_not_led_on(name, bad, led):
+    fit, point = stands(1.0, 0.5, name=name, bad=bad)
+    assert (led_on(fit, point, 0) is not point) == led
 
 
 def test_averages_that_lead_higher_are_not_followed():
