@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -155,7 +155,8 @@ class Fit:
 
     def _models(self, z: np.ndarray) -> tuple[list[Model], np.ndarray]:
         models = [self.base] * self.runs
-        for p, zi in zip(self.parameters, z, strict=True):
+        # What all runs share comes first: it is set once, and not once a run.
+        for p, zi in sorted(zip(self.parameters, z, strict=True), key=lambda own: own[0].run is not None):
             if p.run is None:
                 changed: dict[int, Model] = {}
                 models = [changed.setdefault(id(m), p.set(m, p.value(zi))) for m in models]
@@ -176,18 +177,29 @@ class Fit:
             return self.series.count
         return self.series.count[which] if upto is None else self.series.counted(which, upto)
 
+    def cauchy(self, r: np.ndarray, which=None) -> np.ndarray:
+        """Cauchy loss of each window, summed over its samples.
+
+        Most of r is what short windows lack to the longest one: zeros, of which no logarithm is taken.
+        """
+        square = (r / CAUCHY) ** 2
+        if self.averaged > 1:  # averages reach beyond the samples that count
+            there: Any = True
+        else:
+            there = (self.series.valid if which is None else self.series.valid[which])[:, :, None]
+        return CAUCHY**2 / 2 * np.sum(np.log1p(square, out=square, where=there), axis=(1, 2))
+
     def window_loss(self, r: np.ndarray, which=None, upto=None) -> np.ndarray:
         """Robust loss of each window, as half a sum of squares: Cauchy per sample, logarithm above CAP."""
-        total = CAUCHY**2 / 2 * np.sum(np.log1p((r / CAUCHY) ** 2), axis=(1, 2))
+        total = self.cauchy(r, which)
         count = self.counts(which, upto)
         mean = total / count * 2
         return np.where(mean <= CAP, total, count / 2 * CAP * (1 + np.log(np.maximum(mean, CAP) / CAP)))
 
     def weights(self, r: np.ndarray, which=None, upto=None) -> np.ndarray:
         """Weight of each squared residual for which Gauss and Newton see the robust loss, (B, M, 3)."""
-        total = CAUCHY**2 / 2 * np.sum(np.log1p((r / CAUCHY) ** 2), axis=(1, 2))
         count = self.counts(which, upto)
-        mean = total / count * 2
+        mean = self.cauchy(r, which) / count * 2
         return (1 / (1 + (r / CAUCHY) ** 2)) * np.where(mean <= CAP, 1.0, CAP / mean)[:, None, None]
 
     def penalties(self, corrections: np.ndarray, which=None) -> np.ndarray:

@@ -337,10 +337,10 @@ class Series:
 
     def residual(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None, upto=None) -> np.ndarray:
         """(measured - modelled) / sigma, (len(which), M, 3); zero where a sample does not count."""
-        which = np.arange(self.B) if which is None else np.asarray(which)
         r = self.simulate(models, tilt, corrections, which, upto)
-        np.subtract(self.measured[which], r, out=r)
-        r *= self._weight[which]
+        own = slice(None) if which is None else np.asarray(which)
+        np.subtract(self.measured[own], r, out=r)
+        r *= self._weight[own]
         if upto is not None:
             r *= (np.arange(self.M) < upto[:, None])[:, :, None]
         return r

@@ -131,7 +131,7 @@ def checked(batch: Batch) -> Batch:
     writeable: for those that are not, numba would compile everything once more.
     """
     B, n = np.shape(batch.P)[:2]
-    wanted = np.array(np.broadcast_to(batch.wanted, (B, np.shape(batch.wanted)[-1])), np.int64, order="C")
+    wanted = np.require(np.broadcast_to(batch.wanted, (B, np.shape(batch.wanted)[-1])), np.int64, ["C", "W"])
     shapes = {
         "body": (B, col.BODY), "P": (B, n, 3), "props": (B, n, col.PROPS), "memory": (B, n, col.MEMORY),
         "effects": (B, slots.SLOTS), "state": (B, col.STATE), "forces": (B, n, 3),

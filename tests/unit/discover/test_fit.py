@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.discover.fit import CAP, Fit, Parameter
+from rockref.discover.fit import CAP, CAUCHY, Fit, Parameter
 from rockref.discover.information import by_run, eliminated
 from rockref.discover.windows import STATES
 
@@ -17,7 +17,9 @@ def problem():
     """A Fit without simulator, with residuals, Jacobians and weights of its own."""
     rng = np.random.default_rng(3)
     fit = object.__new__(Fit)
-    fit.series = SimpleNamespace(B=B, run_of=np.array([0, 0, 1, 1, 2, 2]), count=np.full(B, 3 * M))
+    fit.series = SimpleNamespace(
+        B=B, run_of=np.array([0, 0, 1, 1, 2, 2]), count=np.full(B, 3 * M), valid=np.ones((B, M), bool), workers=1
+    )
     fit.runs = 3
     fit.state_prior = rng.uniform(0.5, 2.0, (B, STATES))
     r, Js, Jg = rng.normal(size=(B, M, 3)), rng.normal(size=(B, STATES, M, 3)), rng.normal(size=(B, G, M, 3))
@@ -99,7 +101,7 @@ def test_parameter_values():
 def test_parameters_of_runs_are_moved_together_and_kept_apart():
     """One evaluation gives the columns of a parameter that each run has of its own."""
     fit = object.__new__(Fit)
-    fit.series = SimpleNamespace(run_of=np.array([0, 0, 1, 2]))
+    fit.series = SimpleNamespace(run_of=np.array([0, 0, 1, 2]), workers=1)
     slopes = np.random.default_rng(0).normal(size=(5, 4, M, 3))
     make = dict(set=lambda model, value: model, centre=0.0, spread=1.0)
     fit.parameters = (
@@ -124,3 +126,15 @@ def test_parameters_of_runs_are_moved_together_and_kept_apart():
         # A linear model: forward differences are exact but for rounding.
         np.testing.assert_allclose(J[mine, j], slopes[j][mine], rtol=1e-9)
         assert np.all(J[~mine, j] == 0)
+
+
+def test_the_loss_is_that_of_the_samples_that_are_there(problem):
+    """Zeros behind a shorter window cost nothing, and are not looked at."""
+    fit, r, *_ = problem
+    fit.series.valid[1, 3:] = False
+    whole = CAUCHY**2 / 2 * np.sum(np.log1p((np.where(fit.series.valid[:, :, None], r, 0) / CAUCHY) ** 2), axis=(1, 2))
+    there = fit.cauchy(np.where(fit.series.valid[:, :, None], r, 0))
+    assert np.array_equal(there, whole)
+    # An average reaches beyond the samples that count, and counts there.
+    fit.averaged = 4
+    assert fit.cauchy(r)[1] > whole[1] and np.array_equal(fit.cauchy(r)[[0, 2]], whole[[0, 2]])
