@@ -158,8 +158,8 @@ class Fit:
         # What all runs share comes first: it is set once, and not once a run.
         for p, zi in sorted(zip(self.parameters, z, strict=True), key=lambda own: own[0].run is not None):
             if p.run is None:
-                changed: dict[int, Model] = {}
-                models = [changed.setdefault(id(m), p.set(m, p.value(zi))) for m in models]
+                changed = {id(m): p.set(m, p.value(zi)) for m in {id(m): m for m in models}.values()}
+                models = [changed[id(m)] for m in models]
             else:
                 models[p.run] = p.set(models[p.run], p.value(zi))
         offsets = np.array([m.origin.get("tilt_offset", 0.0) for m in models])

@@ -138,3 +138,24 @@ def test_the_loss_is_that_of_the_samples_that_are_there(problem):
     # An average reaches beyond the samples that count, and counts there.
     fit.averaged = 4
     assert fit.cauchy(r)[1] > whole[1] and np.array_equal(fit.cauchy(r)[[0, 2]], whole[[0, 2]])
+
+
+def test_what_all_runs_share_is_set_once_and_before_what_is_their_own():
+    asked = []
+
+    def setter(name):
+        def set_value(model, value):
+            asked.append(name)
+            return SimpleNamespace(origin=model.origin | {name: value})
+
+        return set_value
+
+    tilts = (Parameter(f"tilt_offset[{i}]", setter("tilt_offset"), 0.0, 0.1, run=i) for i in range(2))
+    parameters = (Parameter("K_N", setter("K_N"), 0.0, 1.0), *tilts, Parameter("mu", setter("mu"), 0.0, 1.0))
+    fit = object.__new__(Fit)
+    fit.base, fit.runs, fit.parameters = SimpleNamespace(origin={}), 2, parameters
+    fit.stated, fit._last = np.array([0.1, 0.2]), None
+    models, tilt = fit.models(np.array([1.0, 2.0, 3.0, 4.0]))
+    assert asked == ["K_N", "mu", "tilt_offset", "tilt_offset"]
+    assert [m.origin for m in models] == [{"K_N": 1.0, "mu": 4.0, "tilt_offset": x} for x in (0.2, 0.1 * 3.0)]
+    assert tilt == pytest.approx([0.3, 0.5])
