@@ -9,7 +9,7 @@ import pytest
 from rockref import Model
 from rockref.discover import far, search
 from rockref.discover.families import Family, same_windows
-from rockref.discover.far import first_looks, in_the_valley_of, kin
+from rockref.discover.far import first_looks, first_steps, in_the_valley_of, kin, nominal_beside
 from rockref.discover.fit import Parameter, Point
 from rockref.discover.screen import Trial
 from rockref.discover.search import SHORT, Setup, nominal, windows
@@ -32,17 +32,28 @@ def test_first_look_ranks_a_turning_foot_first():
     setup, kept = far_from("spin_friction:radius=0.004")
     ids = ("clock_error", "adhesion", "spin_friction", "lingering_wire_pull")
     trials = [Trial((id,), 0.0, 0.0, kept.fit, kept.point) for id in ids]
-    found = first_looks(setup, trials, kept)
+    found = first_looks(setup, trials, nominal_beside(setup, kept))
     assert [f.effects for f in found] == [(id,) for id in ids]
     best = min(found, key=lambda f: f.point.objective)
     assert best.effects == ("spin_friction",)
     assert best.point.objective < kept.point.objective
 
 
+def test_first_step_ranks_a_friction_that_falls_with_speed_first():
+    """It does so though the family that was kept is as far from the nominal baseline as a fit may bend."""
+    setup, kept = far_from("stribeck_friction:ratio=2.0,velocity=0.01")
+    kept.point.z[:] = 1.5
+    ids = ("clock_error", "mass_eccentricity", "stribeck_friction", "inertia_deviation")
+    found = first_steps(
+        setup, [Trial((id,), 0.0, 0.0, kept.fit, kept.point) for id in ids], nominal_beside(setup, kept)
+    )
+    assert found[0].effects == ("stribeck_friction",) and found[0].gain > 1.2 * found[1].gain > 0
+
+
 def test_nominal_keeps_the_effects_alone():
     setup, kept = far_from("spin_friction:radius=0.004")
     trial = Trial(("mass_eccentricity",), 0.0, 0.0, kept.fit, kept.point)
-    (family,) = first_looks(setup, [trial], kept)
+    (family,) = first_looks(setup, [trial], nominal_beside(setup, kept))
     family.point.z[:] = 0.5
     z = nominal(family.fit.parameters, family.point.z)
     effects = np.array(["." in p.name for p in family.fit.parameters])
