@@ -49,7 +49,7 @@ def test_who_works_beside_others_has_the_threads_that_they_leave():
         if k == 0:
             assert alone.wait(10)
             until = time.monotonic() + 10
-            while threads_left(9, 3) < 3 and time.monotonic() < until:  # the other one says so before its thread is free
+            while threads_left(9, 3) < 3 and time.monotonic() < until:  # its thread may not be free yet
                 pass
             left[k, "alone"] = threads_left(9, 3)
             # The work that it hands on is done while it waits.
