@@ -32,7 +32,7 @@ def test_nothing_hidden_nothing_found(tmp_path):
     "effect, size",
     [
         pytest.param("cable_restraint", 2.0, id="load"),
-        pytest.param("load_dependent_friction", 2.0, id="friction"),
+        pytest.param("stribeck_friction", 2.0, id="friction"),
         pytest.param("gyro_misalignment", 1.0, id="sensor"),
     ],
 )
