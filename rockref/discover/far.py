@@ -11,7 +11,7 @@ from rockref.discover.approach import approached, approached_beside
 from rockref.discover.beside import side_by_side
 from rockref.discover.families import Family, gain_between, mean_loss, refit_all
 from rockref.discover.fit import Fit
-from rockref.discover.screen import Trial, screen
+from rockref.discover.screen import screen
 from rockref.discover.search import (
     FIRST_STAGE,
     FRESH,
@@ -26,14 +26,13 @@ from rockref.discover.search import (
     windows,
 )
 from rockref.effects import catalogue
+from rockref.effects.base import Effect
 
-#: Candidates of the screen, and of the first looks, that are fitted to the short windows, with so many iterations; and
-#: how many are then fitted in full.
+#: Candidates that are raced on the short windows, the first ones of each list, with so many iterations; and how many
+#: are then fitted in full. Decided: of sixteen effects that left 0.1 to 0.99 of the windows structured, each was among
+#: the first four of the first steps (thirteen were the first) or of the first looks (nine were the first); thirteen
+#: were raced, and after three iterations twelve of them led.
 LOOKED_AT, LOOKS, FITTED = 4, 3, 3
-#: Candidates that are looked at because one step from a baseline that is not yet bent gains most (decided: where
-#: friction fell with speed that law was twentieth of the first looks, and had no gain from the bent baseline; by such a
-#: step it was first, with 1548 units before 952).
-STEPPED = 3
 #: Most iterations of a fit that is begun where another one ended; after the first of them it is left where it is, if
 #: it does not reach this share of the other's gain (decided: of three true effects, begun where drag, a cable and
 #: viscous friction had ended, each was past the wrong one after one iteration).
@@ -53,24 +52,32 @@ NEAR = 1.1
 
 
 def from_far(
-    setup: Setup, trials: list[Trial], kept: Family, say: Callable[[str], None], leaders: Sequence[Family] = ()
+    setup: Setup,
+    kinds: Sequence[type[Effect]],
+    kept: Family,
+    say: Callable[[str], None],
+    leaders: Sequence[Family] = (),
 ) -> list[Family]:
-    """The candidates of a screen (best first), of first looks and of first steps fitted anew; the nearest, in full.
+    """Candidates beside the family `kept`, from nominal parameters: looked at, raced on short windows; who comes
+    nearest, in full.
 
     leaders : who led so far; the first of them is fitted in full wherever it stands.
 
     Where most windows are out of step, a small step along an effect changes little, and the parameters of the family
-    `kept` have bent so far that an effect added to them cannot unbend them.
+    `kept` have bent so far that an effect added to them cannot unbend them. One step from a baseline that is not yet
+    bent shows what changes every impact, a search along the effect itself what changes the order of the impacts.
     """
-    n, plain = len(kept.point.z), nominal_beside(setup, kept)
-    looks = sorted(first_looks(setup, trials, plain), key=lambda f: f.point.objective)
-    steps = first_steps(setup, trials, plain)[:STEPPED]
-    found: list[Family | Trial] = [*looks, *steps, *looks[:LOOKED_AT], *leaders]
-    begun = {f.effects: f.point.z[n:] for f in found}
-    first: list[Family | Trial] = [*trials[:LOOKED_AT], *looks[:LOOKED_AT], *steps, *leaders[:1]]
-    chosen = dict.fromkeys(f.effects for f in first)
-    sure = leaders[0].effects if leaders else ()
-    return fitted_anew(setup, {effects: begun[effects] for effects in chosen}, kept, say, sure)
+    plain, sure = nominal_beside(setup, kept), leaders[0].effects if leaders else ()
+    looks = sorted(first_looks(setup, kinds, plain), key=lambda f: f.point.objective)
+    begun: list[Family] = []
+    for found in (first_steps(setup, kinds, plain), looks):
+        begun += [f for i, f in enumerate(found) if i < LOOKED_AT or f.effects == sure]
+    raced: dict[tuple[str, ...], Family] = {}
+    for f in refit_all(setup, begun, LOOKS, setup.seed):
+        raced[f.effects] = min(raced.get(f.effects, f), f, key=mean_loss)
+    for f in raced.values():
+        say(f"  from nominal: {f.effects[-1]} {mean_loss(f):.2f}")
+    return nearest_in_full(setup, list(raced.values()), sure)
 
 
 def fitted_anew(
@@ -87,7 +94,12 @@ def fitted_anew(
         say(f"  from nominal: {effects[-1]} {mean_loss(family):.2f}")
         return family
 
-    looked = sorted(side_by_side(setup, look, begun), key=mean_loss)
+    return nearest_in_full(setup, side_by_side(setup, look, begun), sure)
+
+
+def nearest_in_full(setup: Setup, looked: list[Family], sure: tuple[str, ...]) -> list[Family]:
+    """Of families on the short windows those that come nearest, and the set that is sure, through both stages."""
+    looked = sorted(looked, key=mean_loss)
     best, middle = mean_loss(looked[0]), mean_loss(looked[len(looked) // 2])
     most = max(best + AHEAD * (middle - best), ALIKE * best)
     nowhere = best > max(FAR_OFF, ALL_THE_SAME * middle)
@@ -144,21 +156,22 @@ def nominal_beside(setup: Setup, kept: Family) -> Family:
     return Family(kept.effects, plain, approached(plain, nominal(kept.fit.parameters, kept.point.z)))
 
 
-def first_looks(setup: Setup, trials: Iterable[Trial], plain: Family) -> list[Family]:
+def first_looks(setup: Setup, kinds: Sequence[type[Effect]], plain: Family) -> list[Family]:
     """Each candidate beside the nominal baseline in its valley: moved along, nothing fitted."""
 
-    def look(own: Setup, trial: Trial) -> Family:
-        fit = own.fit(plain.fit.series.twin(), trial.effects)
+    def look(own: Setup, id: str) -> Family:
+        effects = (*plain.effects, id)
+        fit = own.fit(plain.fit.series.twin(), effects)
         start = plain.point.z
         z = np.concatenate([start, np.zeros(len(fit.parameters) - len(start))])
         point = approached_beside(fit, z, len(start))
         fit.series = plain.fit.series  # what the twin has kept is not needed any more
-        return Family(trial.effects, fit, point)
+        return Family(effects, fit, point)
 
-    return side_by_side(setup, look, trials)
+    return side_by_side(setup, look, [kind.id for kind in kinds])
 
 
-def first_steps(setup: Setup, trials: Iterable[Trial], plain: Family) -> list[Trial]:
+def first_steps(setup: Setup, kinds: Sequence[type[Effect]], plain: Family) -> list[Family]:
     """Each candidate by one step from the nominal baseline, fitted a little and not yet bent, best first."""
     begun = plain.fit.run(plain.point, LOOKS, np.random.default_rng(setup.seed))
-    return screen(plain.fit, begun, [catalogue.find(t.effects[-1]) for t in trials], setup, plain.effects)
+    return [Family(t.effects, t.fit, t.point) for t in screen(plain.fit, begun, kinds, setup, plain.effects)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,10 +31,11 @@ REFITTED, ITERATIONS = 6, 3
 #: Further iterations of a challenge, half of those of a baseline that is left; the family that is gone on with, and
 #: whose sizes are read, gets three times as many while it gains.
 POLISH = 4
-#: Share of structured windows above which a family is too far off for small steps: candidates begin at a size.
-FAR = 0.5
-#: Candidates begin at a size, too, where no small step leaves less than NOWHERE of the structured windows that there
-#: were, and where these are more than FEW_STRUCTURED of all (on controls 0 to 2 % stay structured).
+#: Share of structured windows above which candidates are looked for from nominal parameters first, and above which a
+#: family is too far off for small steps (decided: from a baseline with 0.39 no small step led on; with 0.18 one did).
+FAR, TOO_FAR = 0.2, 0.5
+#: A look leads nowhere where it leaves more than NOWHERE of the structured windows that there were, and these are more
+#: than FEW_STRUCTURED of all (on controls 0 to 2 % stay structured).
 NOWHERE, FEW_STRUCTURED = 0.6, 0.05
 #: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
 WORTH_A_REFIT = 120.0
@@ -65,19 +67,31 @@ def candidates_beside(setup: Setup, effects: tuple[str, ...]) -> tuple[type[Effe
 
 
 def look_further(setup: Setup, start: Family, seed: int, say) -> Look:
-    """Screen all candidates on top of a family, refit the best, and the family itself with the same budget."""
-    trials = screen(start.fit, start.point, candidates_beside(setup, start.effects), setup, start.effects)
-    kept = refit(start, ITERATIONS, seed + 1)
-    refitted: list[Family] = []
-    if structured(kept) <= FAR:
-        worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
-        refitted = race(setup, [Family(t.effects, t.fit, t.point) for t in worth], start, seed)
-    look = ranked(kept, refitted, say)
-    best = min(structured(f) for f in (kept, *refitted))
-    nowhere = best > NOWHERE * structured(kept) or not there(look, bool(start.effects))
-    if nowhere and structured(kept) > FEW_STRUCTURED:
-        look = ranked(kept, [*refitted, *from_far(setup, trials, kept, say, look.order)], say, in_full=True)
-    return look
+    """What candidates gain on top of a family, from where it stands or, where it is far off, from nominal parameters.
+
+    The family itself gets the same budget. Where one way leads nowhere, the other one is gone, too.
+    """
+    offered, second = candidates_beside(setup, start.effects), bool(start.effects)
+    kept, far = refit(start, ITERATIONS, seed + 1), structured(start) > FAR
+    families = from_far(setup, offered, kept, say) if far else from_near(setup, offered, start, seed)
+    look = ranked(kept, families, say, in_full=far)
+    if leads_on(look, second) or structured(kept) <= FEW_STRUCTURED or (far and structured(kept) > TOO_FAR):
+        return look
+    others = from_near(setup, offered, start, seed) if far else from_far(setup, offered, kept, say, look.order)
+    return ranked(kept, [*families, *others], say, in_full=True)
+
+
+def from_near(setup: Setup, offered: Sequence[type[Effect]], start: Family, seed: int) -> list[Family]:
+    """Candidates screened by one step from where a family stands, the best of them refitted."""
+    trials = screen(start.fit, start.point, offered, setup, start.effects)
+    worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
+    return race(setup, [Family(t.effects, t.fit, t.point) for t in worth], start, seed)
+
+
+def leads_on(look: Look, second: bool) -> bool:
+    """Whether the leader of a look is an effect, and some candidate leaves much less structured than there was."""
+    best = min(structured(f) for f in (look.kept, *look.order))
+    return best <= NOWHERE * structured(look.kept) and there(look, second)
 
 
 def ranked(kept: Family, families: list[Family], say, in_full: bool = False) -> Look:

@@ -11,11 +11,10 @@ from rockref.discover import far, search
 from rockref.discover.families import Family, same_windows
 from rockref.discover.far import first_looks, first_steps, in_the_valley_of, kin, nominal_beside
 from rockref.discover.fit import Parameter, Point
-from rockref.discover.screen import Trial
 from rockref.discover.search import SHORT, Setup, nominal, windows
 from rockref.effects import catalogue
 from rockref.effects.catalogue import parse
-from tests.unit.discover.bowls import ALONE
+from tests.unit.discover.bowls import ALONE, Bowl, family
 from tests.unit.discover.synthetic import experiment
 
 
@@ -31,8 +30,7 @@ def far_from(effect: str):
 def test_first_look_ranks_a_turning_foot_first():
     setup, kept = far_from("spin_friction:radius=0.004")
     ids = ("clock_error", "adhesion", "spin_friction", "lingering_wire_pull")
-    trials = [Trial((id,), 0.0, 0.0, kept.fit, kept.point) for id in ids]
-    found = first_looks(setup, trials, nominal_beside(setup, kept))
+    found = first_looks(setup, [catalogue.find(id) for id in ids], nominal_beside(setup, kept))
     assert [f.effects for f in found] == [(id,) for id in ids]
     best = min(found, key=lambda f: f.point.objective)
     assert best.effects == ("spin_friction",)
@@ -44,16 +42,14 @@ def test_first_step_ranks_a_friction_that_falls_with_speed_first():
     setup, kept = far_from("stribeck_friction:ratio=2.0,velocity=0.01")
     kept.point.z[:] = 1.5
     ids = ("clock_error", "mass_eccentricity", "stribeck_friction", "inertia_deviation")
-    found = first_steps(
-        setup, [Trial((id,), 0.0, 0.0, kept.fit, kept.point) for id in ids], nominal_beside(setup, kept)
-    )
-    assert found[0].effects == ("stribeck_friction",) and found[0].gain > 1.2 * found[1].gain > 0
+    found = first_steps(setup, [catalogue.find(id) for id in ids], nominal_beside(setup, kept))
+    first, next = (f.point.objective for f in found[:2])
+    assert found[0].effects == ("stribeck_friction",) and first < 0.95 * next
 
 
 def test_nominal_keeps_the_effects_alone():
     setup, kept = far_from("spin_friction:radius=0.004")
-    trial = Trial(("mass_eccentricity",), 0.0, 0.0, kept.fit, kept.point)
-    (family,) = first_looks(setup, [trial], nominal_beside(setup, kept))
+    (family,) = first_looks(setup, [catalogue.find("mass_eccentricity")], nominal_beside(setup, kept))
     family.point.z[:] = 0.5
     z = nominal(family.fit.parameters, family.point.z)
     effects = np.array(["." in p.name for p in family.fit.parameters])
@@ -172,3 +168,25 @@ def test_rivals_begun_where_the_winner_ended_are_compared_in_its_valley():
     assert all(same_windows(f, winner) for f in found.values())
     truth, scale = found[("quadratic_drag",)], found[("gyro_scale",)]
     assert truth.point.objective < min(winner.point.objective, scale.point.objective)
+
+
+def test_the_first_of_both_lists_are_raced_and_of_each_name_the_better_start_counts(monkeypatch):
+    """Six candidates, in one order by first steps and in the reverse one by first looks; the leader is last of both."""
+    kept, ids = family((), Bowl(np.array([0.0]), floor=1.5), [0.0]), ("a", "b", "c", "d", "e", "f", "g", "h")
+    bowls = {(way, id): Bowl(np.array([0.0, 0.1]), floor=1.2) for way in ("step", "look") for id in ids}
+    bowls["look", "d"].floor = 1.0
+    by_step = [family((id,), bowls["step", id], [0.0, 0.0]) for id in ids]
+    by_look = [family((id,), bowls["look", id], [0.0, i]) for i, id in enumerate("cdefghab")]
+    monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(far, "first_steps", lambda *a: by_step)
+    monkeypatch.setattr(far, "first_looks", lambda *a: by_look)
+    monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
+    leader = by_step[7]
+    lines: list[str] = []
+    found = far.from_far(ALONE, (), kept, lines.append, [leader])
+    assert {key for key, bowl in bowls.items() if bowl.iterations} == {
+        *(("step", id) for id in "abcdh"),
+        *(("look", id) for id in "cdefh"),
+    }
+    assert found[0].fit is bowls["look", "d"] and ("h",) in [f.effects for f in found]
+    assert [line.split()[2] for line in lines] == ["a", "b", "c", "d", "h", "e", "f"]

@@ -85,3 +85,41 @@ def test_of_two_fits_of_one_name_the_one_with_fewer_windows_out_of_step_goes_on(
         look = ranked(kept, families, lambda line: None)
         assert look.order == [arrived]
         assert look.gains["rolling_resistance"] == gain_over(kept, nearer)
+
+
+def left(effects, share):
+    """A family that leaves this share of its windows structured."""
+    z = [0.0, 1.0][: len(effects) + 1]
+    found = family(effects, Bowl(np.array(z)), z)
+    found.point.loss[: round(share * len(found.point.loss))] *= 4.0
+    return found
+
+
+@pytest.mark.parametrize(
+    "at_first, near, far, asked",
+    [
+        pytest.param(0.15, 0.0, 0.0, ["near"], id="near, and a small step leads on"),
+        pytest.param(0.05, 0.05, 0.0, ["near"], id="near, and too little is structured"),
+        pytest.param(0.1, 0.1, 0.0, ["near", "far"], id="near, and no small step leads on"),
+        pytest.param(0.4, 0.0, 0.0, ["far"], id="far off"),
+        pytest.param(0.4, 0.0, 0.4, ["far", "near"], id="far off, and nothing leads on there"),
+        pytest.param(0.9, 0.9, 0.9, ["far"], id="too far off for small steps"),
+    ],
+)
+def test_where_candidates_begin(monkeypatch, at_first, near, far, asked):
+    """Shares of structured windows: at first, and with the candidate, begun where the family is or far from it."""
+    seen: list[str] = []
+
+    def way(name, share):
+        def found(*_):
+            seen.append(name)
+            return [left(("rolling_resistance",), share)]
+
+        return found
+
+    monkeypatch.setattr(looking, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(looking, "refit", lambda family, *_: family)
+    monkeypatch.setattr(looking, "from_near", way("near", near))
+    monkeypatch.setattr(looking, "from_far", way("far", far))
+    look = looking.look_further(ALONE, left((), at_first), 0, lambda line: None)
+    assert seen == asked and look.in_full == ("far" in asked)
