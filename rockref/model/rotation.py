@@ -209,20 +209,13 @@ def quaternion(Lambda: np.ndarray) -> np.ndarray:
     """Unit quaternion (w, x, y, z), w >= 0, of a rotation matrix, (..., 3, 3) -> (..., 4)."""
     L = Lambda
     xx, yy, zz = L[..., 0, 0], L[..., 1, 1], L[..., 2, 2]
-    squares = np.stack([1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz], axis=-1)
+    ww, xx, yy, zz = 1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz
     wx, wy, wz = L[..., 2, 1] - L[..., 1, 2], L[..., 0, 2] - L[..., 2, 0], L[..., 1, 0] - L[..., 0, 1]
     xy, xz, yz = L[..., 0, 1] + L[..., 1, 0], L[..., 0, 2] + L[..., 2, 0], L[..., 1, 2] + L[..., 2, 1]
-    rows = np.stack(
-        [
-            np.stack([squares[..., 0], wx, wy, wz], axis=-1),
-            np.stack([wx, squares[..., 1], xy, xz], axis=-1),
-            np.stack([wy, xy, squares[..., 2], yz], axis=-1),
-            np.stack([wz, xz, yz, squares[..., 3]], axis=-1),
-        ],
-        axis=-2,
-    )
-    largest = np.argmax(squares, axis=-1)[..., None, None]
-    q = np.take_along_axis(rows, largest, axis=-2)[..., 0, :]
+    # Each row is a multiple of q; that of the largest component loses no digits.
+    rows = (ww, wx, wy, wz), (wx, xx, xy, xz), (wy, xy, yy, yz), (wz, xz, yz, zz)
+    largest = np.argmax(np.stack([ww, xx, yy, zz], axis=-1), axis=-1)
+    q = np.stack([np.choose(largest, component) for component in zip(*rows, strict=True)], axis=-1)
     q = q / np.sqrt(q[..., 0:1] ** 2 + q[..., 1:2] ** 2 + q[..., 2:3] ** 2 + q[..., 3:4] ** 2)
     return np.where(q[..., 0:1] < 0, -q, q)
 
