@@ -34,7 +34,6 @@ FIXED = {
     ("load_dependent_friction", "reference"),
     ("cable_restraint", "height"),
     ("base_vibration", "phase"),
-    ("quadratic_drag", "c_v"),
     ("gyro_bandwidth", "delay"),
 }
 #: Positive factors: found on a logarithmic scale about the value at which they are absent. effect -> spread.
@@ -47,9 +46,13 @@ FACTORS = {
 #: Parameters that are absent at infinity: found as their inverse (as a user's own that are).
 INVERSE = ("gyro_bandwidth.frequency", "gyro_saturation.range")
 #: Parameters that are typically none, and what counts as their typical size (decided: half a kilogram more at one
-#: corner makes products of inertia of 0.02 with the long axis; axes half a degree from square).
+#: corner makes products of inertia of 0.02 with the long axis; axes half a degree from square; drag on the faces of the
+#: block, from bottom to top, with three times the typical moment about its base, has a force of 20 N s2/m2 at the
+#: centre. Such drag does not slow its turning about the long axis, as a moment alike about all axes does: runs with it
+#: were named `cable_restraint`).
 SELDOM = {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
 SELDOM |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}
+SELDOM |= {("quadratic_drag", "c_v"): 20.0}
 #: Their prior standard deviation in such sizes: what the runs cannot tell from the rest of the effect stays none, and
 #: one whole size costs 50 log-likelihood units (decided; axes that are not square trade with a turned sensor, and with
 #: a prior like the others' they spoiled its angles by 8 % where there was nothing of the kind).

@@ -22,7 +22,8 @@ def half_widths(fit: Fit, point: Point, covariance: np.ndarray) -> np.ndarray:
         # A vibration's frequency is counted over seconds: no parameter of the law shifts it.
         if "." in p.name and p.name != "base_vibration.frequency":
             part = 1 / p.spread if p.log else point.z[k]
-            half[k] = np.linalg.norm([half[k], rules.SYSTEMATIC * part, rules.LEAKS * largest_beside(fit, point, p)])
+            beside = rules.LEAKS * largest_beside(fit, point, p), rules.SYSTEMATIC * traded(fit, point, covariance, k)
+            half[k] = np.linalg.norm([half[k], rules.SYSTEMATIC * part, *beside])
     return half
 
 
@@ -35,4 +36,23 @@ def largest_beside(fit: Fit, point: Point, parameter: Parameter) -> float:
         abs(z) * p.spread / parameter.spread
         for p, z in zip(fit.parameters, point.z, strict=True)
         if p.name.startswith(effect + ".") and p.unit == parameter.unit
+    )
+
+
+def traded(fit: Fit, point: Point, covariance: np.ndarray, k: int) -> float:
+    """How far parameter k, if it is typically none, follows a number of its effect in another unit that is all wrong.
+
+    A force of drag follows its moment: the runs know their sum best. In z of parameter k; 0 for all others.
+    """
+    own = fit.parameters[k]
+    effect, key = own.name.split(".")
+    if (effect, key) not in SELDOM:
+        return 0.0
+    return max(
+        (
+            abs(covariance[k, j] / covariance[j, j] * point.z[j])
+            for j, p in enumerate(fit.parameters)
+            if p.name.startswith(effect + ".") and p.unit != own.unit
+        ),
+        default=0.0,
     )

@@ -11,6 +11,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.beside import side_by_side
 from rockref.discover.families import Family, gain_between, refit, size_of, structured
 from rockref.discover.looking import PLAIN, POLISH, Look, challenge, ranked
+from rockref.discover.plainer import plainer
 from rockref.discover.resized import resized
 from rockref.discover.search import LITTLE, MISSING, Setup, baseline
 
@@ -37,9 +38,9 @@ def upheld(look: Look, winner: Family, second: bool, seed: int, say: Callable[[s
 
 
 def finished(setup: Setup, family: Family, seed: int) -> Family:
-    """A family fitted as far as it goes, from changed sizes too."""
+    """A family fitted as far as it goes, from changed sizes too, less what it has not shown to be there."""
     family = Family(family.effects, family.fit.twin(setup.log), family.point)
-    return resized(setup, refit(family, 3 * POLISH, seed, relative=LITTLE / 5), seed)
+    return plainer(resized(setup, refit(family, 3 * POLISH, seed, relative=LITTLE / 5), seed), seed)
 
 
 def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int, say: Callable[[str], None]) -> Family:

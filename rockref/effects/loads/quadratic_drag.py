@@ -12,9 +12,10 @@ from rockref.model.rotation import apply, dot
 class QuadraticDrag(Effect):
     """A moment -c |omega| omega about the centre of mass and a force -c_v |v| v on it.
 
-    A block that rocks about its base feels both as one moment, of size (c + c_v (height/2)^3) omega^2: its records
-    give the sum, and the search moves c alone. About the base a plate of area A at height H has rho C_d A H^3/2: the
-    typical 0.4 N m s2 is a sail of cardboard of 0.7 m2, ten times the block's face, centred 0.8 m above the base
+    A block that rocks about its base feels both as one moment, of size (c + c_v (height/2)^3) omega^2; its turning
+    about the long axis is slowed by c alone, which tells them apart. Faces that are dragged from bottom to top have a
+    third of that moment as c and two thirds by c_v. About the base a plate of area A at height H has rho C_d A H^3/2:
+    the typical 0.4 N m s2 is a sail of cardboard of 0.7 m2, ten times the block's face, centred 0.8 m above the base
     (rho 1.2 kg/m3, C_d 2); bare, the block has 0.007. A thrown body feels c_v. Simplified: the same c for every axis
     and every direction, still air, no added mass, force and moment do not mix.
     """
@@ -23,7 +24,7 @@ class QuadraticDrag(Effect):
     question = "loads"
     quantities = {
         "c": Quantity("N m s2", 0.0, 0.002, 5.0, 0.4, "+", "moment over angular speed squared", 0.0),
-        "c_v": Quantity("N s2/m2", 0.0, 0.02, 10.0, 1.0, "+", "force over speed of the centre squared", 0.0),
+        "c_v": Quantity("N s2/m2", 0.0, 0.02, 80.0, 1.0, "+", "force over speed of the centre squared", 0.0),
     }
     sentence = "Air in front of the moving faces is pushed aside; bare the block hardly feels it, with a sail it does."
     equation = r"M = -c\,\|\omega\|\,\omega,\quad F = -c_v\,\|v\|\,v,\quad c_v = \tfrac12\rho\,C_d A"

@@ -46,7 +46,9 @@ def test_one_is_there_and_of_typical_size(kind):
         if (kind.id, name) in FIXED or kind.id in FACTORS and (kind.id, name) not in SHAPES:
             continue
         plain = q.sign == "+" or (kind.id, name) in SHAPES or not np.isfinite(q.absent)
-        sized = q.typical if plain else q.absent + SELDOM.get((kind.id, name), abs(q.typical - q.absent))
+        sized = q.typical if plain else q.absent + abs(q.typical - q.absent)
+        if (kind.id, name) in SELDOM:
+            sized = q.absent + SELDOM[kind.id, name]
         if (kind.id, name) in BETWEEN:
             sized = (q.least + q.most) / 2
         assert value == pytest.approx(sized, rel=1e-9), name

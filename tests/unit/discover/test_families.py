@@ -48,3 +48,22 @@ def test_what_leaks_into_a_number_that_is_typically_none_is_in_its_interval():
     assert {e.name: (e.low, e.high) for e in again if e.of_effect} == {
         name: (row["low"], row["high"]) for name, row in found.items()
     }
+
+
+def test_a_number_in_another_unit_follows_what_its_effect_may_be_wrong_by():
+    """Runs that know the sum of two moments of drag: 15 % of the one, all wrong, are as much of the other."""
+    c = Parameter("quadratic_drag.c", None, 0.0, 0.4, unit="N m s2")
+    c_v = Parameter("quadratic_drag.c_v", None, 0.0, 20.0, unit="N s2/m2")
+    arm = 0.04  # of the centre, to the third power: c_v counts so much against c
+    direction = np.array([0.4, 20.0 * arm])
+    H = 1e12 * np.outer(direction, direction)
+    fit = SimpleNamespace(parameters=(c, c_v), prior=np.ones(2), normal_equations=lambda point: (H, None, None))
+    found = amplitudes(Family(("quadratic_drag",), fit, Point(np.array([0.9, 0.05]), None, np.ones(1))))
+    half = {name: row["high"] - row["value"] for name, row in found.items()}
+    # The priors leave the difference of the two free to some z.
+    sd = np.sqrt(np.diag(np.linalg.inv(H + np.eye(2)))) * np.array([0.4, 20.0])
+    statistical = 1.645 * 2.0 * sd
+    assert half["quadratic_drag.c_v"] == pytest.approx(
+        np.linalg.norm([statistical[1], 0.15 * 1.0, 0.15 * 0.36 / arm]), rel=1e-4
+    )
+    assert half["quadratic_drag.c"] == pytest.approx(np.hypot(statistical[0], 0.15 * 0.36), rel=1e-4)
