@@ -212,10 +212,10 @@ def quaternion(Lambda: np.ndarray) -> np.ndarray:
     ww, xx, yy, zz = 1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz
     wx, wy, wz = L[..., 2, 1] - L[..., 1, 2], L[..., 0, 2] - L[..., 2, 0], L[..., 1, 0] - L[..., 0, 1]
     xy, xz, yz = L[..., 0, 1] + L[..., 1, 0], L[..., 0, 2] + L[..., 2, 0], L[..., 1, 2] + L[..., 2, 1]
-    # Each row is a multiple of q; that of the largest component loses no digits.
+    # Each row, and each column, is a multiple of q; that of the largest component loses no digits.
     rows = (ww, wx, wy, wz), (wx, xx, xy, xz), (wy, xy, yy, yz), (wz, xz, yz, zz)
     largest = np.argmax(np.stack([ww, xx, yy, zz], axis=-1), axis=-1)
-    q = np.stack([np.choose(largest, component) for component in zip(*rows, strict=True)], axis=-1)
+    q = np.stack([np.choose(largest, row) for row in rows], axis=-1)
     q = q / np.sqrt(q[..., 0:1] ** 2 + q[..., 1:2] ** 2 + q[..., 2:3] ** 2 + q[..., 3:4] ** 2)
     return np.where(q[..., 0:1] < 0, -q, q)
 

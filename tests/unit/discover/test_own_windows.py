@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from rockref import InputError, Model
+from rockref.discover import candidates
 from rockref.discover.approach import placed
 from rockref.discover.looking import candidates_beside
 from rockref.discover.own_windows import known_own
@@ -85,8 +86,10 @@ def test_own_effects_of_the_sensor_are_not_fitted(own):
         two_runs().residual([model, model], np.array([TILT, TILT]), np.zeros((two_runs().B, 5)))
 
 
-def test_a_diagnosis_tries_it_beside_the_catalogue(own):
+def test_a_diagnosis_tries_it_beside_the_catalogue(own, monkeypatch):
     """The screen gives a class that does what drag does the gain of drag, on runs that were dragged."""
+    # Of the catalogue's drag the moment alone: the user's class has no force.
+    monkeypatch.setattr(candidates, "FIXED", candidates.FIXED | {("quadratic_drag", "c_v")})
     drag = catalogue.find("quadratic_drag")
     dragged = TABLE.replace(effects=(drag(5.0),))
     # A small tilt is an early impact, and so a short first window: each evaluation steps all of it.

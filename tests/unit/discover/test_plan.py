@@ -11,7 +11,7 @@ from rockref.effects import catalogue
 from rockref.model.errors import InputError
 
 TABLE = Model.table_3_1()
-DRAG, ROLLING = catalogue.find("quadratic_drag"), catalogue.find("rolling_resistance")
+FILM, ROLLING = catalogue.find("viscous_friction"), catalogue.find("rolling_resistance")
 SHARED = len(baseline_parameters(TABLE, 0, 0.0014))
 
 
@@ -42,15 +42,15 @@ KNOWN = {A: says(A, np.array([1.0, 0.5]), 1.0), B: says(B, np.array([0.2, 0.9]),
 
 
 def see(*runs):
-    return outlook(TABLE, KNOWN, runs, (DRAG, ROLLING))
+    return outlook(TABLE, KNOWN, runs, (FILM, ROLLING))
 
 
 def test_as_many_repeats_average_the_noise_only():
     KNOWN_FREE = {A: Says(A, np.diag([0.0] * SHARED + [4.0, 9.0]))}
-    one, four = (outlook(TABLE, KNOWN_FREE, [A] * n, (DRAG, ROLLING)) for n in (1, 4))
-    for id in ("quadratic_drag", "rolling_resistance"):
+    one, four = (outlook(TABLE, KNOWN_FREE, [A] * n, (FILM, ROLLING)) for n in (1, 4))
+    for id in ("viscous_friction", "rolling_resistance"):
         assert one.sizes[id] / four.sizes[id] == pytest.approx(2.0, rel=1e-12)
-    assert one.sizes["quadratic_drag"] / one.sizes["rolling_resistance"] == pytest.approx(1.5, rel=1e-12)
+    assert one.sizes["viscous_friction"] / one.sizes["rolling_resistance"] == pytest.approx(1.5, rel=1e-12)
 
 
 def test_a_varied_run_frees_effects_from_a_nuisance_that_repeats_leave_in_the_way():
@@ -60,7 +60,7 @@ def test_a_varied_run_frees_effects_from_a_nuisance_that_repeats_leave_in_the_wa
 
 
 def test_the_next_run_is_the_varied_one():
-    found = further(TABLE, KNOWN, [A], [A, B], (DRAG, ROLLING), see(A))
+    found = further(TABLE, KNOWN, [A], [A, B], (FILM, ROLLING), see(A))
     assert [f["run"] for f in found] == ["0.098", "0.117"]
     assert [f["repeat"] for f in found] == [False, True]
     assert found[1]["limits_fall_by"] < 1.5 < found[0]["limits_fall_by"]

@@ -14,7 +14,7 @@ from rockref.discover.separating import Offer, apart, offers, separating_run
 
 TABLE = Model.table_3_1()
 SHARED = len(baseline_parameters(TABLE, 0, 0.0014))
-MEMBERS = ("quadratic_drag", "rolling_resistance")
+MEMBERS = ("viscous_friction", "rolling_resistance")
 
 
 def test_two_effects_that_leave_the_same_trace_are_not_apart():
@@ -61,7 +61,7 @@ def test_the_offer_whose_traces_differ_is_named(monkeypatch):
     monkeypatch.setattr(separating, "says", says)
     found = separating_run(setup(), TABLE, MEMBERS, np.array([2.0]))
     assert "the block turned by half a turn, released at 0.1 rad." in found
-    assert found.startswith("To tell quadratic_drag from rolling_resistance")
+    assert found.startswith("To tell viscous_friction from rolling_resistance")
     # H = 20 v v' + 10 u u' with v = (1, 1), u = (1, -1): 30 - 10 * 10 / 30 is the first's own, half of it times 2 * 2.
     assert f"adds {0.5 * 4 * (30 - 100 / 30):.0f} units" in found and "adds 0." in found
 

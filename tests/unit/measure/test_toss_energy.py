@@ -75,6 +75,8 @@ def test_an_early_contact_leaves_two_frames_of_flight():
     assert (found["largest_in_flight"], found["largest"]) == (pytest.approx(0.04), pytest.approx(0.05))
     # From frame 0, which is nearer than three before, to frame 4.
     assert found["least_loss_around"] == pytest.approx(0.1)
+    # The first two frames count, too.
+    assert counted([100, 106, 109, 100, 90, 0, 0, 0], first=[1])["largest"] == pytest.approx(0.06)
 
 
 def test_around_compares_three_frames_before_with_three_after():

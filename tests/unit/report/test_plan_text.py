@@ -13,14 +13,14 @@ from rockref.effects import catalogue
 from rockref.report.plan_text import print_plan
 
 TABLE = Model.table_3_1()
-EFFECTS = tuple(catalogue.find(id) for id in ("quadratic_drag", "rolling_resistance"))
+EFFECTS = tuple(catalogue.find(id) for id in ("viscous_friction", "rolling_resistance"))
 ONCE, OTHER, TURNED = Release(0.117), Release(0.098), Release(0.117, True)
 
 
-def says(release, drag, rolling, together):
+def says(release, film, rolling, together):
     """A run with this information about two effects, and about their difference."""
     n = len(baseline_parameters(TABLE, 0, 0.0014))
-    H = np.diag([0.0] * n + [drag, rolling])
+    H = np.diag([0.0] * n + [film, rolling])
     H[n:, n:] += together * np.array([[1.0, -1.0], [-1.0, 1.0]])
     return Says(release, H)
 
@@ -50,7 +50,7 @@ def test_the_next_run_is_the_first_of_the_record(plan, printed):
 
 def test_every_limit_is_there_with_its_unit_and_size(plan, printed):
     limits = plan.to_dict()["limits"]
-    assert set(limits) == {"quadratic_drag.c", "rolling_resistance.lever"}
+    assert set(limits) == {"viscous_friction.c", "rolling_resistance.lever"}
     for name, limit in limits.items():
         (row,) = [line for line in printed.splitlines() if line.startswith(name)]
         assert f"{limit['limit']:.3g} {limit['unit']}" in row and f"{limit['in_typical_sizes']:.2g}" in row
@@ -58,9 +58,9 @@ def test_every_limit_is_there_with_its_unit_and_size(plan, printed):
 
 def test_what_is_confused_or_unseen_is_said(plan, printed):
     found = plan.to_dict()
-    assert [p["effects"] for p in found["confused"]] == [["quadratic_drag", "rolling_resistance"]]
-    (row,) = [line for line in printed.splitlines() if line.startswith("quadratic_drag ")]
-    assert row.split() == ["quadratic_drag", "rolling_resistance", f"{found['confused'][0]['cosine']:.3f}"]
+    assert [p["effects"] for p in found["confused"]] == [["viscous_friction", "rolling_resistance"]]
+    (row,) = [line for line in printed.splitlines() if line.startswith("viscous_friction ")]
+    assert row.split() == ["viscous_friction", "rolling_resistance", f"{found['confused'][0]['cosine']:.3f}"]
     unseen = found["undetectable"]
     seen = len(plan.outlook.effects) - len(unseen)
     assert f"{seen} of 2 effects would show" in printed
