@@ -1,6 +1,6 @@
 """Find a missing effect from Python: where the model fails, two suspects, and what held-out runs say of them.
 
-Run it cell by cell, or whole, in the folder of the project: ``python examples/find_a_missing_effect.py`` (two minutes
+Run it cell by cell, or whole, in the folder of the project: ``python examples/find_a_missing_effect.py`` (a minute
 on a free core). `rockref diagnose` asks the same of the whole catalogue.
 """
 
