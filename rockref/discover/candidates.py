@@ -25,7 +25,10 @@ SHAPES = {
     ("compliant_support", "ratio"): 0.7,
 }
 #: Parameters between two laws, on a straight scale from one to the other: they begin half way. name -> centre, spread.
-BETWEEN = {("dimension_deviation", "inertia_share"): (0.5, 0.5)}
+BETWEEN = {
+    ("dimension_deviation", "inertia_share"): (0.5, 0.5),
+    ("uneven_foot_stiffness", "tangential_share"): (0.5, 0.5),
+}
 SHAPES |= {key: spread for key, (_, spread) in BETWEEN.items()}
 #: Prior standard deviation of those, in such spreads; decided: flat, within what is possible.
 FLAT = 2.0

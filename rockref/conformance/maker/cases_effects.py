@@ -54,6 +54,8 @@ FURTHER: dict[str, dict[str, float]] = {
     "gyro_misalignment": {"xy": 0.02, "xz": -0.01, "yz": 0.015},
     "gyro_bandwidth": {"delay": 0.002},
 }
+#: The same for parameters that came later, behind all others: a number once given stays.
+LATER: dict[str, dict[str, float]] = {"uneven_foot_stiffness": {"tangential_share": 0.5}}
 OF_ALL_FEET = ("uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals")
 #: A parameter is at work where this share less of it moves the vector by `LEAST` bars. Decided: small enough that the
 #: effect stays what it is, and millions of bars for each parameter that acts.
@@ -162,9 +164,9 @@ def made(effect: Any) -> Made:
     return max(found, key=lambda f: f[3])
 
 
-def made_further(kind: Any) -> tuple[Any, Made]:
-    """The second vector of an effect: with what is typically none, or with all feet coming down."""
-    effect = replace(kind.typical(), **FURTHER[kind.id])
+def made_further(kind: Any, changes: dict[str, float]) -> tuple[Any, Made]:
+    """A further vector of an effect: with what is typically none, or with all feet coming down."""
+    effect = replace(kind.typical(), **changes)
     if kind.id not in OF_ALL_FEET:
         return effect, made(effect)
     q = falling(table_3_1())
@@ -185,12 +187,13 @@ def entry(number: int, effect: Any, answer: Made, sets: dict[str, Any]) -> dict[
 
 
 def effects() -> Iterator[tuple[Any, Callable[[], tuple[Any, Made]]]]:
-    """Every kind of effect, and how its vector is made: the typical ones, then the second vectors."""
+    """Every kind of effect, and how its vector is made: the typical ones, then the further vectors."""
     for kind in IN_STEP_ORDER:
         yield kind, partial(lambda kind: (kind.typical(), made(kind.typical())), kind)
-    for kind in IN_STEP_ORDER:
-        if kind.id in FURTHER:
-            yield kind, partial(made_further, kind)
+    for further in (FURTHER, LATER):
+        for kind in IN_STEP_ORDER:
+            if kind.id in further:
+                yield kind, partial(made_further, kind, further[kind.id])
 
 
 def idle(entries: list[dict[str, Any]]) -> list[str]:

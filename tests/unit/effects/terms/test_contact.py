@@ -150,7 +150,18 @@ def test_stiffness_of_a_foot_is_the_normal_springs_alone():
     points = five_points()
     block, changed = UnevenFootStiffness(0.5, 2.0, 3.0, 4.0).points("block", points)
     assert block == "block" and np.array_equal(changed.K_N, 1e6 * FACTORS)
-    assert all(getattr(changed, key) is getattr(points, key) for key in ("P", "K_T", "C_N", "C_T", "mu_0", "mu"))
+    assert all(getattr(changed, key) is getattr(points, key) for key in ("P", "C_N", "C_T", "mu_0", "mu"))
+    assert np.array_equal(changed.K_T, points.K_T)
+
+
+def test_the_tangential_stiffness_of_a_foot_goes_along_by_its_share():
+    """Share 1: as far; share 1/2: by the root; and in the points' precision."""
+    points = replace(five_points(), K_T=np.full(5, 2e6, np.longdouble), K_N=np.full(5, 1e6, np.longdouble))
+    _, whole = UnevenFootStiffness(0.5, 2.0, 3.0, 4.0, tangential_share=1.0).points("block", points)
+    assert np.array_equal(whole.K_T, 2e6 * FACTORS) and np.array_equal(whole.K_N, 1e6 * FACTORS)
+    _, half = UnevenFootStiffness(0.5, 2.0, 3.0, 4.0, tangential_share=0.5).points("block", points)
+    assert np.array_equal(half.K_T, 2e6 * np.sqrt(FACTORS.astype(np.longdouble))) and half.K_T.dtype == np.longdouble
+    assert np.array_equal(half.K_N, whole.K_N)
 
 
 def test_damping_of_a_foot_is_that_of_both_dampers():
