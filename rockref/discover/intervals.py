@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.candidates import SELDOM
+from rockref.discover.candidates import SELDOM, SHAPES
 from rockref.discover.fit import Fit, Parameter, Point
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
@@ -21,10 +21,28 @@ def half_widths(fit: Fit, point: Point, covariance: np.ndarray) -> np.ndarray:
     for k, p in enumerate(fit.parameters):
         # A vibration's frequency is counted over seconds: no parameter of the law shifts it.
         if "." in p.name and p.name != "base_vibration.frequency":
-            part = 1 / p.spread if p.log else point.z[k]
+            part = 1 / p.spread if p.log else whole(fit, point, p, point.z[k])
             beside = rules.LEAKS * largest_beside(fit, point, p), rules.SYSTEMATIC * traded(fit, point, covariance, k)
             half[k] = np.linalg.norm([half[k], rules.SYSTEMATIC * part, *beside])
     return half
+
+
+def whole(fit: Fit, point: Point, parameter: Parameter, z: float) -> float:
+    """The size of the effect that a parameter belongs to, in typical sizes: its own, z, or what all of its unit have.
+
+    All by their root mean square. A law that is a little wrong turns an eccentricity as well as it stretches it: what
+    is small along one axis is not known better for it.
+    """
+    effect, key = parameter.name.split(".")
+    if (effect, key) in SHAPES | SELDOM:
+        return abs(z)
+    like = [
+        zi
+        for p, zi in zip(fit.parameters, point.z, strict=True)
+        if p.name.startswith(effect + ".") and (p.unit, p.run, p.log) == (parameter.unit, parameter.run, False)
+        and tuple(p.name.split(".")) not in SHAPES | SELDOM
+    ]  # fmt: skip
+    return max(abs(z), float(np.sqrt(np.mean(np.square(like)))))
 
 
 def largest_beside(fit: Fit, point: Point, parameter: Parameter) -> float:

@@ -5,8 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rockref.discover.resized import AFFORDABLE, moves, places, resized
-from tests.unit.discover.bowls import ALONE, Bowl, family
+from rockref.discover.approach import HIGHER, higher
+from rockref.discover.families import structured
+from rockref.discover.fit import Parameter
+from rockref.discover.resized import AFFORDABLE, LAST, ROUGH, moves, places, resized
+from tests.unit.discover.bowls import ALONE, WINDOWS, Bowl, family
 
 
 @dataclass
@@ -26,10 +29,56 @@ def test_a_size_that_is_twice_too_large_is_found():
     assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
 
 
-def test_a_fit_that_has_arrived_is_left_alone():
+def test_a_fit_that_has_arrived_is_only_taken_to_its_end():
     arrived = family(("rolling_resistance",), Bowl(np.array([0.0, 0.4]), floor=0.9), np.array([0.0, 0.45]))
-    assert resized(ALONE, arrived, seed=0) is arrived
-    assert arrived.fit.iterations == 0
+    found = resized(ALONE, arrived, seed=0)
+    assert found.fit.iterations == LAST
+    assert found.point.z == pytest.approx([0.0, 0.4], abs=0.05 * 0.5**LAST * 1.01)
+
+
+@dataclass
+class Feet(Walled):
+    """The same with the heights and the distance of four feet that belong to an effect, seen in every tenth window."""
+
+    def point(self, z, corrections):
+        point, states = super().point(z, corrections)
+        seen = np.arange(WINDOWS) % 10 == 0
+        noise = 0.5 * self.floor * self.series.count
+        point.loss = noise + 10 * seen * (point.loss - noise)
+        return point, states
+
+    @property
+    def parameters(self):
+        names = [f"foot_defects.delta_long{i}" for i in (1, 2, 3, 4)] + ["foot_defects.delta_diag"]
+        return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in names)
+
+
+def test_feet_that_are_all_too_low_are_found():
+    """Heights that are all low by 0.3, at the right distance: neither one foot nor all five numbers lead there."""
+    bottom = np.array([1.4, 1.5, 1.3, 1.6, 1.5])
+    low = bottom - np.array([0.3, 0.3, 0.3, 0.3, 0.0])
+    stuck = family(("foot_defects",), Feet(bottom, floor=0.97, radius=0.2), low)
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+    assert structured(stuck) > ROUGH
+    assert higher(stuck.fit).tolist() == [[h, h, h, h, 0.0] for h in HIGHER]
+    assert higher(Bowl(np.array([0.0, 0.4]))).shape == (0, 2)
+
+
+@dataclass
+class Rough(Walled):
+    """A bowl that only averages lead down: sample by sample a fit stays where it is."""
+
+    radius: float = 0.0
+
+    def run(self, point, iterations, rng, relative=0.0):
+        self.radius = 10.0 if self.averaged > 1 else 0.0
+        return super().run(point, iterations, rng, relative)
+
+
+def test_a_fit_above_the_noise_is_led_on_by_averages():
+    bottom = np.array([0.2, 0.4])
+    stuck = family(("rolling_resistance",), Rough(bottom, floor=0.97), np.array([0.0, 0.1]))
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
 
 
 def test_a_fit_that_most_windows_contradict_is_left_alone():

@@ -9,6 +9,7 @@ import pytest
 from rockref import Model
 from rockref.discover.approach import JUMPS, along_ridge
 from rockref.discover.baseline import baseline_parameters
+from rockref.discover.coarse import STAGES
 from rockref.discover.fit import Parameter, Point
 from rockref.discover.search import ARRIVED, arrived, jumped, led_on
 from tests.unit.discover.bowls import ALONE, Bowl
@@ -106,8 +107,8 @@ def test_a_fit_above_the_noise_is_led_on_by_averages():
     fit, point = stands(0.95, 0.5)
     assert not arrived(fit, point)
     led = led_on(fit, point, 0)
-    # Eight iterations, each half of the way that is left.
-    assert abs(led.z[0]) == pytest.approx(0.5 / 2**8) and arrived(fit, led)
+    # Each iteration goes half of the way that is left.
+    assert abs(led.z[0]) == pytest.approx(0.5 / 2 ** sum(n for _, n in STAGES)) and arrived(fit, led)
 
 
 @pytest.mark.parametrize("floor, z", [(ARRIVED - 0.01, 0.0), (1.6, 0.5)], ids=["arrived", "hopeless"])
