@@ -146,6 +146,38 @@ def test_nothing_is_left_of_a_fall(folder, as_table, good_signal):
     np.testing.assert_array_equal(cut.crv[cut.t < 0.699], whole.crv[whole.t < 0.699])
 
 
+def lingering(t, w):
+    """The block is held back for half a second, and creeps from the first sample on; the gyroscope has a bias."""
+    creep = np.arange(250)[:, None] * 0.002
+    begun = np.array([4.0, 0.0, 0.0]) * creep + np.array([30.0, 0.0, 0.0]) * creep**3
+    return np.arange(len(t) + 250) * 0.002, np.concatenate((begun, w)) + 0.1
+
+
+def late_with_a_bias(t, w):
+    t, w = late(t, w)
+    return t, w + 0.1
+
+
+def test_a_block_that_creeps_was_released(folder, as_table, good_signal):
+    """A wire that lingers holds it back; one that lies still until later was started at another time."""
+    experiment = load_experiment(edited(folder, as_table, good_signal, lingering), uses=("fit",))
+    assert "W-FIRST-IMPACT" in {n.code for n in experiment.notices} and experiment.runs[0].loaded
+    with pytest.raises(InputError, match="hardly moves"):
+        load_experiment(edited(folder, as_table, good_signal, late_with_a_bias), uses=("fit",))
+
+
+@pytest.mark.parametrize("rest", [0.16, 0.2, 0.24])
+def test_a_block_that_begins_to_move_late_is_refused(folder, as_table, good_signal, rest):
+    """Time is counted from before the release: it moves in the stretch that is looked at, but did not before."""
+
+    def begun_late(t, w):
+        n = round(rest / 0.002)
+        return np.arange(len(t) + n) * 0.002, np.concatenate((np.zeros((n, 3)), w))
+
+    with pytest.raises(InputError, match="hardly moves"):
+        load_experiment(edited(folder, as_table, good_signal, begun_late), uses=("fit",))
+
+
 def test_first_impact_at_another_time_is_said(folder):
     path = folder / "experiment.toml"
     # From 0.06 rad this block comes upright after 0.25 s, at nearly two thirds of the rate.
