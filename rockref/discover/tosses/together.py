@@ -24,9 +24,10 @@ from rockref.measure.flight import Poses
 #: many valleys for fifty numbers. The first stage comes twice: it sets the frames of camera and plate and the weights;
 #: from then on the fit begins once more at what is measured (there, 40 frames end at 1.41 so and at 1.47 without it).
 STAGES = ((25, 8), (25, 6), (40, 6), (60, 6), (HORIZONS[-1], 12))
-#: Share of the objective that one number more gains by luck; decided: half of one over some hundred tosses, rounded
-#: down. An effect that gains less than this for each of its numbers is not needed.
-LUCK = 1e-3
+#: Share of the objective that one number more gains by luck, times the number of tosses: an effect that gains less for
+#: each of its numbers is not needed. Decided: half of a toss is what chance gives where a toss has one error; 0.222 is
+#: a thousandth of the objective of 222 tosses, with which the public ones were diagnosed.
+LUCK = 0.222
 #: Most iterations after an effect was taken away; one that gains no more ends them.
 AFTER = 2
 #: Effects whose absence is tried at every step down: those that the slopes say are needed least.
@@ -105,8 +106,8 @@ def way_down(full: Stair, keep: Sequence[str], say: Callable[[str], None]) -> li
         without = {id: taken_away(stair, id, slopes, poses, weight) for id in likely}
         stair = replace(stair, costs={id: s.objective - stair.objective for id, s in without.items()})
         stairs.append(stair)
-        luck = LUCK * stair.objective
-        least = min(without, key=lambda id: stair.costs[id] - luck * len(stair.own(id)))
+        share = luck(stair) * stair.objective
+        least = min(without, key=lambda id: stair.costs[id] - share * len(stair.own(id)))
         say(f"  without {least}: {stair.objective:.3f} -> {without[least].objective:.3f}")
         stair = settled(without[least], poses, weight)
 
@@ -130,7 +131,13 @@ def alike(stair: Stair, slopes: descent.Slopes) -> dict[str, dict[str, float]]:
 
 def needed(stairs: Sequence[Stair]) -> int:
     """Which model of a way down to take: the least objective where every number has paid for its luck."""
-    return int(np.argmin([s.objective + LUCK * len(s.z) * stairs[0].objective for s in stairs]))
+    share = luck(stairs[0]) * stairs[0].objective
+    return int(np.argmin([s.objective + share * len(s.z) for s in stairs]))
+
+
+def luck(stair: Stair) -> float:
+    """Share of the objective that one number more gains by luck: the fewer tosses, the more."""
+    return LUCK / len(stair.fit.poses.frames)
 
 
 def taken_away(stair: Stair, effect: str, slopes: descent.Slopes, poses: Poses, weight: np.ndarray) -> Stair:

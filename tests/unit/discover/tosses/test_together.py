@@ -8,7 +8,7 @@ import pytest
 from rockref.discover.fit import Parameter
 from rockref.discover.tosses import together
 from rockref.discover.tosses.descent import Slopes
-from rockref.discover.tosses.together import LUCK, Stair, needed, taken_away, way_down, way_up
+from rockref.discover.tosses.together import LUCK, Stair, luck, needed, taken_away, way_down, way_up
 from rockref.measure.flight import Poses
 
 #: Columns: one number of the law and those of three effects; b is nearly a copy of a, c explains nothing.
@@ -52,7 +52,7 @@ class Parabola:
 @pytest.fixture
 def full():
     nothing = np.zeros((1, 1, 3))
-    poses = Poses(np.zeros(1), nothing, np.zeros((1, 1, 3, 3)), np.ones(1, int), nothing[0], nothing[0])
+    poses = Poses(np.zeros(1), nothing, np.zeros((1, 1, 3, 3)), np.ones(222, int), nothing[0], nothing[0])
     fit = Parabola(("a", "b", "c"), poses)
     z, objective = fit.descend(np.zeros(4), poses, None, None)
     return Stair(fit, z, objective)
@@ -103,7 +103,13 @@ def test_a_number_must_pay_for_its_luck(full):
     def stair(numbers, objective):
         return Stair(full.fit, np.zeros(numbers), objective)
 
-    assert needed([stair(6, 1.0), stair(5, 1.0 + LUCK / 2), stair(4, 1.0 + 4 * LUCK)]) == 1
+    share = luck(stair(6, 1.0))
+    assert share == pytest.approx(1e-3)
+    assert needed([stair(6, 1.0), stair(5, 1.0 + share / 2), stair(4, 1.0 + 4 * share)]) == 1
+    # Of a fifth of the tosses chance gives five times as much.
+    few = replace(full.fit, poses=full.fit.poses._replace(frames=np.ones(44, int)))
+    assert luck(replace(full, fit=few)) == LUCK / 44
+    assert needed([replace(s, fit=few) for s in (stair(6, 1.0), stair(4, 1.0 + 4 * share))]) == 1
     assert together.STAGES[-1][0] == max(frames for frames, _ in together.STAGES)
 
 
