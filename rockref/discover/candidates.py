@@ -25,10 +25,7 @@ SHAPES = {
     ("compliant_support", "ratio"): 0.7,
 }
 #: Parameters between two laws, on a straight scale from one to the other: they begin half way. name -> centre, spread.
-BETWEEN = {
-    ("dimension_deviation", "inertia_share"): (0.5, 0.5),
-    ("uneven_foot_stiffness", "tangential_share"): (0.5, 0.5),
-}
+BETWEEN = {("dimension_deviation", "inertia_share"): (0.5, 0.5)}
 SHAPES |= {key: spread for key, (_, spread) in BETWEEN.items()}
 #: Prior standard deviation of those, in such spreads; decided: flat, within what is possible.
 FLAT = 2.0
@@ -56,6 +53,8 @@ INVERSE = ("gyro_bandwidth.frequency", "gyro_saturation.range")
 SELDOM = {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
 SELDOM |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}
 SELDOM |= {("quadratic_drag", "c_v"): 20.0}
+#: The same for what turns one form of a law into another one, 1 being all the way.
+SELDOM |= {("uneven_foot_stiffness", "tangential_share"): 1.0, ("lingering_wire_pull", "evenness"): 1.0}
 #: Their prior standard deviation in such sizes: what the runs cannot tell from the rest of the effect stays none, and
 #: one whole size costs 50 log-likelihood units (decided; axes that are not square trade with a turned sensor, and with
 #: a prior like the others' they spoiled its angles by 8 % where there was nothing of the kind).

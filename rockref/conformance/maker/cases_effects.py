@@ -55,7 +55,10 @@ FURTHER: dict[str, dict[str, float]] = {
     "gyro_bandwidth": {"delay": 0.002},
 }
 #: The same for parameters that came later, behind all others: a number once given stays.
-LATER: dict[str, dict[str, float]] = {"uneven_foot_stiffness": {"tangential_share": 0.5}}
+LATER: dict[str, dict[str, float]] = {
+    "uneven_foot_stiffness": {"tangential_share": 0.5},
+    "lingering_wire_pull": {"tau": 0.01, "evenness": 0.5},
+}
 OF_ALL_FEET = ("uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals")
 #: A parameter is at work where this share less of it moves the vector by `LEAST` bars. Decided: small enough that the
 #: effect stays what it is, and millions of bars for each parameter that acts.

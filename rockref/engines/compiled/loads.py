@@ -13,7 +13,12 @@ def of_time(on, e, t):
     """What of the loads depends on the time alone: pull of the wire [N], cosine of the vibration."""
     pull = cosine = 0.0
     if on.wire:
-        pull = e[slots.WIRE + 1] * math.exp(-t / e[slots.WIRE + 2])
+        even = e[slots.WIRE + 4]
+        if even > 0.0:
+            left = max(1.0 - even * t / e[slots.WIRE + 2], 0.0) ** (1.0 / even)
+        else:
+            left = math.exp(-t / e[slots.WIRE + 2])
+        pull = e[slots.WIRE + 1] * left
     if on.vibration:
         cosine = math.cos(e[slots.VIBRATION + 2] * t + e[slots.VIBRATION + 3])
     return pull, cosine

@@ -175,7 +175,7 @@ FILL = {
     "rolling_resistance": lambda r, e, p: _put(r, slots.ROLLING, e.lever),
     "quadratic_drag": lambda r, e, p: _put(r, slots.DRAG, e.c, e.c_v),
     "cable_restraint": _cable,
-    "lingering_wire_pull": lambda r, e, p: _put(r, slots.WIRE, e.force, e.tau, _height(p)),
+    "lingering_wire_pull": lambda r, e, p: _put(r, slots.WIRE, e.force, e.tau, _height(p), e.evenness),
     "base_vibration": _vibration,
     "plate_tilt": lambda r, e, p: _put(r, slots.TILT, e.x, e.y),
     "compliant_support": _support,

@@ -152,7 +152,7 @@ def test_parse_says_what_is_wrong(text, code, said):
     "id, shape, brought_in",
     [
         ("cable_restraint", {"height": 0.1}, {"k": 5.0, "c": 0.3, "height": 0.1}),
-        ("lingering_wire_pull", {"tau": 0.2}, {"force": 3.0, "tau": 0.2}),
+        ("lingering_wire_pull", {"tau": 0.2}, {"force": 3.0, "tau": 0.2, "evenness": 0.0}),
         ("quadratic_drag", {}, {"c": 0.4, "c_v": 1.0}),
     ],
 )

@@ -69,7 +69,10 @@ def test_together_bit_for_bit(leave_out):
     [EFFECTS[id].typical() for id in sorted(TRANSCENDENTAL)]
     # Other powers than 3/2, which is taken by a root; friction that falls at speed and rises with the load.
     + [EFFECTS["hertzian_contact"](exponent=1.3), EFFECTS["stribeck_friction"](ratio=0.6)]
-    + [EFFECTS["load_dependent_friction"](exponent=-0.3)],
+    + [EFFECTS["load_dependent_friction"](exponent=-0.3)]
+    # Two wires that let go more evenly, one of them within the run.
+    + [EFFECTS["lingering_wire_pull"](force=3.0, tau=0.02, evenness=0.5)]
+    + [EFFECTS["lingering_wire_pull"](force=3.0, tau=0.002, evenness=1.0)],
     ids=lambda effect: effect.id,
 )
 def test_transcendental_ones_to_a_few_units_in_the_last_place(effect):

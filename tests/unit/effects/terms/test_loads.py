@@ -96,6 +96,18 @@ def test_a_wire_pulls_the_top_toward_y_and_lets_go_slowly():
     assert load(LingeringWirePull(0.0, 0.2), body(FEET)) is None
 
 
+def test_a_wire_that_is_paid_out_lets_go_evenly_and_ends():
+    """Evenness 1: a straight line to nothing at tau; 1/2: a parabola to nothing at 2 tau; small: the exponential."""
+    left = LingeringWirePull(3.0, 0.2, evenness=1.0).left
+    assert [left(t) for t in (0.0, 0.05, 0.2, 0.3)] == pytest.approx([1.0, 0.75, 0.0, 0.0], abs=1e-15)
+    left = LingeringWirePull(3.0, 0.2, evenness=0.5).left
+    assert [left(t) for t in (0.0, 0.2, 0.4, 0.5)] == pytest.approx([1.0, 0.25, 0.0, 0.0], abs=1e-15)
+    # (1 - q s)^(1/q) = exp(-s - q s^2/2 - ...), s = 1/2.
+    assert LingeringWirePull(3.0, 0.2, evenness=1e-6).left(0.1) == pytest.approx(math.exp(-0.5), rel=1e-6)
+    force, _ = load(LingeringWirePull(3.0, 0.2, evenness=1.0), body(FEET), t=0.05)
+    assert force == pytest.approx([0.0, 2.25, 0.0], rel=ROUNDED)
+
+
 def test_a_plate_that_shakes_pushes_every_mass_alike_along_its_direction():
     """-m A cos(2 pi f t + phase) along (sin d, cos d): d = atan(3/4), a quarter period and a sixth after the crest."""
     effect = BaseVibration(0.5, 2.0, math.atan2(3, 4), math.pi / 3)
@@ -108,7 +120,9 @@ def test_a_plate_that_shakes_pushes_every_mass_alike_along_its_direction():
 
 
 @pytest.mark.parametrize(
-    "effect", [LingeringWirePull(3.0, 0.2), BaseVibration(0.5, 2.0, 0.6, 0.7)], ids=lambda effect: effect.id
+    "effect",
+    [LingeringWirePull(3.0, 0.2), LingeringWirePull(3.0, 0.2, evenness=0.7), BaseVibration(0.5, 2.0, 0.6, 0.7)],
+    ids=("falls as what is left", "falls more evenly", "vibration"),
 )
 def test_a_time_for_each_run_gives_each_its_own_load(effect):
     """As the windows of a fit have."""
