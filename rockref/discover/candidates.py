@@ -53,8 +53,9 @@ INVERSE = ("gyro_bandwidth.frequency", "gyro_saturation.range")
 SELDOM = {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
 SELDOM |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}
 SELDOM |= {("quadratic_drag", "c_v"): 20.0}
-#: The same for what turns one form of a law into another one, 1 being all the way.
-SELDOM |= {("uneven_foot_stiffness", "tangential_share"): 1.0, ("lingering_wire_pull", "evenness"): 1.0}
+#: The same for what turns one form of a law into another one, 1 being all the way; no effect is there by it alone.
+FORMS = {("uneven_foot_stiffness", "tangential_share"): 1.0, ("lingering_wire_pull", "evenness"): 1.0}
+SELDOM |= FORMS
 #: Their prior standard deviation in such sizes: what the runs cannot tell from the rest of the effect stays none, and
 #: one whole size costs 50 log-likelihood units (decided; axes that are not square trade with a turned sensor, and with
 #: a prior like the others' they spoiled its angles by 8 % where there was nothing of the kind).

@@ -10,7 +10,7 @@ import numpy as np
 
 from rockref.discover import verdict as rules
 from rockref.discover.beside import side_by_side
-from rockref.discover.candidates import SHAPES, value_of
+from rockref.discover.candidates import FORMS, SHAPES, value_of
 from rockref.discover.evidence import clipped_gain
 from rockref.discover.fit import STRUCTURED, Fit, Point
 from rockref.discover.intervals import NINETY, half_widths
@@ -111,7 +111,7 @@ def size_of(family: Family, effect: str | None = None) -> float:
         abs(zi)
         for p, zi in zip(family.fit.parameters, family.point.z, strict=True)
         if p.name.startswith(effect + ".")
-        and tuple(p.name.split(".")) not in SHAPES
+        and tuple(p.name.split(".")) not in SHAPES | FORMS
         and p.name not in ("base_vibration.frequency", "base_vibration.direction")
     ]
     return float(max(z, default=0.0))

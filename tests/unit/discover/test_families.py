@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rockref.discover.evidence import CLIP
-from rockref.discover.families import Family, amplitudes, by_sample, gain_between
+from rockref.discover.families import Family, amplitudes, by_sample, gain_between, size_of
 from rockref.discover.fit import Parameter, Point
 from rockref.discover.fitted import estimates
 from tests.unit.discover.bowls import SAMPLES, WINDOWS, Bowl, family, series
@@ -26,6 +26,15 @@ def test_the_loss_by_sample_sums_to_the_loss():
     one = family((), Bowl(np.array([0.0]), floor=1.3, series=series(5)), [0.2])
     assert by_sample(one).sum() == pytest.approx(one.point.loss.sum())
     assert len(by_sample(one)) == WINDOWS * SAMPLES
+
+
+def test_a_form_of_a_law_is_no_size_of_it():
+    """A wire that would let go evenly, but does not pull, is not there; one that pulls is as large as its pull."""
+    names = ("lingering_wire_pull.force", "lingering_wire_pull.tau", "lingering_wire_pull.evenness")
+    fit = SimpleNamespace(parameters=tuple(Parameter(n, None, 0.0, 1.0) for n in names))
+    for pull in (0.0, 0.4):
+        wire = Family(("lingering_wire_pull",), fit, Point(np.array([pull, 2.0, 1.0]), None, np.ones(1)))
+        assert size_of(wire) == pull
 
 
 def test_what_leaks_into_a_number_that_is_typically_none_is_in_its_interval():
