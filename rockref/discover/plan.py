@@ -20,7 +20,7 @@ import numpy as np
 from rockref.api import Model, simulate
 from rockref.discover import verdict as rules
 from rockref.discover.baseline import baseline_parameters
-from rockref.discover.candidates import SHAPES, kinds, parameters_of, value_of
+from rockref.discover.candidates import FORMS, SHAPES, kinds, parameters_of, value_of
 from rockref.discover.fit import Fit, Parameter
 from rockref.discover.information import eliminated, information, own_parameters
 from rockref.discover.screen import PROBE
@@ -187,7 +187,7 @@ class Plan:
 def switches_of(kind: type[Effect], finer: float = 1.0) -> tuple[Parameter, ...]:
     """The numbers of an effect that bring it in, with a step that shows laws which do nothing at zero."""
     return tuple(
-        replace(p, step=finer * PROBE) for p in parameters_of(kind, 1) if tuple(p.name.split(".")) not in SHAPES
+        replace(p, step=finer * PROBE) for p in parameters_of(kind, 1) if tuple(p.name.split(".")) not in SHAPES | FORMS
     )
 
 

@@ -43,7 +43,7 @@ def test_one_is_there_and_of_typical_size(kind):
     assert effect.id == kind.id
     for name, q in kind.quantities.items():
         value = getattr(effect, name)
-        if (kind.id, name) in FIXED or kind.id in FACTORS and (kind.id, name) not in SHAPES:
+        if (kind.id, name) in FIXED or kind.id in FACTORS and (kind.id, name) not in SHAPES | SELDOM:
             continue
         plain = q.sign == "+" or (kind.id, name) in SHAPES or not np.isfinite(q.absent)
         sized = q.typical if plain else q.absent + abs(q.typical - q.absent)
