@@ -66,8 +66,9 @@ def other_values(effect: Effect) -> Iterator[tuple[str, Effect]]:
         ratio = all(effect.quantities[n].absent == 1.0 for n in values)
         turned = {n: 1.0 / v if ratio else -v for n, v in values.items()}
         how = "the other way round" if ratio else "of the other sign"
-        yield f"as if {called} were {how}", replace(effect, **turned)
+        # Left out comes first: a share that cannot be negative does nothing with the other sign, too.
         yield f"as if {called} were left out", replace(effect, **{n: effect.quantities[n].absent for n in values})
+        yield f"as if {called} were {how}", replace(effect, **turned)
 
 
 def groups(names: list[str]) -> list[tuple[list[str], str]]:
