@@ -120,8 +120,8 @@ def parameter_of(kind: type[Effect], key: str, q: Quantity) -> Parameter:
         return make(setter(kind, key), centre, spread, prior=FLAT, low=q.least, high=q.most)
     if (kind.id, key) in SHAPES:
         return make(setter(kind, key), typical, SHAPES[kind.id, key], log=True, prior=1.0)
+    low = absent if q.sign == "+" else q.least
     if (kind.id, key) in SELDOM:
-        low = absent if q.sign == "+" else q.least
         return make(setter(kind, key), absent, SELDOM[kind.id, key], prior=SELDOM_PRIOR, low=low, high=q.most)
     if kind.id in FACTORS:
         return make(setter(kind, key), 1.0, FACTORS[kind.id], log=True, prior=PRIOR)
@@ -129,7 +129,6 @@ def parameter_of(kind: type[Effect], key: str, q: Quantity) -> Parameter:
         return make(support_setter(kind), 0.0, 1.0, low=0.0, prior=PRIOR)
     if is_inverse(f"{kind.id}.{key}"):
         return make(inverse_setter(kind, key), 0.0, 1 / typical, low=0.0, prior=PRIOR)
-    low = absent if q.sign == "+" else q.least
     # A user's own may have a parameter that is typically none: then a quarter of its plausible range.
     size = abs(typical - absent) or (q.high - q.low) / 4
     return make(setter(kind, key), absent, size, prior=PRIOR, low=low, high=q.most)

@@ -25,8 +25,8 @@ from rockref.measure.flight import Poses
 #: from then on the fit begins once more at what is measured (there, 40 frames end at 1.41 so and at 1.47 without it).
 STAGES = ((25, 8), (25, 6), (40, 6), (60, 6), (HORIZONS[-1], 12))
 #: Share of the objective that one number more gains by luck, times the number of tosses: an effect that gains less for
-#: each of its numbers is not needed. Decided: half of a toss is what chance gives where a toss has one error; 0.222 is
-#: a thousandth of the objective of 222 tosses, with which the public ones were diagnosed.
+#: each of its numbers is not needed. Decided: a thousandth of the objective of 222 tosses, by which the
+#: public ones are diagnosed, and less than the half of a toss that chance gives a number where a toss is one error.
 LUCK = 0.222
 #: Most iterations after an effect was taken away; one that gains no more ends them.
 AFTER = 2

@@ -9,6 +9,10 @@ from rockref.effects.base import POSITIVE, Effect, Quantity
 from rockref.effects.loads.attachment import arm, half_height
 from rockref.model.rotation import cross
 
+#: Evenness up to which the pull is the exponential. Decided: there both are wrong by some 1e-8 of it, the power by
+#: rounding, 1e-16 over the evenness, the exponential by the evenness itself.
+LEAST_EVENNESS = 1e-8
+
 
 @dataclass(frozen=True)
 class LingeringWirePull(Effect):
@@ -52,7 +56,7 @@ class LingeringWirePull(Effect):
 
     def left(self, t):
         """What is left of the pull at time t (...) s, as a share."""
-        if self.evenness > 0.0:
+        if self.evenness > LEAST_EVENNESS:
             return np.maximum(1.0 - self.evenness * t / self.tau, 0.0) ** (1.0 / self.evenness)
         # math's exp for one time, so that a run keeps its bits; windows of a fit have a time each.
         return (np.exp if np.ndim(t) else math.exp)(-t / self.tau)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from rockref.effects.loads.lingering_wire_pull import LEAST_EVENNESS
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.jit import inlined
 
@@ -14,7 +15,7 @@ def of_time(on, e, t):
     pull = cosine = 0.0
     if on.wire:
         even = e[slots.WIRE + 4]
-        if even > 0.0:
+        if even > LEAST_EVENNESS:
             left = max(1.0 - even * t / e[slots.WIRE + 2], 0.0) ** (1.0 / even)
         else:
             left = math.exp(-t / e[slots.WIRE + 2])

@@ -104,6 +104,8 @@ def test_a_wire_that_is_paid_out_lets_go_evenly_and_ends():
     assert [left(t) for t in (0.0, 0.2, 0.4, 0.5)] == pytest.approx([1.0, 0.25, 0.0, 0.0], abs=1e-15)
     # (1 - q s)^(1/q) = exp(-s - q s^2/2 - ...), s = 1/2.
     assert LingeringWirePull(3.0, 0.2, evenness=1e-6).left(0.1) == pytest.approx(math.exp(-0.5), rel=1e-6)
+    # So little of it is lost in rounding: the exponential itself, not a pull that never ends.
+    assert LingeringWirePull(3.0, 0.2, evenness=1e-17).left(0.1) == math.exp(-0.5)
     force, _ = load(LingeringWirePull(3.0, 0.2, evenness=1.0), body(FEET), t=0.05)
     assert force == pytest.approx([0.0, 2.25, 0.0], rel=ROUNDED)
 
