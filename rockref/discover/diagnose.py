@@ -30,7 +30,7 @@ from rockref.discover.families import (
 )
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
-from rockref.discover.looking import POLISH, Look, duel, look_further
+from rockref.discover.looking import FAR, POLISH, Look, duel, look_further
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.own_windows import known_own
 from rockref.discover.plan import switches_of
@@ -38,6 +38,7 @@ from rockref.discover.presearch import STRONG, suspects
 from rockref.discover.search import FRESH, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
+from rockref.discover.two import two_at_once
 from rockref.discover.windows import gyro_of
 from rockref.discover.winning import exchanged, finished, to_the_end, upheld
 from rockref.effects import catalogue
@@ -179,7 +180,7 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
     """Effects added one at a time, as long as each is there, stands against its rivals, and settles what was left."""
     looks: list[Look] = []
     while len(start.effects) < rules.MOST_EFFECTS and (not start.effects or room(start) > rules.SECOND_ROOM):
-        look, second = look_further(setup, start, seed, say), bool(start.effects)
+        look, second = next_look(setup, start, looks, seed, say), bool(start.effects)
         looks.append(look)
         if not look.order or not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
             break
@@ -195,6 +196,15 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         if rules.is_hopeless(structured(start), look.gains[start.effects[-1]], room(start)):
             break
     return start, looks
+
+
+def next_look(setup: Setup, start: Family, looks: list[Look], seed: int, say: Callable[[str], None]) -> Look:
+    """Two effects at once, where the first one leaves too much and they settle it; else one more on top of it."""
+    if looks and structured(start) > FAR:
+        look = two_at_once(setup, looks[0], start, say)
+        if rules.settles(structured(start), structured(look.order[0])):
+            return look
+    return look_further(setup, start, seed, say)
 
 
 def without(setup: Setup, family: Family, effect: str) -> Family:

@@ -12,7 +12,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.beside import side_by_side
 from rockref.discover.candidates import FORMS, SHAPES, value_of
 from rockref.discover.evidence import clipped_gain
-from rockref.discover.fit import STRUCTURED, Fit, Point
+from rockref.discover.fit import Fit, Point, out_of_step
 from rockref.discover.intervals import NINETY, half_widths
 from rockref.discover.search import Setup, baseline, nominal
 
@@ -54,9 +54,8 @@ def afresh(setup: Setup, family: Family) -> Family:
 
 def structured(family: Family, run: int | None = None) -> float:
     """Share of the windows (of one run, if given) that the family leaves structured."""
-    series = family.fit.series
-    mine = slice(None) if run is None else series.run_of == run
-    return float(np.mean((2 * family.point.loss / series.count > STRUCTURED)[mine]))
+    mine = slice(None) if run is None else family.fit.series.run_of == run
+    return float(np.mean(out_of_step(family.fit, family.point)[mine]))
 
 
 def loud(loss: np.ndarray, count: np.ndarray) -> int:

@@ -31,8 +31,6 @@ RATE_ERROR = 9e-4
 #: Error of the reconstructed attitude [rad]: at the start, and its growth with the root of time (white noise of
 #: 0.05 deg/s at 1 kHz integrates to 2.8e-5 rad after a second; decided with some room).
 ATTITUDE_ERROR, ATTITUDE_GROWTH = 2.5e-5, 4e-5
-
-
 #: Rise of a window's loss, per sample value, that tells that a joint step threw it into another order of impacts.
 THROWN = 0.03
 #: Shares of a window on which its corrections are found one after the other; decided: some 25 ms at a time, the
@@ -94,6 +92,11 @@ class Point:
     def objective(self) -> float:
         """What is minimised."""
         return float(self.loss.sum() + self.penalty)
+
+
+def out_of_step(fit: Fit, point: Point) -> np.ndarray:
+    """Which windows a fit leaves structured, (B,)."""
+    return 2 * point.loss / fit.series.count > STRUCTURED
 
 
 @dataclass
@@ -385,10 +388,10 @@ class Fit:
                     rough = rough[2 * point.loss[rough] / self.series.count[rough] > ROUGH]
                     point = self.grow(point, rough, rng if i % 4 else None)
             point, lam = self.step(point, lam)
-            mean = 2 * point.loss / self.series.count
+            median = np.median(2 * point.loss / self.series.count)
             self.log(
-                f"  {self.name} {i}: objective {point.objective:.0f} median {np.median(mean):.3f} "
-                f"bad {np.mean(mean > STRUCTURED):.3f} lam {lam:.1e}"
+                f"  {self.name} {i}: objective {point.objective:.0f} median {median:.3f} "
+                f"bad {np.mean(out_of_step(self, point)):.3f} lam {lam:.1e}"
             )
             little = little + 1 if before - point.objective < relative * before else 0
             if before - point.objective < tolerance or lam > 1e4 or little == 2:

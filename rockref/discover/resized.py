@@ -20,9 +20,9 @@ AFFORDABLE, PLACES = 1.4, 4
 ROUNDS, LAST = 4, 12
 #: Mean loss below which it does not go on. Decided: from 0.99 drag of a practice experiment came down by 0.2 % in four
 #: rounds of all ways; from 1.006 another fit came down by 2.8 %, and 0.97 is noise.
-CLOSE = 1.0
+AT_NOISE = 1.0
 #: Share of structured windows above which the heights are changed, too (decided: with fewer they led nowhere).
-ROUGH = 0.05
+UNSETTLED = 0.05
 #: Size, in typical sizes, below which half a typical size is looked at as well.
 TRIFLE = 0.3
 
@@ -37,7 +37,7 @@ def resized(setup: Setup, family: Family, seed: int) -> Family:
     if structured(family) > MISSING:
         return family
     for _ in range(ROUNDS):
-        if mean_loss(family) < CLOSE:
+        if mean_loss(family) < AT_NOISE:
             break
         further = next((f for way in (averaged, moved) if is_lower(f := way(setup, family, seed), family)), None)
         if further is None:
@@ -59,18 +59,23 @@ def averaged(setup: Setup, family: Family, seed: int) -> Family:
 
 def moved(setup: Setup, family: Family, seed: int) -> Family:
     """Where a family ends that goes on from the best of the changed places, each tried for a few iterations."""
-    changed = places(family.fit, family.point)
-    if structured(family) > ROUGH:
-        changed += [family.fit.point(family.point.z + up, family.point.corrections)[0] for up in higher(family.fit)]
-    begun = [Family(family.effects, family.fit, point) for point in changed]
+    fit, point = family.fit, family.point
+    changed = cheapest(point, placed_at(fit, point, moves(fit, point.z)))
+    if structured(family) > UNSETTLED:
+        changed += placed_at(fit, point, higher(fit))
+    begun = [Family(family.effects, fit, place) for place in changed]
     best = min([family, *refit_all(setup, begun, TRIED, seed)], key=lambda f: f.point.objective)
     return refit(best, 2 * TRIED, seed, relative=LITTLE / 5) if is_lower(best, family) else family
 
 
-def places(fit: Fit, point: Point) -> list[Point]:
-    """Where to go on from: the cheapest of the changed sizes; corrections kept."""
-    changed = [fit.point(point.z + move, point.corrections)[0] for move in moves(fit, point.z)]
-    cheap = sorted((p for p in changed if p.objective < AFFORDABLE * point.objective), key=lambda p: p.objective)
+def placed_at(fit: Fit, point: Point, changes: np.ndarray) -> list[Point]:
+    """The points that changes of z lead to; corrections kept."""
+    return [fit.point(point.z + change, point.corrections)[0] for change in changes]
+
+
+def cheapest(point: Point, places: list[Point]) -> list[Point]:
+    """Where to go on from: the cheapest of the places, if they can be afforded."""
+    cheap = sorted((p for p in places if p.objective < AFFORDABLE * point.objective), key=lambda p: p.objective)
     return cheap[:PLACES]
 
 

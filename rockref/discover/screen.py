@@ -52,19 +52,24 @@ def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...]
     return sorted(trials, key=lambda t: -t.gain)
 
 
+def own_columns(wide: Fit, point: Point, effect: str, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where the last effect is absent beside a narrower family's point, z (G,), and the derivative of its parameters
+    there, (B, own, M, 3); r: the residuals there."""
+    G, own = len(point.z), len(wide.parameters) - len(point.z)
+    wide.parameters = tuple(replace(p, step=PROBE) if p.name.startswith(effect + ".") else p for p in wide.parameters)
+    wide.forget()
+    z0 = np.concatenate([point.z, np.zeros(own)])
+    return z0, wide.parameter_jacobian(z0, point.corrections, r, only=range(G, G + own))
+
+
 def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, least: float) -> Trial:
     """One candidate: its fit, the point of the narrower family and its residuals, Jacobians and weights.
 
     The step is only tried where it promises more than `least`.
     """
     r, Js, Jg, w = linear
-    G, own, c = len(point.z), len(wide.parameters) - len(point.z), point.corrections
-    wide.parameters = tuple(
-        replace(p, step=PROBE) if p.name.startswith(effects[-1] + ".") else p for p in wide.parameters
-    )
-    wide.forget()
-    z0 = np.concatenate([point.z, np.zeros(own)])
-    Jc = wide.parameter_jacobian(z0, c, r, only=range(G, G + own))
+    c = point.corrections
+    z0, Jc = own_columns(wide, point, effects[-1], r)
     H, g, (H_ss, H_sg, g_s, _) = wide.reduced(r, Js, np.concatenate([Jg, Jc], axis=1), w, c, z0)
     H = H + np.diag(1 / wide.prior**2) + 1e-4 * np.diag(np.diag(H))
     g = g + z0 / wide.prior**2

@@ -8,7 +8,7 @@ import pytest
 from rockref.discover.approach import HIGHER, higher
 from rockref.discover.families import structured
 from rockref.discover.fit import Parameter
-from rockref.discover.resized import AFFORDABLE, LAST, ROUGH, moves, places, resized
+from rockref.discover.resized import AFFORDABLE, LAST, UNSETTLED, cheapest, moves, placed_at, resized
 from tests.unit.discover.bowls import ALONE, WINDOWS, Bowl, family
 
 
@@ -59,7 +59,7 @@ def test_feet_that_are_all_too_low_are_found():
     low = bottom - np.array([0.3, 0.3, 0.3, 0.3, 0.0])
     stuck = family(("foot_defects",), Feet(bottom, floor=0.97, radius=0.2), low)
     assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
-    assert structured(stuck) > ROUGH
+    assert structured(stuck) > UNSETTLED
     assert higher(stuck.fit).tolist() == [[h, h, h, h, 0.0] for h in HIGHER]
     assert higher(Bowl(np.array([0.0, 0.4]))).shape == (0, 2)
 
@@ -107,6 +107,6 @@ def test_only_sizes_of_effects_are_changed_and_the_cheapest_places_come_first():
     assert np.all(moves(bowl, z)[:, 0] == 0)
     assert sorted(np.abs(moves(bowl, z)).sum(axis=1)) == pytest.approx([0.25, 0.25, 0.6, 0.6])
     point, _ = bowl.point(z, np.zeros((40, 5)))
-    found = places(bowl, point)
+    found = cheapest(point, placed_at(bowl, point, moves(bowl, point.z)))
     assert [p.objective for p in found] == sorted(p.objective for p in found)
     assert all(p.objective < AFFORDABLE * point.objective for p in found)

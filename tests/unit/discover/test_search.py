@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.discover import search
 from rockref.discover.approach import JUMPS, along_ridge
 from rockref.discover.baseline import baseline_parameters
 from rockref.discover.coarse import STAGES
 from rockref.discover.fit import Parameter, Point
-from rockref.discover.search import ARRIVED, arrived, jumped, led_on
+from rockref.discover.search import ARRIVED, arrived, early, jumped, led_on
 from tests.unit.discover.bowls import ALONE, Bowl
 from tests.unit.discover.bowls import WINDOWS as BOWLS
 
@@ -123,6 +124,23 @@ def test_a_fit_that_is_down_or_hopeless_stays_where_it_is(floor, z):
 def test_a_baseline_that_lacks_something_is_not_led_on(name, bad, led):
     fit, point = stands(1.0, 0.5, name=name, bad=bad)
     assert (led_on(fit, point, 0) is not point) == led
+
+
+@pytest.mark.parametrize(
+    "effects, bad, gone_on",
+    [((), 0.4, True), ((), 0.6, False), (("clock_error",), 0.6, True)],
+    ids=["baseline", "baseline that lacks something", "effect"],
+)
+def test_a_baseline_that_most_windows_contradict_is_not_gone_on_with(monkeypatch, effects, bad, gone_on):
+    """On short windows, after the first iterations; an effect may still find its place."""
+    fit, point = stands(1.0, 0.0, bad=bad)
+    further = fit.point(np.array([0.1]), np.zeros((BOWLS, 5)))[0]
+    monkeypatch.setattr(search, "staged", lambda *_: fit)
+    monkeypatch.setattr(search, "nominal", lambda parameters, z: z)
+    monkeypatch.setattr(search, "approached", lambda fit, z: point)
+    monkeypatch.setattr(search, "onward", lambda setup, fit, point, iterations: further)
+    _, found = early(ALONE, effects, np.zeros(1), 12)
+    assert (found is further) == gone_on
 
 
 def test_averages_that_lead_higher_are_not_followed():

@@ -1,0 +1,108 @@
+"""Two effects at once: both are seen in one step from a baseline that is not yet bent."""
+
+import numpy as np
+import pytest
+
+from rockref import Model
+from rockref.discover import diagnose, two
+from rockref.discover.families import Family
+from rockref.discover.far import LOOKS, nominal_beside
+from rockref.discover.looking import Look
+from rockref.discover.screen import screen
+from rockref.discover.search import SHORT, Setup, windows
+from rockref.discover.two import promises, stepped_along, two_at_once
+from rockref.effects import catalogue
+from rockref.effects.catalogue import parse
+from tests.unit.discover.bowls import ALONE, Bowl, family
+from tests.unit.discover.synthetic import experiment
+from tests.unit.discover.test_looking import left
+
+KINDS = [catalogue.find(id) for id in ("quadratic_drag", "spin_friction", "gyro_scale", "adhesion", "plate_tilt")]
+
+
+@pytest.fixture(scope="module")
+def hidden():
+    """Setup, fit and point after a few iterations of the nominal baseline, where a foot resists spin and the gyroscope
+    shows too little."""
+    effects = (parse("spin_friction:radius=0.003"), parse("gyro_scale:x=0.96,y=0.97,z=0.98"))
+    truth = Model.table_3_1().replace(effects=effects)
+    e = experiment(truth, [{}, {"turned": True}], duration=1.2, noisy=True)
+    setup = Setup(e, e.runs, Model.table_3_1(), end=1.2, workers=1)
+    fit = setup.fit(windows(setup, SHORT))
+    plain = nominal_beside(setup, Family((), fit, fit.begin()))
+    return setup, plain.fit, plain.fit.run(plain.point, LOOKS, np.random.default_rng(0))
+
+
+def test_the_right_pair_promises_most(hidden):
+    found = promises(*hidden, KINDS, ["gyro_scale", "quadratic_drag"])
+    assert found[0].effects == ("gyro_scale", "spin_friction")
+    # Four others beside each of the two that led, less the pair of them that would be counted twice.
+    assert len(found) == 7 and all(p.effects[0] in ("gyro_scale", "quadratic_drag") for p in found)
+    gains = [p.gain for p in found]
+    assert gains == sorted(gains, reverse=True) and gains[0] > 1.1 * gains[1]
+
+
+def test_the_step_of_a_pair_leads_lower_than_those_of_its_effects(hidden):
+    setup, fit, point = hidden
+    best = promises(*hidden, KINDS, ["gyro_scale"])[0]
+    found = stepped_along(setup, fit, point, best)
+    names = [p.name for p in found.fit.parameters]
+    assert found.effects == best.effects == ("gyro_scale", "spin_friction")
+    alone = screen(fit, point, [k for k in KINDS if k.id in found.effects], setup)
+    assert found.point.objective < min(t.point.objective for t in alone) < point.objective
+    # The columns stand in the order of the effects: the step of the scale moves the scale.
+    assert found.point.z[names.index("gyro_scale.x")] < 0 < found.point.z[names.index("spin_friction.radius")]
+
+
+def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monkeypatch):
+    """Of five pairs four are raced; the winner holds no effect that was found, so its first one counts as alone."""
+    start, other = left(("gyro_scale",), 0.6), left(("adhesion",), 0.9)
+    bowls = {id: Bowl(np.zeros(3), floor=1.4) for id in "abd"} | {"adhesion": Bowl(np.zeros(3))}
+    pairs = [two.Promise((id, "plate_tilt"), gain, np.zeros(3)) for gain, id in enumerate("edcba", 5)][::-1]
+    pairs[2] = two.Promise(("adhesion", "plate_tilt"), 7, np.zeros(3))
+    asked = {}
+
+    def promised(setup, fit, point, kinds, leading):
+        asked["leading"] = list(leading)
+        return pairs
+
+    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(two, "promises", promised)
+    monkeypatch.setattr(
+        two, "stepped_along", lambda setup, fit, point, p: family(p.effects, bowls[p.effects[0]], np.zeros(3))
+    )
+    monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
+    lines: list[str] = []
+    look = two_at_once(ALONE, Look(left((), 0.9), [start, other], {}), start, lines.append)
+    assert asked["leading"] == ["gyro_scale", "adhesion"]
+    assert look.kept is other and look.in_full
+    assert [f.effects for f in look.order] == [("adhesion", "plate_tilt")] and look.gains["plate_tilt"] > 0
+    assert [line.split()[3] for line in lines[:4]] == ["adhesion", "a", "b", "d"]
+
+
+@pytest.mark.parametrize(
+    "alone, pair, asked",
+    [
+        pytest.param(0.6, 0.1, ["two"], id="two at once settle it"),
+        pytest.param(0.6, 0.5, ["two", "one"], id="they do not"),
+        pytest.param(0.1, 0.0, ["one"], id="the first one has explained most"),
+    ],
+)
+def test_two_are_looked_for_where_one_leaves_too_much(monkeypatch, alone, pair, asked):
+    seen: list[str] = []
+
+    def way(name, effects, share):
+        def found(*_):
+            seen.append(name)
+            return Look(left(effects[:1], alone), [left(effects, share)], {})
+
+        return found
+
+    effects = ("gyro_scale", "spin_friction")
+    monkeypatch.setattr(diagnose, "two_at_once", way("two", effects, pair))
+    monkeypatch.setattr(diagnose, "look_further", way("one", effects, 0.0))
+    first = Look(left((), 0.9), [], {})
+    look = diagnose.next_look(ALONE, left(effects[:1], alone), [first], 0, lambda line: None)
+    assert seen == asked and look.order[0].effects == effects
+    assert diagnose.next_look(ALONE, left((), 0.9), [], 0, lambda line: None) and seen == [*asked, "one"]
