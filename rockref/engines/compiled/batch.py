@@ -30,7 +30,7 @@ class Batch:
     body : (B, BODY);  P : (B, n, 3) [m];  props : (B, n, PROPS);  memory : (B, n, MEMORY);  effects : (B, SLOTS)
     state : (B, STATE), the starts; without accelerations given, the run evaluates them first
     h : step [s];  wanted : (R,) or (B, R) int64, the step numbers that are recorded, rising; from a negative one on
-        nothing of that run is recorded, and its rows stay as they are
+        nothing of that run is recorded: its rows are NaN, those of a given `out` stay as they are
     forces : (B, n, 3) of the starts [N], or None; recorded only where step 0 of a given start is wanted
     """
 
@@ -115,8 +115,8 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
     else:
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(piece, pieces))
-    asked = np.sum(batch.wanted >= 0, axis=1)
-    for b in np.flatnonzero(written < asked):  # lost
+    asked = np.sum(batch.wanted >= 0, axis=1) if out is not None else np.full(B, R)
+    for b in np.flatnonzero(written < asked):  # lost, or not asked for
         rest = slice(written[b], asked[b])
         states[b, rest] = np.nan
         if full:

@@ -69,6 +69,12 @@ def test_from_a_negative_step_number_on_nothing_is_recorded(problems):
     every = run_batch(replace(batch, wanted=np.array([0, 7, 10, 500])))
     for b, row in zip(*np.nonzero(own >= 0), strict=True):
         np.testing.assert_array_equal(states[b, row], every[b, [0, 7, 10, 500].index(own[b, row])])
+    # Of fresh memory nothing shows through.
+    fresh, forces, memories = run_batch(replace(batch, wanted=own), full=True)
+    for rows in (fresh, forces, memories):
+        asked = np.broadcast_to((own >= 0).reshape(own.shape + (1,) * (rows.ndim - 2)), rows.shape)
+        assert np.array_equal(np.isnan(rows), ~asked)
+    assert np.array_equal(fresh[own >= 0], states[own >= 0])
 
 
 def test_a_lost_run_has_no_numbers_in_the_rows_that_are_wanted():
