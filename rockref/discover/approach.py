@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from rockref.discover.candidates import SELDOM, SHAPES
 from rockref.discover.fit import Fit, Parameter, Point
@@ -39,6 +40,9 @@ JUMPS = (0.6, -0.6)
 #: their typical size, that had ended half above the noise with inner feet of three times the friction, the one came
 #: down to the noise by either, the other by a fifth of what it was above it.
 HIGHER = (0.15, -0.15, 0.3, -0.3)
+#: Turns of a gyroscope about the axis of the release [rad]; decided: far beyond twice a typical one, in steps of a
+#: fifth of the valley's width (a blind case of 0.11 rad was seen from 0.15 rad on either side).
+TURNS = np.arange(-0.24, 0.25, 0.03)
 #: Lines after which the effects' own parameters and the warp are looked at again.
 FOLLOWED = ("mu_ext", "delta_diag", "K_N", "beta_ext")
 
@@ -64,6 +68,8 @@ def approached_beside(fit: Fit, z: np.ndarray, first: int) -> Point:
 def lines(fit: Fit) -> Iterator[tuple[Callable, Callable[[np.ndarray], np.ndarray]]]:
     """Searches and what they move: from z to moves, each row a change of z."""
     names = [p.name for p in fit.parameters]
+    if "gyro_misalignment.x" in names:
+        yield best_for_all, partial(turned_about_release, fit)
     if heights := heights_of(names):
         yield best_for_all, lambda z: along_warp(fit, heights, WARPS)
     for line in LINES:
@@ -90,6 +96,20 @@ def along(fit: Fit, own: list[int], z: np.ndarray) -> np.ndarray:
     """The same change of z for some parameters."""
     moves = np.zeros((len(SHARES), len(fit.parameters)))
     moves[:, own] = np.array(SHARES)[:, None]
+    return moves
+
+
+def turned_about_release(fit: Fit, z: np.ndarray) -> np.ndarray:
+    """Changes of z that turn a misaligned gyroscope further about the body's X, about which the block is released.
+
+    No release shows this turn: rates about X look the same to a gyroscope however it is turned about X first.
+    """
+    names = [p.name for p in fit.parameters]
+    own = [names.index(f"gyro_misalignment.{axis}") for axis in "xyz"]
+    before = np.array([fit.parameters[i].value(z[i]) for i in own])
+    after = (Rotation.from_rotvec(before) * Rotation.from_rotvec(np.outer(TURNS, [1.0, 0.0, 0.0]))).as_rotvec()
+    moves = np.zeros((len(TURNS), len(z)))
+    moves[:, own] = (after - before) / [fit.parameters[i].spread for i in own]
     return moves
 
 

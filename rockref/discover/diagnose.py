@@ -51,6 +51,9 @@ NO_WORSE = 1.1
 #: It stays if the baseline's mean loss is larger by this factor (decided).
 DOUBTFUL, FAR_WORSE = 0.2, 2.0
 
+#: Prior deviations beyond which nothing is begun that the releases suggest (decided).
+FARTHEST = 3.0
+
 
 @dataclass
 class Diagnosis:
@@ -156,7 +159,9 @@ def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Fa
     def begun(own: Setup, effects: tuple[str, ...]) -> Family:
         hopeless = not effects and bool(seen.get("starts")) and seen["loss"] > STRONG
         z = np.zeros(len(setup.parameters(effects)))
-        known = np.clip(seen.get("starts", {}).get(effects, seen["z"]), -3, 3)
+        known = seen.get("starts", {}).get(effects, seen["z"])
+        most = [FARTHEST * max(p.prior, 1.0) for p in setup.parameters(effects)[: len(known)]]
+        known = np.clip(known, np.negative(most), most)
         z[: len(known)] = 0 if hopeless else known
         return Family(effects, *baseline(own, effects, z, iterations=(2, 1) if hopeless else FRESH))
 

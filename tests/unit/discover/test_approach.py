@@ -9,6 +9,7 @@ from rockref import Model
 from rockref.discover.approach import (
     BEFORE,
     FINER,
+    TURNS,
     along_warp,
     approached,
     approached_beside,
@@ -17,9 +18,12 @@ from rockref.discover.approach import (
     same_release,
     shares_of,
     switches,
+    turned_about_release,
 )
+from rockref.discover.presearch import release_fit
 from rockref.discover.search import SHORT, Setup, windows
 from rockref.discover.windows import STATES
+from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 
 WARP = np.array([-1, 1, -1, 1])
@@ -123,3 +127,25 @@ def test_four_points_have_no_warp():
     plain = fit.fit(series)
     assert heights_of([p.name for p in plain.parameters]) == []
     assert approached(plain, np.zeros(len(plain.parameters))).objective > 0
+
+
+def test_a_gyroscope_is_turned_about_the_axis_that_no_release_shows():
+    """Turned by 0.11 rad about X among others; the releases are met without it, and the windows say how much it is."""
+    turn = {"x": 0.11, "y": 0.10, "z": -0.09}
+    effect = "gyro_misalignment:" + ",".join(f"{axis}={value}" for axis, value in turn.items())
+    truth = Model.table_3_1().replace(effects=(parse(effect),))
+    e = experiment(truth, [{}, {"turned": True}], duration=1.2, noisy=True)
+    setup = Setup(e, e.runs, Model.table_3_1(), end=1.2, workers=1)
+    release, point = release_fit(setup, ("gyro_misalignment",))
+    names = [p.name for p in release.parameters]
+    x = names.index("gyro_misalignment.x")
+    assert abs(release.parameters[x].value(point.z[x]) - turn["x"]) > 0.06
+    moves = turned_about_release(release, point.z)
+    # Not even the largest turn changes what the releases show by more than a tenth of the noise.
+    nothing = np.zeros((release.series.B, STATES))
+    before, after = (release.residual(z, nothing) for z in (point.z, point.z + moves[0]))
+    assert np.sqrt(np.mean((after - before)[release.series.valid] ** 2)) < 0.1
+    fit = setup.fit(windows(setup, SHORT, release.models(point.z)[0][0]), ("gyro_misalignment",))
+    found = min((placed(fit, point.z + move) for move in moves), key=lambda p: p.objective)
+    step = TURNS[1] - TURNS[0]
+    assert abs(fit.parameters[x].value(found.z[x]) - turn["x"]) < step

@@ -44,7 +44,8 @@ def test_what_the_release_suggested_is_built_on_if_it_explains_what_follows(monk
         return bowl, bowl.point(np.zeros(1 + len(effects)), np.zeros((WINDOWS, 5)))[0]
 
     monkeypatch.setattr(diagnose, "baseline", baseline)
-    setup = SimpleNamespace(workers=1, parameters=lambda effects: range(1 + len(effects)))
+    own = SimpleNamespace(prior=1.0)
+    setup = SimpleNamespace(workers=1, parameters=lambda effects: [own] * (1 + len(effects)))
     seen = {"loss": 1.0, "z": np.zeros(1), "starts": {("gyro_scale",): np.zeros(2)}}
     null, start = beginning(setup, [(), ("gyro_scale",)], seen)
     assert (null.effects, start.effects) == ((), builds_on)
