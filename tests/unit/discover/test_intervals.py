@@ -5,7 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from rockref import Model
 from rockref.discover import verdict as rules
+from rockref.discover.baseline import baseline_parameters
 from rockref.discover.candidates import SELDOM_PRIOR, parameters_of
 from rockref.discover.intervals import NINETY, half_widths
 from rockref.effects import catalogue
@@ -48,6 +50,21 @@ def test_a_factor_is_known_to_a_part_of_itself():
     found = halves("uneven_foot_friction", {"foot1": 2.0})
     spread = parameters_of(catalogue.find("uneven_foot_friction"), 2)[0].spread
     assert set(found.values()) == {rules.SYSTEMATIC / spread}
+
+
+def test_a_common_factor_of_the_feet_is_known_as_the_baseline_is():
+    """Friction of all feet, 15 % more of it: mu_int and mu_ext both known to 15 % say no more than each of them alone
+    could; together they are known to 15 % over the root of two."""
+    parameters = (
+        *baseline_parameters(Model.table_3_1(), 0, 0.0014),
+        *parameters_of(catalogue.find("uneven_foot_friction"), 2),
+    )
+    names = [p.name for p in parameters]
+    fit = SimpleNamespace(parameters=parameters)
+    found = half_widths(fit, SimpleNamespace(z=np.zeros(len(names))), np.zeros((len(names),) * 2))
+    spread, own = parameters[-1].spread, parameters[names.index("mu_ext")].spread
+    expected = np.hypot(rules.SYSTEMATIC, NINETY * own / np.sqrt(2)) / spread
+    assert found[-4:] == pytest.approx(expected)
 
 
 def test_what_is_typically_none_takes_a_leak_of_the_largest_beside_it():
