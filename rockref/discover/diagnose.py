@@ -182,10 +182,11 @@ def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Fa
 
 
 def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) -> tuple[Family, list[Look]]:
-    """Effects added one at a time, as long as each is there, stands against its rivals, and settles what was left."""
+    """Effects added one at a time, or two at once, as long as they are there, stand against their rivals, and settle
+    what was left."""
     looks: list[Look] = []
     while len(start.effects) < rules.MOST_EFFECTS and (not start.effects or room(start) > rules.SECOND_ROOM):
-        look, second = next_look(setup, start, looks, seed, say), bool(start.effects)
+        look, second = look_further(setup, start, seed, say), bool(start.effects)
         looks.append(look)
         if not look.order or not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
             break
@@ -193,6 +194,9 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         found = upheld(look, wider, second, seed, say)
         if found is None:
             break
+        if not second and (pair := settled_by_two(setup, look, found, say)) is not None:
+            look, found, second = pair, pair.order[0], True
+            looks.append(look)
         wider = to_the_end(setup, look, found, second, seed, say)
         say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
         if start.effects and not rules.settles(structured(start), structured(wider)):
@@ -203,13 +207,16 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
     return start, looks
 
 
-def next_look(setup: Setup, start: Family, looks: list[Look], seed: int, say: Callable[[str], None]) -> Look:
-    """Two effects at once, where the first one leaves too much and they settle it; else one more on top of it."""
-    if looks and structured(start) > FAR:
-        look = two_at_once(setup, looks[0], start, say)
-        if rules.settles(structured(start), structured(look.order[0])):
-            return look
-    return look_further(setup, start, seed, say)
+def settled_by_two(setup: Setup, look: Look, found: Family, say: Callable[[str], None]) -> Look | None:
+    """A look whose pair settles the windows of which its first effect, not yet taken to its end, leaves too many."""
+    left = structured(found)
+    if left <= FAR or rules.is_hopeless(left, look.gains[found.effects[-1]], room(found)):
+        return None
+    pair = two_at_once(setup, look, found, say)
+    best = pair.order[0]
+    first, second = best.effects
+    there = rules.is_detected(pair.gains[second], min(size_of(best, first), size_of(best, second)), second=True)
+    return pair if there and rules.settles(left, structured(best)) else None
 
 
 def without(setup: Setup, family: Family, effect: str) -> Family:

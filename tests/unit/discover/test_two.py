@@ -13,7 +13,7 @@ from rockref.discover.search import SHORT, Setup, windows
 from rockref.discover.two import promises, stepped_along, two_at_once
 from rockref.effects import catalogue
 from rockref.effects.catalogue import parse
-from tests.unit.discover.bowls import ALONE, Bowl, family
+from tests.unit.discover.bowls import ALONE, WINDOWS, Bowl, family
 from tests.unit.discover.synthetic import experiment
 from tests.unit.discover.test_looking import left
 
@@ -82,27 +82,29 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
 
 
 @pytest.mark.parametrize(
-    "alone, pair, asked",
+    "alone, gain, pair, sizes, taken",
     [
-        pytest.param(0.6, 0.1, ["two"], id="two at once settle it"),
-        pytest.param(0.6, 0.5, ["two", "one"], id="they do not"),
-        pytest.param(0.1, 0.0, ["one"], id="the first one has explained most"),
+        pytest.param(0.6, 3000.0, 0.1, (1.0, 1.0), True, id="they settle what one leaves"),
+        pytest.param(0.6, 3000.0, 0.5, (1.0, 1.0), False, id="they do not"),
+        pytest.param(0.6, 3000.0, 0.1, (1.0, 0.1), False, id="one of them is a trifle"),
+        pytest.param(0.1, 3000.0, 0.0, (1.0, 1.0), None, id="one leaves little"),
+        pytest.param(0.6, 100.0, 0.1, (1.0, 1.0), None, id="one is hopeless"),
     ],
 )
-def test_two_are_looked_for_where_one_leaves_too_much(monkeypatch, alone, pair, asked):
-    seen: list[str] = []
+def test_two_are_looked_for_where_one_leaves_too_much(monkeypatch, alone, gain, pair, sizes, taken):
+    """taken: None where two are not even looked for."""
+    effects = ("rolling_resistance", "quadratic_drag")
+    both = family(effects, Bowl(np.array([0.0, *sizes])), [0.0, *sizes])
+    both.point.loss[: round(pair * WINDOWS)] *= 4.0
+    found = Look(left(effects[:1], alone), [both], {effects[1]: 2000.0}, in_full=True)
+    asked: list[bool] = []
 
-    def way(name, effects, share):
-        def found(*_):
-            seen.append(name)
-            return Look(left(effects[:1], alone), [left(effects, share)], {})
-
+    def two_at_once(*_):
+        asked.append(True)
         return found
 
-    effects = ("gyro_scale", "spin_friction")
-    monkeypatch.setattr(diagnose, "two_at_once", way("two", effects, pair))
-    monkeypatch.setattr(diagnose, "look_further", way("one", effects, 0.0))
-    first = Look(left((), 0.9), [], {})
-    look = diagnose.next_look(ALONE, left(effects[:1], alone), [first], 0, lambda line: None)
-    assert seen == asked and look.order[0].effects == effects
-    assert diagnose.next_look(ALONE, left((), 0.9), [], 0, lambda line: None) and seen == [*asked, "one"]
+    monkeypatch.setattr(diagnose, "two_at_once", two_at_once)
+    monkeypatch.setattr(diagnose, "room", lambda family: 3000.0)
+    first = Look(left((), 0.9), [], {effects[0]: gain})
+    look = diagnose.settled_by_two(ALONE, first, left(effects[:1], alone), lambda line: None)
+    assert (look is found) == bool(taken) and bool(asked) == (taken is not None)
