@@ -9,7 +9,7 @@ from rockref import Model
 from rockref.discover import verdict as rules
 from rockref.discover.baseline import baseline_parameters
 from rockref.discover.candidates import SELDOM_PRIOR, parameters_of
-from rockref.discover.intervals import NINETY, half_widths
+from rockref.discover.intervals import NINETY, UNSEEN, half_widths
 from rockref.effects import catalogue
 
 
@@ -33,10 +33,22 @@ def test_a_size_is_known_to_its_systematic_part():
 
 
 def test_what_is_small_along_one_axis_is_known_no_better_for_it():
-    found = halves("mass_eccentricity", {"x": 3.0, "y": 0.0, "z": 1.5})
+    found = halves("release_velocity", {"x": 3.0, "y": 0.0, "z": 1.5})
     whole = np.sqrt((3.0**2 + 1.5**2) / 3)
     assert found["x"] == pytest.approx(rules.SYSTEMATIC * 3.0)
     assert found["y"] == found["z"] == pytest.approx(rules.SYSTEMATIC * whole)
+
+
+def test_the_height_of_the_centre_of_mass_is_known_to_less_than_its_place():
+    """It trades with the tilts, whatever the covariance says."""
+    found = halves("mass_eccentricity", {"x": 1.0})
+    assert found["y"] == pytest.approx(rules.SYSTEMATIC / np.sqrt(3))
+    assert found["z"] == pytest.approx(np.hypot(found["y"], UNSEEN["mass_eccentricity", "z"]))
+
+
+def test_what_no_window_sees_are_parameters_that_there_are():
+    names = {p.name for effect, _ in UNSEEN for p in parameters_of(catalogue.find(effect), 2)}
+    assert {".".join(key) for key in UNSEEN} <= names
 
 
 def test_numbers_of_another_unit_do_not_count():
