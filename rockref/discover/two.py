@@ -25,8 +25,6 @@ from rockref.effects.base import Effect
 #: Pairs that are raced on the short windows. Decided: of three blind cases with a sensor and a contact effect the right
 #: pair promised most of 528 in each.
 RACED = 4
-
-
 #: Shares of a step that are tried.
 SHARES = (1.0, 0.4)
 
