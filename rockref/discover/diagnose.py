@@ -30,7 +30,7 @@ from rockref.discover.families import (
 )
 from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
-from rockref.discover.looking import FAR, POLISH, Look, duel, look_further
+from rockref.discover.looking import FAR, POLISH, TOO_FAR, Look, duel, look_further
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.own_windows import known_own
 from rockref.discover.plan import switches_of
@@ -194,29 +194,37 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         found = upheld(look, wider, second, seed, say)
         if found is None:
             break
-        if not second and (pair := settled_by_two(setup, look, found, say)) is not None:
-            look, found, second = pair, pair.order[0], True
+        alone = not second and leaves_too_much(look, found)
+        if alone and (pair := settled_by_two(setup, look, found, say)) is not None:
+            look, found, second, alone = pair, pair.order[0], True, False
             looks.append(look)
         wider = to_the_end(setup, look, found, second, seed, say)
         say(f"  {' + '.join(wider.effects)}: structured {structured(wider):.3f}, room {room(wider):.0f}")
         if start.effects and not rules.settles(structured(start), structured(wider)):
             break
         start = wider
-        if rules.is_hopeless(structured(start), look.gains[start.effects[-1]], room(start)):
+        # What two at once do not settle one more on top of the first does not, if that leaves most windows.
+        nothing_settles = alone and structured(start) > TOO_FAR
+        if nothing_settles or rules.is_hopeless(structured(start), look.gains[start.effects[-1]], room(start)):
             break
     return start, looks
 
 
+def leaves_too_much(look: Look, found: Family) -> bool:
+    """Whether a first effect leaves so many windows structured that it was found in the place of two, and some hope."""
+    left = structured(found)
+    return left > FAR and not rules.is_hopeless(left, look.gains[found.effects[-1]], room(found))
+
+
 def settled_by_two(setup: Setup, look: Look, found: Family, say: Callable[[str], None]) -> Look | None:
     """A look whose pair settles the windows of which its first effect, not yet taken to its end, leaves too many."""
-    left = structured(found)
-    if left <= FAR or rules.is_hopeless(left, look.gains[found.effects[-1]], room(found)):
-        return None
     pair = two_at_once(setup, look, found, say)
+    if pair is None:
+        return None
     best = pair.order[0]
     first, second = best.effects
     there = rules.is_detected(pair.gains[second], min(size_of(best, first), size_of(best, second)), second=True)
-    return pair if there and rules.settles(left, structured(best)) else None
+    return pair if there and rules.settles(structured(found), structured(best)) else None
 
 
 def without(setup: Setup, family: Family, effect: str) -> Family:

@@ -15,7 +15,7 @@ import numpy as np
 
 from rockref.discover.beside import side_by_side
 from rockref.discover.families import Family, mean_loss, refit_all
-from rockref.discover.far import LOOKS, in_full, nominal_beside
+from rockref.discover.far import FAR_OFF, LOOKS, in_full, nominal_beside
 from rockref.discover.fit import Fit, Point
 from rockref.discover.looking import Look, candidates_beside, ranked
 from rockref.discover.screen import own_columns
@@ -38,8 +38,8 @@ class Promise:
     dz: np.ndarray
 
 
-def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], None]) -> Look:
-    """The best pair, fitted in full, as a look on top of one of its effects.
+def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], None]) -> Look | None:
+    """The best pair, fitted in full, as a look on top of one of its effects; None where no pair comes near the runs.
 
     first : the look that found `start` on top of the plain baseline. One effect of the pair, at least, led somewhere in
     it; what the pair gains is counted over that one alone.
@@ -53,6 +53,8 @@ def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], N
     raced = sorted(refit_all(setup, tried, LOOKS, setup.seed), key=mean_loss)
     for f in raced:
         say(f"  two at once: {' + '.join(f.effects)} {mean_loss(f):.2f}")
+    if mean_loss(raced[0]) > FAR_OFF:
+        return None
     best = in_full(setup, raced[0])
     return ranked(alone[best.effects[0]], [best], say, in_full=True)
 

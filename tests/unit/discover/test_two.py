@@ -81,30 +81,58 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
     assert [line.split()[3] for line in lines[:4]] == ["adhesion", "a", "b", "d"]
 
 
+def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
+    start, far_off = left(("gyro_scale",), 0.6), Bowl(np.zeros(3), floor=2.1)
+    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("gyro_scale", "adhesion"), 1.0, np.zeros(3))])
+    monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
+    monkeypatch.setattr(two, "in_full", lambda setup, looked: pytest.fail("fitted in full"))
+    assert two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None) is None
+
+
 @pytest.mark.parametrize(
-    "alone, gain, pair, sizes, taken",
+    "alone, gain, expected", [(0.6, 3000.0, True), (0.1, 3000.0, False), (0.6, 100.0, False), (0.95, 3000.0, False)]
+)
+def test_two_are_looked_for_where_one_leaves_too_much(monkeypatch, alone, gain, expected):
+    """It explains most windows, or next to nothing, or what is left looks like nothing that is known."""
+    monkeypatch.setattr(diagnose, "room", lambda family: 3000.0)
+    look = Look(left((), 0.9), [], {"rolling_resistance": gain})
+    assert diagnose.leaves_too_much(look, left(("rolling_resistance",), alone)) == expected
+
+
+@pytest.mark.parametrize(
+    "pair, sizes, taken",
     [
-        pytest.param(0.6, 3000.0, 0.1, (1.0, 1.0), True, id="they settle what one leaves"),
-        pytest.param(0.6, 3000.0, 0.5, (1.0, 1.0), False, id="they do not"),
-        pytest.param(0.6, 3000.0, 0.1, (1.0, 0.1), False, id="one of them is a trifle"),
-        pytest.param(0.1, 3000.0, 0.0, (1.0, 1.0), None, id="one leaves little"),
-        pytest.param(0.6, 100.0, 0.1, (1.0, 1.0), None, id="one is hopeless"),
+        pytest.param(0.1, (1.0, 1.0), True, id="they settle what one leaves"),
+        pytest.param(0.5, (1.0, 1.0), False, id="they do not"),
+        pytest.param(0.1, (1.0, 0.1), False, id="one of them is a trifle"),
+        pytest.param(None, (1.0, 1.0), False, id="no pair comes near"),
     ],
 )
-def test_two_are_looked_for_where_one_leaves_too_much(monkeypatch, alone, gain, pair, sizes, taken):
-    """taken: None where two are not even looked for."""
+def test_a_pair_is_taken_if_it_settles_what_one_leaves(monkeypatch, pair, sizes, taken):
     effects = ("rolling_resistance", "quadratic_drag")
     both = family(effects, Bowl(np.array([0.0, *sizes])), [0.0, *sizes])
-    both.point.loss[: round(pair * WINDOWS)] *= 4.0
-    found = Look(left(effects[:1], alone), [both], {effects[1]: 2000.0}, in_full=True)
-    asked: list[bool] = []
+    both.point.loss[: round((pair or 0) * WINDOWS)] *= 4.0
+    found = Look(left(effects[:1], 0.6), [both], {effects[1]: 2000.0}, in_full=True)
+    monkeypatch.setattr(diagnose, "two_at_once", lambda *_: None if pair is None else found)
+    look = diagnose.settled_by_two(ALONE, Look(left((), 0.9), [], {}), left(effects[:1], 0.6), lambda line: None)
+    assert look is (found if taken else None)
 
-    def two_at_once(*_):
-        asked.append(True)
-        return found
 
-    monkeypatch.setattr(diagnose, "two_at_once", two_at_once)
+@pytest.mark.parametrize("alone, looked", [(0.6, ["one", "two"]), (0.4, ["one", "two", "one"]), (0.1, ["one", "one"])])
+def test_where_two_settle_nothing_most_windows_are_left_alone(monkeypatch, alone, looked):
+    """One more is looked for on top of a first effect that explains at least half of the windows."""
+    first, seen = left(("rolling_resistance",), alone), []
+
+    def one(setup, start, seed, say):
+        seen.append("one")
+        return Look(left((), 0.9), [] if start.effects else [first], {"rolling_resistance": 3000.0}, in_full=True)
+
+    monkeypatch.setattr(diagnose, "look_further", one)
+    monkeypatch.setattr(diagnose, "upheld", lambda look, wider, *_: wider)
+    monkeypatch.setattr(diagnose, "settled_by_two", lambda *_: seen.append("two"))
+    monkeypatch.setattr(diagnose, "to_the_end", lambda setup, look, found, *_: found)
     monkeypatch.setattr(diagnose, "room", lambda family: 3000.0)
-    first = Look(left((), 0.9), [], {effects[0]: gain})
-    look = diagnose.settled_by_two(ALONE, first, left(effects[:1], alone), lambda line: None)
-    assert (look is found) == bool(taken) and bool(asked) == (taken is not None)
+    start, looks = diagnose.grown(ALONE, left((), 0.9), 0, lambda line: None)
+    assert start is first and seen == looked
