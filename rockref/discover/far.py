@@ -45,7 +45,7 @@ AHEAD, ALIKE = 0.4, 1.05
 #: Looks of which the best leaves so large a mean loss, and such a share of the middle one's, lead nowhere: one of them
 #: is fitted in full (decided: where nothing of the catalogue was missing the best left 0.94 to 0.99 of the middle, at
 #: 2.7 to 6.7; a right one that began as far off left 0.6). Of pairs that are raced none is fitted in full that leaves
-#: as much (decided: four right ones left 1.04 to 1.4, the best where a gyroscope had soft stops 5.5).
+#: as much (decided: five right ones left 1.1 to 1.5, the best where a gyroscope had soft stops 5.5).
 FAR_OFF, ALL_THE_SAME = 2.0, 0.9
 #: Mean loss of a first look up to which its start needs no second search (decided: 1 is noise; where friction fell
 #: with speed, the right look ended at 1.04, wrong ones at 1.55 and more).
