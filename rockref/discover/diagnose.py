@@ -50,7 +50,6 @@ NO_WORSE = 1.1
 #: Share of structured windows above which what the release suggested is doubted (decided: right sensors left 0 to 6 %).
 #: It stays if the baseline's mean loss is larger by this factor (decided).
 DOUBTFUL, FAR_WORSE = 0.2, 2.0
-
 #: Prior deviations beyond which nothing is begun that the releases suggest (decided).
 FARTHEST = 3.0
 
