@@ -41,7 +41,7 @@ JUMPS = (0.6, -0.6)
 #: down to the noise by either, the other by a fifth of what it was above it.
 HIGHER = (0.15, -0.15, 0.3, -0.3)
 #: Turns of a gyroscope about the axis of the release [rad]; decided: far beyond twice a typical one, in steps of an
-#: eighth of the valley's width at half its depth (of a blind case of 0.11 rad, to which the misfit fell from all turns).
+#: eighth of the valley's width at half its depth (a blind case of 0.11 rad: the misfit fell towards it from all turns).
 TURNS = np.arange(-0.24, 0.25, 0.03)
 #: Lines after which the effects' own parameters and the warp are looked at again.
 FOLLOWED = ("mu_ext", "delta_diag", "K_N", "beta_ext")
