@@ -12,7 +12,8 @@ PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; 
 # Two workers; the tests of one file stay together, so that what a file computes once is computed once. Files in their
 # order: by default those with few tests would come last, and these are the long ones.
 WORKERS ?= 2
-PYTEST := $(PY) -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder
+BESIDE := -n $(WORKERS) --dist loadfile --no-loadscope-reorder
+PYTEST := $(PY) -m pytest $(BESIDE)
 # numba, BLAS and OpenMP keep to one thread each, or two workers would fight over two cores.
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
@@ -60,7 +61,7 @@ test-all: lint  ## lint, then every test, then the mutants
 # Begun before pytest, which imports parts of the package before a plugin could look. Worker processes write files of their own.
 coverage: env  ## which branches of what is not compiled the tests of `make test` take, folder by folder
 	$(VENV)/bin/coverage erase
-	HYPOTHESIS_PROFILE=ci $(VENV)/bin/coverage run -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder -q -m 'not slow' $(ARGS)
+	HYPOTHESIS_PROFILE=ci $(VENV)/bin/coverage run -m pytest $(BESIDE) -q -m 'not slow' $(ARGS)
 	$(VENV)/bin/coverage combine -q
 	$(VENV)/bin/coverage json -q -o .coverage.json
 	$(PY) -m tests.covered .coverage.json

@@ -14,6 +14,8 @@ from rockref.discover.search import Setup
 PROBE = 0.2
 #: Gain that a candidate must promise by itself for its step to be tried (decided: a sixth of what is called an effect).
 PROMISING = 60.0
+#: Shares of a step that are tried.
+SHARES = (1.0, 0.4)
 
 
 @dataclass
@@ -27,11 +29,15 @@ class Trial:
     point: Point
 
 
+def with_priors(H: np.ndarray, g: np.ndarray, prior: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """H (G, G) and g (G,) of the runs with the priors' part, and a trifle of damping."""
+    return H + np.diag(1 / prior**2) + 1e-4 * np.diag(np.diag(H)), g + z / prior**2
+
+
 def promise(fit: Fit, point: Point, r, Js, Jg, w) -> float:
     """What one Gauss-Newton step without any candidate promises to gain."""
     H, g, _ = fit.reduced(r, Js, Jg, w, point.corrections, point.z)
-    H = H + np.diag(1 / fit.prior**2) + 1e-4 * np.diag(np.diag(H))
-    g = g + point.z / fit.prior**2
+    H, g = with_priors(H, g, fit.prior, point.z)
     return float(g @ np.linalg.solve(H, g) / 2)
 
 
@@ -71,12 +77,11 @@ def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, le
     c = point.corrections
     z0, Jc = own_columns(wide, point, effects[-1], r)
     H, g, (H_ss, H_sg, g_s, _) = wide.reduced(r, Js, np.concatenate([Jg, Jc], axis=1), w, c, z0)
-    H = H + np.diag(1 / wide.prior**2) + 1e-4 * np.diag(np.diag(H))
-    g = g + z0 / wide.prior**2
+    H, g = with_priors(H, g, wide.prior, z0)
     dz = np.clip(-np.linalg.solve(H, g), -3, 3)
     absent = Point(z0, c.copy(), point.loss.copy(), point.penalty)
     best = Trial(effects, float(-(g @ dz) / 2), 0.0, wide, absent)
-    for share in (1.0, 0.4) if best.predicted > least else ():
+    for share in SHARES if best.predicted > least else ():
         dc = -np.linalg.solve(H_ss, (g_s + H_sg @ (share * dz))[..., None])[..., 0]
         dc = np.clip(dc, -4 * wide.state_prior, 4 * wide.state_prior)
         dc[wide.series.first] = 0

@@ -18,15 +18,13 @@ from rockref.discover.families import Family, mean_loss, refit_all
 from rockref.discover.far import FAR_OFF, LOOKS, in_full, nominal_beside
 from rockref.discover.fit import Fit, Point
 from rockref.discover.looking import Look, candidates_beside, ranked
-from rockref.discover.screen import own_columns
+from rockref.discover.screen import SHARES, own_columns, with_priors
 from rockref.discover.search import Setup
 from rockref.effects.base import Effect
 
 #: Pairs that are raced on the short windows. Decided: of five experiments with a sensor and another effect the right
 #: pair was among the first four, and won the race, in each.
 RACED = 4
-#: Shares of a step that are tried.
-SHARES = (1.0, 0.4)
 
 
 @dataclass(frozen=True)
@@ -80,8 +78,7 @@ def promises(
     prior = np.concatenate([fit.prior, *priors])
     z = np.concatenate([z, np.zeros(len(prior) - G)])
     H, g, _ = fit.reduced(r, Js, np.concatenate([Jg, *columns], axis=1), w, c, z)
-    H = H + np.diag(1 / prior**2) + 1e-4 * np.diag(np.diag(H))
-    g = g + z / prior**2
+    H, g = with_priors(H, g, prior, z)
     order = {id: i for i, id in enumerate(leading)}
     found = []
     for pair in combinations(ids, 2):
