@@ -29,7 +29,7 @@ from rockref.conformance.maker.scenes import WINDOW_RATE, WINDOWS, corners_only,
 from rockref.conformance.maker.small import rounded_up, stored
 from rockref.conformance.maker.trajectories import window_inputs
 from rockref.conformance.vectors import SCHEMA, problem_of
-from rockref.effects.catalogue import IN_STEP_ORDER, measured
+from rockref.effects.catalogue import EFFECTS, IN_STEP_ORDER, measured
 from rockref.engines import run
 
 #: Runs are this long [s]; rows every 0.2 ms. Members of the ensemble.
@@ -54,11 +54,14 @@ FURTHER: dict[str, dict[str, float]] = {
     "gyro_misalignment": {"xy": 0.02, "xz": -0.01, "yz": 0.015},
     "gyro_bandwidth": {"delay": 0.002},
 }
-#: The same for parameters that came later, behind all others: a number once given stays. A wire's evenness shows where
-#: its time is the shortest plausible one: the vector lasts two milliseconds.
+#: The same for parameters that came later, in the order in which they came: a number once given stays. A wire's
+#: evenness shows where its time is the shortest plausible one: the vector lasts two milliseconds.
 LATER: dict[str, dict[str, float]] = {
     "uneven_foot_stiffness": {"tangential_share": 0.5},
     "lingering_wire_pull": {"tau": 0.01, "evenness": 0.5},
+    "uneven_contact_normals": {"turning_share": 0.5},
+    "spin_friction": {"sliding_share": 0.5},
+    "hysteretic_contact": {"curved_share": 0.5},
 }
 OF_ALL_FEET = ("uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals")
 #: A parameter is at work where this share less of it moves the vector by `LEAST` bars. Decided: small enough that the
@@ -194,10 +197,10 @@ def effects() -> Iterator[tuple[Any, Callable[[], tuple[Any, Made]]]]:
     """Every kind of effect, and how its vector is made: the typical ones, then the further vectors."""
     for kind in IN_STEP_ORDER:
         yield kind, partial(lambda kind: (kind.typical(), made(kind.typical())), kind)
-    for further in (FURTHER, LATER):
-        for kind in IN_STEP_ORDER:
-            if kind.id in further:
-                yield kind, partial(made_further, kind, further[kind.id])
+    further = [(kind, FURTHER[kind.id]) for kind in IN_STEP_ORDER if kind.id in FURTHER]
+    further += [(EFFECTS[id], parameters) for id, parameters in LATER.items()]
+    for kind, parameters in further:
+        yield kind, partial(made_further, kind, parameters)
 
 
 def idle(entries: list[dict[str, Any]]) -> list[str]:

@@ -12,20 +12,27 @@ class HystereticContact(Effect):
     """Loading along K_N, unloading and reloading along K_N (1 + kappa), from the largest depth of this contact.
 
     The spring part becomes max(min(spring, K_N (1 + kappa) (xi - xi_p)), 0) with xi_p = kappa/(1 + kappa) xi_largest;
-    the damper stays. Decided: the dent is forgotten when the point leaves the plate, so that each contact is a new one.
+    the damper stays. With `curved_share` 1 the way back from xi_largest to the dent follows the power 3/2 and not a
+    line, as of a sphere that yields where it is pressed most and unloads as Hertz's does. Decided: the dent is
+    forgotten when the point leaves the plate, so that each contact is a new one.
     """
 
     id = "hysteretic_contact"
     question = "contact"
     quantities = {
-        "kappa": Quantity("1", 0.0, 0.02, 2.0, 0.3, "+", "unloading stiffness over loading stiffness, less one", 0.0)
+        "kappa": Quantity("1", 0.0, 0.02, 2.0, 0.3, "+", "unloading stiffness over loading stiffness, less one", 0.0),
+        "curved_share": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "share of the power 3/2 in the unloading", 0.0, 1.0),
     }
+    switches = ("kappa",)
     sentence = "Asperities yield: the contact unloads along a steeper line and leaves a dent, a loss without any rate."
     equation = (
-        r"F_{el} = \max(\min(K^{(N)}\xi,\ K^{(N)}(1+\kappa)(\xi-\xi_p)),\,0),\quad "
-        r"\xi_p = \tfrac{\kappa}{1+\kappa}\,\xi_{max}"
+        r"F_{el} = \max(\min(K^{(N)}\xi,\ K^{(N)}\xi_{max}(1 - \eta + \eta\sqrt{\zeta})\,\zeta),\,0),\quad "
+        r"\zeta = \frac{\xi-\xi_p}{\xi_{max}-\xi_p},\quad \xi_p = \tfrac{\kappa}{1+\kappa}\,\xi_{max}"
     )
-    source = "O. R. Walton, R. L. Braun (1986), J. Rheol. 30:949-980, doi:10.1122/1.549893"
+    source = (
+        "O. R. Walton, R. L. Braun (1986), J. Rheol. 30:949-980, doi:10.1122/1.549893; C. Thornton (1997), Coefficient "
+        "of restitution for collinear collisions of elastic-perfectly plastic spheres, doi:10.1115/1.2787319"
+    )
     confounder = "uneven_foot_damping"
     experiment = (
         "Add mass on top: this loss is the same share of an impact's energy at every speed and every contact duration; "
@@ -33,6 +40,7 @@ class HystereticContact(Effect):
     )
 
     kappa: float = 0.0
+    curved_share: float = 0.0
 
     def start(self, problem):
         return {"xi_largest": np.zeros_like(problem.points.K_N)}
@@ -44,4 +52,8 @@ class HystereticContact(Effect):
         damper = points.C_N * k.xi_rate
         dent = self.kappa / (1 + self.kappa) * m["xi_largest"]
         unloading = points.K_N * (1 + self.kappa) * (k.xi - dent)
+        if self.curved_share:
+            way = m["xi_largest"] - dent
+            left = np.maximum(k.xi - dent, 0) / np.where(way > 0, way, 1)
+            unloading = unloading * (1 + self.curved_share * (np.sqrt(left) - 1))
         return np.maximum(np.minimum(F - damper, unloading), 0) + damper

@@ -38,11 +38,16 @@ def altered(on, e, force, xi, xi_rate, props, i, memory):
         power = depth * math.sqrt(depth) if exponent == 1.5 else depth**exponent
         force = force + K * (reference * power - xi)
     if on.hysteresis:
-        kappa = e[slots.HYSTERESIS + 1]
+        kappa, share = e[slots.HYSTERESIS + 1], e[slots.HYSTERESIS + 2]
         memory[i, col.XI_LARGEST] = max(memory[i, col.XI_LARGEST], xi)
         damper = C * xi_rate
         dent = kappa / (1 + kappa) * memory[i, col.XI_LARGEST]
-        force = max(min(force - damper, K * (1 + kappa) * (xi - dent)), 0.0) + damper
+        unloading = K * (1 + kappa) * (xi - dent)
+        if share != 0.0:
+            way = memory[i, col.XI_LARGEST] - dent
+            left = max(xi - dent, 0.0) / (way if way > 0.0 else 1.0)
+            unloading = unloading * (1 + share * (math.sqrt(left) - 1))
+        force = max(min(force - damper, unloading), 0.0) + damper
     if on.hunt:
         force = force + e[slots.HUNT + 1] * K * xi * xi_rate
     return force

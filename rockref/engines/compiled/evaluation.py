@@ -87,10 +87,12 @@ def make_evaluation(groups: int):
                     viscous = pushed(viscous, c * vx, c * vy, rx, ry, rz)
                 if on.normals:
                     at = slots.NORMALS + 2 * int(props[i, col.FOOT])
-                    slope = pushed(slope, fz * e[at - 1], fz * e[at], rx, ry, rz)
+                    a, b, share = e[at - 1], e[at], e[slots.NORMALS + 9]
+                    a, b = a + share * ((L0 * a + L1 * b) - a), b + share * ((L3 * a + L4 * b) - b)
+                    slope = pushed(slope, fz * a, fz * b, rx, ry, rz)
             if moments_too:
                 if on.spin:
-                    spin += spin_moment(e, props, memory, i, fz, oz, turn2)
+                    spin += spin_moment(e, props, memory, i, fz, vx, vy, oz, turn2)
                 if on.rolling:
                     mx, my = roll_moment(e, props, memory, i, fz, ox, oy, turn0, turn1)
                     roll_x += mx

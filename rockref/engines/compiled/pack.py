@@ -148,7 +148,7 @@ def _support(row, e, problem):
 
 def _normals(row, e, problem):
     foot_numbers(problem.points, e.id)  # refuses points without a foot
-    _put(row, slots.NORMALS, e.x1, e.y1, e.x2, e.y2, e.x3, e.y3, e.x4, e.y4)
+    _put(row, slots.NORMALS, e.x1, e.y1, e.x2, e.y2, e.x3, e.y3, e.x4, e.y4, e.turning_share)
 
 
 def _cable(row, e, problem):
@@ -164,14 +164,14 @@ def _vibration(row, e, problem):
 
 FILL = {
     "hertzian_contact": lambda r, e, p: _put(r, slots.HERTZ, e.exponent, e.reference),
-    "hysteretic_contact": lambda r, e, p: _put(r, slots.HYSTERESIS, e.kappa),
+    "hysteretic_contact": lambda r, e, p: _put(r, slots.HYSTERESIS, e.kappa, e.curved_share),
     "hunt_crossley_contact": lambda r, e, p: _put(r, slots.HUNT, e.a),
     "stribeck_friction": lambda r, e, p: _put(r, slots.STRIBECK, e.ratio, e.velocity),
     "load_dependent_friction": lambda r, e, p: _put(r, slots.LOAD, e.exponent, e.reference),
     "adhesion": lambda r, e, p: _put(r, slots.ADHESION, e.force, e.range),
     "viscous_friction": lambda r, e, p: _put(r, slots.VISCOUS, e.c),
     "uneven_contact_normals": _normals,
-    "spin_friction": lambda r, e, p: _put(r, slots.SPIN, e.radius),
+    "spin_friction": lambda r, e, p: _put(r, slots.SPIN, e.radius, e.sliding_share),
     "rolling_resistance": lambda r, e, p: _put(r, slots.ROLLING, e.lever),
     "quadratic_drag": lambda r, e, p: _put(r, slots.DRAG, e.c, e.c_v),
     "cable_restraint": _cable,

@@ -5,6 +5,8 @@ Each effect sums over the points by itself, as its text does, so that the bits a
 
 from __future__ import annotations
 
+import math
+
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.contact import length
@@ -32,14 +34,18 @@ def pushed(sums, px, py, rx, ry, rz):
 
 
 @inlined
-def spin_moment(e, props, memory, i, F_N, oz, turn2):
+def spin_moment(e, props, memory, i, F_N, vx, vy, oz, turn2):
     """Moment about the vertical of a touching point; its yaw moves on."""
-    radius = e[slots.SPIN + 1]
+    radius, share = e[slots.SPIN + 1], e[slots.SPIN + 2]
     square = radius * radius
     K, C = props[i, col.K_T] * square, props[i, col.C_T] * square
     yaw = memory[i, col.YAW] + turn2
     M = -K * yaw - C * oz
     limit = radius * props[i, col.MU] * F_N
+    if share != 0.0:
+        rim = radius * abs(oz)
+        size = math.sqrt(rim * rim + vx * vx + vy * vy)
+        limit = limit * (1 + share * ((rim / size if size > 0.0 else 1.0) - 1))
     if abs(M) > limit:
         M = min(max(M, -limit), limit)
         yaw = -(M + C * oz) / K

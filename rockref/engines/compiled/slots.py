@@ -17,14 +17,14 @@ def _block(n: int) -> int:
 
 
 HERTZ = _block(3)  # on, exponent, reference
-HYSTERESIS = _block(2)  # on, kappa
+HYSTERESIS = _block(3)  # on, kappa, share of the power 3/2 in the unloading
 HUNT = _block(2)  # on, a
 STRIBECK = _block(3)  # on, ratio, velocity
 LOAD = _block(3)  # on, exponent, reference
 ADHESION = _block(3)  # on, force, range
 VISCOUS = _block(2)  # on, c
-NORMALS = _block(9)  # on, x1, y1 .. x4, y4
-SPIN = _block(2)  # on, radius
+NORMALS = _block(10)  # on, x1, y1 .. x4, y4, share that turns with the block
+SPIN = _block(3)  # on, radius, share by which sliding weakens it
 ROLLING = _block(2)  # on, lever
 DRAG = _block(3)  # on, c of the moment, c_v of the force
 CABLE = _block(6)  # on, k, c, height of attachment, its place at the start (x, y)

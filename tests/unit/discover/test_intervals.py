@@ -23,12 +23,12 @@ def halves(effect, z, covariance=None):
 
 
 def test_what_the_runs_say_is_widened_as_calibrated():
-    found = halves("spin_friction", {}, np.array([[0.04]]))
+    found = halves("spin_friction", {}, 0.04 * np.eye(2))
     assert found["radius"] == pytest.approx(NINETY * rules.INTERVAL * 0.2)
 
 
 def test_a_size_is_known_to_its_systematic_part():
-    found = halves("spin_friction", {"radius": -2.0}, np.array([[0.04]]))
+    found = halves("spin_friction", {"radius": -2.0}, 0.04 * np.eye(2))
     assert found["radius"] == pytest.approx(np.hypot(NINETY * rules.INTERVAL * 0.2, rules.SYSTEMATIC * 2.0))
 
 

@@ -211,7 +211,7 @@ def test_uneven_normals_are_not_conservative():
         problem = body(points, [effect], x=(x, 0, z))
         s = problem.start
         c = evaluate_contact(problem.replace(effects=()), s, s.x, s.Lambda, s.v, s.W, np.zeros(3), 0.0, ())
-        return effect.point_wrench(problem, c, {})[0]
+        return effect.body_wrench(problem, c, s.x, s.Lambda, s.v, s.W, {})[0]
 
     # Along z the further force has no part; so only the two slides count, pressed and lifted.
     assert force(0.0, -depth)[2] == 0

@@ -85,6 +85,25 @@ def test_a_spinning_body_is_stopped_by_spin_friction():
     assert np.abs(spins[-1]) < 1e-3 * spin
 
 
+def test_sliding_wears_a_spin_away_by_a_power_of_its_speed():
+    """While r omega << v: J domega/dt = -r^2 mu m g omega/v and dv/dt = -mu g, so omega goes with v^(m r^2/J)."""
+    radius, mu, mass, J, speed, spin = 2e-3, 0.4, 1.0, 4e-7, 0.5, 2.0
+    foot = points_at([(0, 0, 0)], K_N=1e5, K_T=1e8, C_N=300.0, C_T=2e4, mu=mu)
+    problem = body(
+        foot,
+        [SpinFriction(radius, sliding_share=1.0)],
+        mass=mass,
+        J=(1.0, 1.0, J),
+        v=(speed, 0, 0),
+        W=(0, 0, spin),
+        x=(0, 0, -mass * 9.81 / 1e5),
+    )
+    state = last(problem, round(0.03 / H))
+    assert state.v[0] == pytest.approx(speed - mu * 9.81 * 0.03, rel=1e-3)
+    # r omega/v is 1e-2 at most, and counts by half its square.
+    assert state.W[2] / spin == pytest.approx((state.v[0] / speed) ** (mass * radius**2 / J), rel=2e-3)
+
+
 def rolling_ball(lever, slope, radius=0.05, mass=1.0, mu=0.5):
     """A ball on a slope toward x, at rest, in balance with its weight."""
     ball_points = points_at([(0, 0, -radius)], K_N=1e7, K_T=1e7, C_N=500.0, C_T=500.0, mu=mu, radius=radius)

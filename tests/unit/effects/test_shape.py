@@ -120,9 +120,10 @@ def test_eccentricity_moves_the_tipping_angles_apart():
     assert tipping_angle(block, points, -1) == pytest.approx(np.arctan(0.051 / 0.344), rel=1e-14)
 
 
-def test_tilted_normals_push_sideways():
-    """Frictionless, all normals tilted alike: a = g (x, y)."""
-    effect = UnevenContactNormals(*(0.02, -0.01) * 4)
+@pytest.mark.parametrize("share", [0.0, 1.0])
+def test_tilted_normals_push_sideways(share):
+    """Frictionless, all normals tilted alike: a = g (x, y), whose ever the tilts are: the block is not turned."""
+    effect = UnevenContactNormals(*(0.02, -0.01) * 4, turning_share=share)
     state = last(puck([effect], K_N=1e6), 300)
     assert state.v[:2] == pytest.approx(np.array([0.02, -0.01]) * 9.81 * 300 * H, rel=1e-9)
 

@@ -101,12 +101,12 @@ def test_hunt_and_crossleys_damper_grows_with_depth():
     assert F == pytest.approx([10 * 1.6 + 10, 40 * 0.7 - 5], rel=ROUNDED)
 
 
-def dented(xi, largest, rate=0.0, kappa=0.5):
+def dented(xi, largest, rate=0.0, kappa=0.5, share=0.0):
     """Force and memory of points of 1e6 N/m and 100 N s/m that have been as deep as `largest`."""
     xi, rate = np.array(xi), np.broadcast_to(rate, np.shape(xi))
     points = points_at([(0, 0, 0)] * len(xi), K_N=1e6, C_N=100.0)
     m = {"xi_largest": np.array(largest)}
-    F = HystereticContact(kappa).normal_force(1e6 * xi + 100.0 * rate, contact(xi, xi_rate=rate).k, points, m)
+    F = HystereticContact(kappa, share).normal_force(1e6 * xi + 100.0 * rate, contact(xi, xi_rate=rate).k, points, m)
     return F, m["xi_largest"]
 
 
@@ -116,6 +116,16 @@ def test_a_contact_loads_along_its_spring_and_unloads_more_steeply():
     # Below the dent nothing is left.
     assert F == pytest.approx([40, 30, 15, 0, 0], rel=ROUNDED, abs=1e-13)
     assert np.array_equal(largest, [4e-5, 3e-5, 3e-5, 3e-5, 3e-5])
+
+
+@pytest.mark.parametrize("share", [0.5, 1.0])
+def test_a_curved_unloading_ends_where_the_line_does(share):
+    """Half of the way back: s = 1/2 of the line's force, s^(3/2) of the curve's; whole at the turning point."""
+    F, _ = dented([4e-5, 3e-5, 2e-5, 1e-5, 5e-6], [3e-5] * 5, share=share)
+    half = 15 * (1 - share + share * np.sqrt(0.5))
+    assert F == pytest.approx([40, 30, half, 0, 0], rel=1e-13, abs=1e-13)
+    touching, largest = dented([0.0], [0.0], share=share)
+    assert touching[0] == 0 and largest[0] == 0
 
 
 def test_the_damper_of_a_dented_contact_stays():

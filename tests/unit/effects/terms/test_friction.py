@@ -76,11 +76,11 @@ def three_points(**values):
     return replace(points_at([(0, 0, 0)] * 3), **{key: np.array(a, float) for key, a in values.items()})
 
 
-def resisted(effect, points, memory, turn=TURN, rate=W):
+def resisted(effect, points, memory, turn=TURN, rate=W, v_slide=0.0):
     """Force, moment and memory of one evaluation."""
     problem = body(points, [effect])
     m = {key: np.array(a) for key, a in memory.items()}
-    c = contact(XI, F_N=LOADS, turn=turn)
+    c = contact(XI, F_N=LOADS, turn=turn, v_slide=v_slide)
     return *effect.body_wrench(problem, c, np.zeros(3), TURNED, np.zeros(3), rate, m), m
 
 
@@ -129,6 +129,27 @@ def test_a_face_rubs_alike_in_both_directions():
     _, other, mirrored = resisted(SpinFriction(2e-3), points, {"yaw": [-0.1] * 3}, -TURN, -W)
     assert np.array_equal(one, -other) and np.array_equal(m["yaw"], -mirrored["yaw"])
     assert one[2] == pytest.approx(-2e-3 * 0.3 * 201.0, rel=ROUNDED)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_a_foot_that_slides_turns_more_easily(share):
+    """Sliding at 3/4 of the rim's speed leaves 4/5 of the largest moment; at rest, and in the air, nothing changes."""
+    radius = 2e-3
+    points = three_points(K_T=[1e8] * 3, C_T=[1e4] * 3, mu=[0.3] * 3)
+    rim = radius * (TURNED @ W)[2]
+    slides = rim * 0.75 * np.array([(0.6, -0.8), (0.0, 0.0), (0.0, 1.0)])
+    effect = SpinFriction(radius, sliding_share=share)
+    _, moment, m = resisted(effect, points, {"yaw": [0.1] * 3}, v_slide=slides)
+    limit = radius * 0.3 * LOADS * (1 - share * np.array([0.2, 0.0, 0.0]))
+    assert moment[2] == pytest.approx(-limit.sum(), rel=ROUNDED)
+    K, C = 1e8 * radius**2, 1e4 * radius**2
+    assert K * m["yaw"][:2] + C * (TURNED @ W)[2] == pytest.approx(limit[:2], rel=1e-12)
+
+
+def test_a_foot_that_neither_slides_nor_turns_holds_as_without_sliding():
+    points = three_points(K_T=[1e8] * 3, C_T=[1e4] * 3, mu=[0.3] * 3)
+    still = [resisted(SpinFriction(2e-3, sliding_share=s), points, {"yaw": [0.1] * 3}, TURN, 0 * W) for s in (0.0, 1.0)]
+    assert np.array_equal(still[0][1], still[1][1]) and still[0][1][2] < 0
 
 
 def test_what_turns_begins_without_a_turn():

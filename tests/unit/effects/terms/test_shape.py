@@ -17,6 +17,7 @@ from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
 from rockref.effects.support.compliant_support import CompliantSupport
 from rockref.model.geometry import EXTERNAL, INTERNAL, cuboid_inertia
 from rockref.model.problem import Block
+from rockref.model.rotation import exponential
 from tests.unit.effects.bodies import body, contact, points_at
 
 #: Rounding of a few products and roots.
@@ -169,6 +170,14 @@ def test_an_absent_shape_is_the_body_itself(kind):
     assert block is given[0] and points is given[1]
 
 
+UPRIGHT = np.eye(3)
+
+
+def push(effect, problem, c, Lambda=UPRIGHT):
+    """Force and moment of an effect on a body with this rotation."""
+    return effect.body_wrench(problem, c, np.zeros(3), Lambda, np.zeros(3), np.zeros(3), {})
+
+
 def test_a_tilted_normal_pushes_sideways_where_its_foot_stands():
     """F_N (x_i, y_i, 0) at each point of foot i, with its moment."""
     names = ("1ext", "3ext", "3int", "2ext", "4ext")
@@ -176,19 +185,32 @@ def test_a_tilted_normal_pushes_sideways_where_its_foot_stands():
     r = np.array([(1, 0, -2), (0, 3, -2), (-1, 2, -2), (4, 5, -2), (-3, 1, -2)], float)
     F_N = np.array([10.0, 20.0, 30.0, 40.0, 50.0])
     problem = body(points_at([(0, 0, 0)] * 5, names=names))
-    force, moment = effect.point_wrench(problem, contact([0.0] * 5, r=r, F_N=F_N), {})
+    force, moment = push(effect, problem, contact([0.0] * 5, r=r, F_N=F_N))
     tilts = np.array([(0.1, -0.2, 0), (-0.5, 0.25, 0), (-0.5, 0.25, 0), (0.3, 0.4, 0), (0.125, -0.375, 0)])
     F = F_N[:, None] * tilts
     assert force == pytest.approx(F.sum(axis=0), rel=ROUNDED, abs=1e-14)
     assert moment == pytest.approx(np.cross(r, F).sum(axis=0), rel=ROUNDED)
-    assert UnevenContactNormals().point_wrench(problem, contact([0.0]), {}) is None
+    assert push(UnevenContactNormals(), problem, contact([0.0])) is None
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_tilts_turn_with_the_block_by_their_share(share):
+    """A quarter turn about the vertical takes x to y and y to -x; a lean shortens what it leans along."""
+    effect = UnevenContactNormals(x1=0.1, y1=-0.2, turning_share=share)
+    problem = body(points_at([(0, 0, 0)], names=("1ext",)))
+    here = contact([0.0], r=np.array([[0.0, 0.0, -2.0]]), F_N=np.array([10.0]))
+    force, _ = push(effect, problem, here, np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]))
+    assert force == pytest.approx(10 * np.array([0.1 + share * 0.1, -0.2 + share * 0.3, 0]), rel=ROUNDED)
+    lean = exponential(np.array([0.0, 0.5, 0.0]))
+    force, _ = push(effect, problem, here, lean)
+    assert force == pytest.approx(10 * np.array([0.1 - share * 0.1 * (1 - np.cos(0.5)), -0.2, 0]), rel=ROUNDED)
 
 
 @pytest.mark.parametrize("tilt", ["x2", "y2"])
 def test_tilted_normals_name_themselves_where_a_point_has_no_foot(tilt):
     problem = body(points_at([(0, 0, 0)], names=("left",)))
     with pytest.raises(ValueError, match="^effect uneven_contact_normals: contact point 'left' belongs to no foot"):
-        UnevenContactNormals(**{tilt: 0.1}).point_wrench(problem, contact([0.0]), {})
+        push(UnevenContactNormals(**{tilt: 0.1}), problem, contact([0.0]))
 
 
 PLATE = CompliantSupport(5.0, 2.0, 0.1)
