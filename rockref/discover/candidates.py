@@ -54,7 +54,13 @@ SELDOM = {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
 SELDOM |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}
 SELDOM |= {("quadratic_drag", "c_v"): 20.0}
 #: The same for what turns one form of a law into another one, 1 being all the way; no effect is there by it alone.
-FORMS = {("uneven_foot_stiffness", "tangential_share"): 1.0, ("lingering_wire_pull", "evenness"): 1.0}
+FORMS = {
+    ("uneven_foot_stiffness", "tangential_share"): 1.0,
+    ("uneven_contact_normals", "turning_share"): 1.0,
+    ("spin_friction", "sliding_share"): 1.0,
+    ("hysteretic_contact", "curved_share"): 1.0,
+    ("lingering_wire_pull", "evenness"): 1.0,
+}
 SELDOM |= FORMS
 #: Their prior standard deviation in such sizes: what the runs cannot tell from the rest of the effect stays none, and
 #: one whole size costs 50 log-likelihood units (decided; axes that are not square trade with a turned sensor, and with

@@ -28,7 +28,7 @@ from rockref.discover.families import (
     size_of,
     structured,
 )
-from rockref.discover.gates import gradient_small, off_bounds, runs_agree, step_small
+from rockref.discover.gates import Gate, gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.information import information
 from rockref.discover.looking import FAR, POLISH, TOO_FAR, Look, duel, look_further
 from rockref.discover.on_this_data import seen_by
@@ -249,6 +249,7 @@ def conclude(
     looks = looks or [Look(final, [], {})]
     unfruitful = len(looks) > 1 and looks[-1].kept.effects != () and final.effects == looks[-1].kept.effects
     look = looks[-2] if unfruitful else looks[-1]
+    checks = checked(final)
     facts = rules.Facts(
         effects=final.effects,
         sizes={e: size_of(final, e) for e in final.effects},
@@ -261,6 +262,8 @@ def conclude(
         room=room(final),
         clipped=clipped(experiment, seen),
         loud=(loud(final.point.loss, final.fit.series.count), loud(with_effect.loss, with_effect.count)),
+        off=checks["off_bounds"].value,
+        agree=checks["runs_agree"].passed,
     )
     decision = rules.decide(facts)
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
@@ -269,9 +272,7 @@ def conclude(
     shown = final if kept else null
     had = (*shown.effects, *(e.id for e in setup.base.active_effects()))
     limits, confusion = seen_by(setup, shown.fit, shown.point, had)
-    found = information(shown.fit, shown.point)
-    checks = (gradient_small(shown.fit, shown.point, found), step_small(shown.fit, shown.point),
-              off_bounds(shown.fit, shown.point), runs_agree(shown.fit, shown.point, found))  # fmt: skip
+    checks = checks if shown is final else checked(shown)
     return Diagnosis(
         experiment=experiment,
         verdict=decision.verdict,
@@ -291,13 +292,21 @@ def conclude(
         },
         separating_experiment=to_be_sure(setup, null, final, decision),
         signature=card,
-        gates=rules.gates(facts, decision) | {g.name: g.to_dict() for g in checks},
+        gates=rules.gates(facts, decision) | {name: g.to_dict() for name, g in checks.items()},
         detection_limits=limits,
         confusion=confusion,
         sentence=decision.sentence,
         seconds=time.perf_counter() - begun,
         model=shown.fit.models(shown.point.z)[0][0],
     )
+
+
+def checked(family: Family) -> dict[str, Gate]:
+    """The gates of a family by their names; those that need no other fit."""
+    fit, point = family.fit, family.point
+    found = information(fit, point)
+    gates = (gradient_small(fit, point, found), step_small(fit, point), off_bounds(fit, point))
+    return {g.name: g for g in (*gates, runs_agree(fit, point, found))}
 
 
 def ranked_by(null: Family, final: Family, look: Look) -> dict[str, float]:

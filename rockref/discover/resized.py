@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rockref.discover.approach import along_ridge, heights_of, higher, switches
+from rockref.discover.candidates import FORMS
 from rockref.discover.coarse import coarse_to_fine
 from rockref.discover.families import Family, mean_loss, refit, refit_all, structured
 from rockref.discover.fit import Fit, Point
@@ -27,17 +28,17 @@ UNSETTLED = 0.05
 TRIFLE = 0.3
 
 
-def resized(setup: Setup, family: Family, seed: int) -> Family:
+def resized(setup: Setup, family: Family, seed: int, most: float = np.inf) -> Family:
     """The family, gone on from averages, from changed sizes and along the feet's heights, as long as that helps.
 
     Least squares stops where corner impacts change their order; a size that is wrong by a factor holds all the other
     parameters with it. A fit that has arrived at the noise is only taken to its end, and one that most windows
-    contradict is left as it is.
+    contradict is left as it is. most : mean loss above which it goes on once only.
     """
     if structured(family) > MISSING:
         return family
-    for _ in range(ROUNDS):
-        if mean_loss(family) < AT_NOISE:
+    for k in range(ROUNDS):
+        if mean_loss(family) < AT_NOISE or (k and mean_loss(family) > most):
             break
         further = next((f for way in (averaged, moved) if is_lower(f := way(setup, family, seed), family)), None)
         if further is None:
@@ -80,15 +81,23 @@ def cheapest(point: Point, places: list[Point]) -> list[Point]:
 
 
 def moves(fit: Fit, z: np.ndarray) -> np.ndarray:
-    """Changes of z, (moves, G): each size of an effect by the factors, or to half a size; the ridge of the feet."""
+    """Changes of z, (moves, G): each size of an effect by the factors, or to half a size; each form of a law into the
+    other one; the ridge of the feet."""
     names = [p.name for p in fit.parameters]
-    found = []
+    found = [other_form(z, i) for i, name in enumerate(names) if tuple(name.split(".")) in FORMS]
     for i in switches(names, heights_of(names)):
         for factor in (*FACTORS, *to_half_a_size(z[i])):
             move = np.zeros(len(z))
             move[i] = (factor - 1) * z[i]
             found.append(move)
     return np.concatenate([np.array(found).reshape(-1, len(z)), along_ridge(fit)])
+
+
+def other_form(z: np.ndarray, i: int) -> np.ndarray:
+    """The change that makes one form of a law of the other: share i, 0 or nearly, becomes 1, or the other way round."""
+    move = np.zeros(len(z))
+    move[i] = (1.0 if z[i] < 0.5 else 0.0) - z[i]
+    return move
 
 
 def to_half_a_size(z: float) -> tuple[float, ...]:

@@ -9,6 +9,9 @@ import numpy as np
 from rockref.discover.fit import Fit, Point
 
 AXES = ("main", "transverse", "longitudinal")
+#: A misfit of the first swings, in the median over the runs, that is so many times that of the windows after them
+#: belongs to the release (decided).
+RELEASE = 1.5
 
 
 def signature(fit: Fit, point: Point, final: Fit, best: Point) -> dict[str, Any]:
@@ -23,7 +26,9 @@ def signature(fit: Fit, point: Point, final: Fit, best: Point) -> dict[str, Any]
     spectrum = np.abs(np.fft.rfft(r1 - r1.mean(axis=1, keepdims=True), axis=1)) ** 2
     frequency = np.fft.rfftfreq(r1.shape[1], 1 / fit.series.rate)
     power = spectrum.sum(axis=(0, 2))
-    phase = "release" if mean[first].mean() > 1.5 * max(mean[~first].mean(), 1.0) else "impacts"
+    # What belongs to the release shows in every run; a blow at any time may fall into the first swing of one.
+    at_release, after = float(np.median(mean[first])), float(mean[~first].mean())
+    phase = "release" if at_release > RELEASE * max(after, 1.0) else "impacts"
     return {
         "axis": AXES[int(np.argmax(excess))],
         "axis_shares": {a: float(e / max(excess.sum(), 1e-9)) for a, e in zip(AXES, excess, strict=True)},
@@ -31,7 +36,7 @@ def signature(fit: Fit, point: Point, final: Fit, best: Point) -> dict[str, Any]
             a: float(e / max(rest_excess.sum(), 1e-9)) for a, e in zip(AXES, rest_excess, strict=True)
         },
         "phase": phase,
-        "loss_at_release": float(mean[first].mean()),
-        "loss_after": float(mean[~first].mean()),
+        "loss_at_release": at_release,
+        "loss_after": after,
         "frequency_hz": float(frequency[1 + int(np.argmax(power[1:]))]),
     }

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rockref.discover.approach import HIGHER, higher
-from rockref.discover.families import structured
+from rockref.discover.families import mean_loss, structured
 from rockref.discover.fit import Parameter
 from rockref.discover.resized import AFFORDABLE, LAST, UNSETTLED, cheapest, moves, placed_at, resized
 from tests.unit.discover.bowls import ALONE, WINDOWS, Bowl, family
@@ -29,6 +29,17 @@ def test_a_size_that_is_twice_too_large_is_found():
     assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
 
 
+def test_a_rival_that_stays_behind_goes_on_once():
+    """Twice too large it comes down to 1.05 in one round; where 1.02 is what would be near, that was the last one."""
+    once, on = (Walled(np.array([0.1, 0.4]), floor=1.05) for _ in range(2))
+    start = np.array([0.0, 0.8])
+    near, behind = (
+        resized(ALONE, family(("rolling_resistance",), b, start), 0, most=m) for b, m in ((on, 2), (once, 1.02))
+    )
+    assert mean_loss(behind) < 1.06 and mean_loss(near) <= mean_loss(behind)
+    assert once.iterations < on.iterations
+
+
 def test_a_fit_that_has_arrived_is_only_taken_to_its_end():
     arrived = family(("rolling_resistance",), Bowl(np.array([0.0, 0.4]), floor=0.9), np.array([0.0, 0.45]))
     found = resized(ALONE, arrived, seed=0)
@@ -37,8 +48,8 @@ def test_a_fit_that_has_arrived_is_only_taken_to_its_end():
 
 
 @dataclass
-class Feet(Walled):
-    """The same with the heights and the distance of four feet that belong to an effect, seen in every tenth window."""
+class Seen(Walled):
+    """The same, seen in every tenth window."""
 
     def point(self, z, corrections):
         point, states = super().point(z, corrections)
@@ -46,6 +57,28 @@ class Feet(Walled):
         noise = 0.5 * self.floor * self.series.count
         point.loss = noise + 10 * seen * (point.loss - noise)
         return point, states
+
+
+@dataclass
+class Spinning(Seen):
+    """A law of two forms."""
+
+    @property
+    def parameters(self):
+        names = ["K_N", "spin_friction.radius", "spin_friction.sliding_share"]
+        return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in names)
+
+
+@pytest.mark.parametrize("right, stuck_at", [(1.0, 0.0), (0.0, 0.9)])
+def test_the_other_form_of_a_law_is_found(right, stuck_at):
+    bottom = np.array([0.1, 0.8, right])
+    stuck = family(("spin_friction",), Spinning(bottom, floor=0.97), np.array([0.1, 0.8, stuck_at]))
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+
+
+@dataclass
+class Feet(Seen):
+    """The heights and the distance of four feet that belong to an effect."""
 
     @property
     def parameters(self):

@@ -89,6 +89,23 @@ def test_windows_far_above_the_noise_in_fitted_and_held_out_runs_are_something_e
     assert decide(replace(facts(effects=()), loud=loud)).verdict == word
 
 
+@pytest.mark.parametrize(
+    "off, agree, word", [(7.0, False, "something_else"), (7.0, True, "named"), (3.3, False, "named")]
+)
+def test_a_number_far_off_on_which_the_runs_do_not_agree_is_not_believed(off, agree, word):
+    """A magnet was a wire whose pull fell as no wire's does, and run 04 contradicted it."""
+    decision = decide(replace(facts(), off=off, agree=agree))
+    assert decision.verdict == word
+    assert ("7.0 prior deviations" in decision.sentence) is (word == "something_else")
+
+
+def test_an_effect_that_held_out_runs_do_not_show_does_not_explain_loud_windows():
+    """A puff of air was a class of dampers, a push and sides: the dampers gained 102 units where 219 were left."""
+    unproven = replace(facts(), held_gain=[0.0004, 0.0007], room=219.0)
+    assert decide(replace(unproven, loud=(2, 2))).verdict == "something_else"
+    assert decide(replace(unproven, loud=(2, 1))).verdict != "something_else"
+
+
 def test_a_few_loud_windows_do_not_unsay_an_effect():
     assert decide(replace(facts(), loud=(3, 3))).verdict == "named"
 

@@ -10,7 +10,9 @@ from rockref.discover import winning
 from rockref.discover.families import gain_over
 from rockref.discover.fit import Parameter
 from rockref.discover.looking import Look
-from rockref.discover.winning import CONTENDS, exchanged, finished, to_the_end, upheld
+from rockref.discover.winning import CONTENDS, all_finished, exchanged, finished, to_the_end, upheld
+from rockref.effects.loads.quadratic_drag import QuadraticDrag
+from rockref.effects.sensor.gyro_scale import GyroScale
 from tests.unit.discover.bowls import ALONE, Bowl, family
 
 ROLLING, DRAG = ("rolling_resistance",), ("quadratic_drag",)
@@ -75,12 +77,49 @@ def test_rivals_that_cannot_win_are_not_fitted_on(noise, gap, ahead):
     assert rival.fit.iterations == 0
 
 
+@pytest.mark.parametrize("floor, taken", [(1.05, [ROLLING, DRAG]), (1.2, [ROLLING])], ids=["near", "far behind"])
+def test_a_rival_that_is_far_behind_once_polished_is_not_taken_to_its_end(monkeypatch, floor, taken):
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5])), np.array([0.0, 0.4]))
+    rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=floor), np.array([0.0, 0.0, 0.9]))
+    ended = []
+    monkeypatch.setattr(winning, "completed", lambda setup, f, seed, most=0: (ended.append(f.effects), f)[1])
+    found = all_finished(ALONE, [rival, winner], 0)
+    assert ended == taken and [f.effects for f in found] == [ROLLING, DRAG]
+    np.testing.assert_allclose(found[1].point.z, [0.0, 0.0, 1.0], atol=1e-3)
+
+
 def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
     kept = family((), Bowl(np.zeros(1), floor=1.2, stuck=True), np.zeros(1))
     winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.03), np.array([0.0, 0.5]))
     trifle = family(DRAG, Bowl(np.array([0.0, 0.0, 0.1]), floor=1.0), np.array([0.0, 0.0, 0.1]))
     look = looked(kept, winner, trifle)
     assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
+
+
+@pytest.mark.parametrize(
+    "left, kin_at, best",
+    [(0.15, 0.0, DRAG), (0.15, 0.14, ROLLING), (0.02, 0.0, ROLLING)],
+    ids=["ahead", "far behind", "nothing is left"],
+)
+def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left, kin_at, best):
+    """Decided by what they gain over the plain baseline; one that falls behind there is not fitted on."""
+    kept = family((), Bowl(np.zeros(1), floor=1.3, stuck=True), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.0 + left), np.array([0.0, 0.5]))
+    kin = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=1.0 + kin_at), np.array([0.0, 0.0, 0.6]))
+    asked = []
+
+    def valley(setup, ended, others, over):
+        asked.append((ended.effects, others, over))
+        return [kin]
+
+    monkeypatch.setattr(winning, "in_the_valley_of", valley)
+    monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (QuadraticDrag, GyroScale))
+    look = looked(kept, winner)
+    assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == best
+    assert asked == ([] if left == 0.02 else [(ROLLING, [DRAG], kept)])
+    assert (kin.fit.iterations > 0) is (best == DRAG)
+    if best == DRAG:
+        assert look.gains["quadratic_drag"] > look.gains["rolling_resistance"] > rules.DETECTED
 
 
 @dataclass
