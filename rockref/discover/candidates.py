@@ -60,6 +60,7 @@ FORMS = {
     ("spin_friction", "sliding_share"): 1.0,
     ("hysteretic_contact", "curved_share"): 1.0,
     ("lingering_wire_pull", "evenness"): 1.0,
+    ("gyro_saturation", "softness"): 1.0,
 }
 SELDOM |= FORMS
 #: Their prior standard deviation in such sizes: what the runs cannot tell from the rest of the effect stays none, and

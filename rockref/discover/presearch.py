@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from rockref.discover.approach import best_for_all, shares_of, switches
+from rockref.discover.approach import best_for_all, placed, shares_of, switches
 from rockref.discover.clipped import flat_tops
 from rockref.discover.families import Family, size_of
 from rockref.discover.fit import Fit, Point
@@ -43,10 +43,19 @@ def excess(fit: Fit, point: Point) -> float:
     return max(point.objective - 0.5 * float(fit.series.count.sum()), 0.0)
 
 
+def begun(setup: Setup, fit: Fit) -> Point:
+    """Where a fit of the releases begins: with everything absent; stops of the gyroscope as soft ones, if there are any
+    (hard ones show as flat tops)."""
+    soft = [p.name == "gyro_saturation.softness" for p in fit.parameters]
+    if not any(soft) or flat_tops(setup.experiment, setup.runs) is not None:
+        return fit.begin()
+    return placed(fit, np.array(soft, float))
+
+
 def release_fit(setup: Setup, effects: tuple[str, ...] = (), iterations: int = 6) -> tuple[Fit, Point]:
     """Fit of the release windows, where nothing is restarted; begun at the best of some sizes of the effects."""
     fit = setup.fit(release_windows(setup), effects)
-    point = fit.begin()
+    point = begun(setup, fit)
     for i in switches([p.name for p in fit.parameters], []):
         moves = np.zeros((len(shares := shares_of(fit.parameters[i])), len(point.z)))
         moves[:, i] = shares
@@ -116,14 +125,15 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
     if "gyro_saturation" not in had and (limit := flat_tops(setup.experiment, setup.runs)) is not None:
         seen["flat_top"] = limit
         sets.append(("gyro_saturation",))
-        (own,) = setup.parameters(("gyro_saturation",))[len(seen["z"]) :]
-        seen.setdefault("starts", {})["gyro_saturation",] = np.append(seen["z"], 1 / limit / own.spread)
+        own, _ = setup.parameters(("gyro_saturation",))[len(seen["z"]) :]
+        seen.setdefault("starts", {})["gyro_saturation",] = np.append(seen["z"], [1 / limit / own.spread, 0.0])
     best = (fit, point)
     if seen["loss"] > STRONG:
         whole = excess(fit, point)
         ranked = []
         worst = float(np.max(2 * point.loss / fit.series.count))
-        for id in (id for id in (*MISLEADING[:5], *(HOLDING if worst > HELD else SLIGHT)) if id not in had):
+        sensors = [id for id in MISLEADING if id != "gyro_saturation" or "flat_top" not in seen]
+        for id in (id for id in (*sensors, *(HOLDING if worst > HELD else SLIGHT)) if id not in had):
             other, trial = release_fit(setup, (id,))
             if worst <= HELD and id in SLIGHT and size_of(Family((id,), other, trial)) < LEAST_SIZE:
                 continue

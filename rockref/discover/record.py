@@ -37,8 +37,8 @@ def _filter(x, n, b0, b1, b2, a1, a2, x1, x2, y1, y2):
 
 
 @numba.njit(cache=True, error_model="numpy", nogil=True)
-def _records(states, A, fast, slow, has_slow, follows, length, M, per, start, dt, bias, drift, limit, out):
-    R = states.shape[1]
+def _records(states, A, fast, slow, has_slow, follows, length, M, per, start, dt, bias, drift, limit, softness, out):
+    R, soft = states.shape[1], softness > 0 and limit < np.inf
     x = np.empty(R)
     memory = np.zeros((3, 4))
     for b in range(states.shape[0]):
@@ -68,22 +68,26 @@ def _records(states, A, fast, slow, has_slow, follows, length, M, per, start, dt
             for k in range(length[b]):
                 t = start[b] + k * dt
                 y = x[k * per] + bias[j] + drift[j] * t
-                out[b, k, j] = min(max(y, -limit), limit)
+                hard = min(max(y, -limit), limit)
+                out[b, k, j] = hard + softness * (limit * np.tanh(y / limit) - hard) if soft else hard
             for k in range(length[b], M):
                 out[b, k, j] = 0.0
 
 
-def records(states, matrix, fast, slow, follows, length, M, per, start, dt, bias, drift, limit) -> np.ndarray:
+def records(
+    states, matrix, fast, slow, follows, length, M, per, start, dt, bias, drift, limit, softness=0.0
+) -> np.ndarray:
     """What the gyroscope shows of B windows, (B, M, 3) [rad/s].
 
     states (B, R, STATE) with `per` rows a sample; matrix (3, 3) scale and misalignment; fast, slow : coefficients of
     the gyroscope's filter and of a further one (or None), which runs on over windows that follow their predecessor;
-    length (B,) samples; start (B,) [s] and dt [s] on the device's clock; bias, drift, limit as in `Sensor`.
+    length (B,) samples; start (B,) [s] and dt [s] on the device's clock; bias, drift, limit (its range), softness as
+    in `Sensor`.
     """
     out = np.empty((states.shape[0], M, 3))
     has_slow = slow is not None
     _records(
         states, matrix, np.array(fast), np.array(slow if has_slow else fast), has_slow, follows, length, M, per,
-        start, dt, np.asarray(bias, float), np.asarray(drift, float), float(limit), out,
+        start, dt, np.asarray(bias, float), np.asarray(drift, float), float(limit), float(softness), out,
     )  # fmt: skip
     return out

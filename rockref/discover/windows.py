@@ -14,7 +14,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.beside import threads_left
-from rockref.discover.clipped import unclipped
+from rockref.discover.clipped import let_go, unclipped
 from rockref.discover.own_windows import own_of, run_own
 from rockref.discover.reconstruct import (
     attitudes,
@@ -87,6 +87,7 @@ class Sensor:
     turn : rotation vector of a misalignment [rad]; skew : xy, xz, yz of axes that are not square [rad]
     scale : of each axis; bias [rad/s]; drift [rad/s2]
     bandwidth, damping : [Hz] and [1] of a further low-pass, inf for none; range : [rad/s] at which it saturates
+    softness : share by which its stops are soft
     clock : seconds of the block per second of the device
     """
 
@@ -98,6 +99,7 @@ class Sensor:
     bandwidth: float = np.inf
     damping: float = DAMPING
     range: float = np.inf
+    softness: float = 0.0
     clock: float = 1.0
 
     def matrix(self) -> np.ndarray:
@@ -129,7 +131,7 @@ def sensor_of(model: Model) -> Sensor:
                 cure = "Take the delay off the times of the records first, and out of the model."
                 raise InputError("E-TWIN", f"effect {e.id}", "has a delay: windows begin where the record says", cure)
         elif e.id == "gyro_saturation":
-            values["range"] = v["range"]
+            values["range"], values["softness"] = v["range"], v["softness"]
         elif e.id == "clock_error":
             values["clock"] = v["rate"]
     return Sensor(**values)
@@ -159,7 +161,7 @@ def true_rates(crv: np.ndarray, t: np.ndarray, rate: float, bandwidth: float, se
 
     Sample k of the device stands at t_k * clock in the block's own time.
     """
-    w = crv - sensor.bias - sensor.drift * t[:, None]
+    w = let_go(crv, sensor.range, sensor.softness) - sensor.bias - sensor.drift * t[:, None]
     own = ((sensor.bandwidth, sensor.damping),) if np.isfinite(sensor.bandwidth) else ()
     return undo_low_pass(w, rate, ((bandwidth, DAMPING), *own)) @ np.linalg.inv(sensor.matrix()).T
 
@@ -326,7 +328,7 @@ class Series:
             follows[1:] = (self.stop[which[:-1]] == self.start[which[1:]]) & same_run
         return records(
             states, s.matrix(), filter_coefficients(step, self.bandwidth), slow, follows, length, self.M,
-            self.ROWS_PER_SAMPLE, self.time[which], 1 / self.rate, s.bias, s.drift, s.range,
+            self.ROWS_PER_SAMPLE, self.time[which], 1 / self.rate, s.bias, s.drift, s.range, s.softness,
         )  # fmt: skip
 
     def _buffer(self, B: int, R: int) -> np.ndarray:

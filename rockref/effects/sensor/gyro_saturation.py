@@ -10,20 +10,33 @@ from rockref.effects.base import POSITIVE, Effect, Quantity
 
 @dataclass(frozen=True)
 class GyroSaturation(Effect):
-    """Each measured rate is cut at plus and minus `range`."""
+    """Each measured rate is cut at plus and minus `range`.
+
+    With `softness` 1 the stops are soft: the rate is bent towards them all the way, as a hyperbolic tangent is, and no
+    top is flat; between 0 and 1 it is so much of the way from the one to the other (decided: a straight blend, since
+    both are known and stay one rate for each).
+    """
 
     id = "gyro_saturation"
     question = "sensor"
-    quantities = {"range": Quantity("rad/s", math.inf, 0.1, 10.0, 0.4, "any", "largest rate that is shown", POSITIVE)}
-    sentence = "Beyond its range the sensor shows its largest number, and the tops of the record are flat."
-    equation = r"W_m = \mathrm{clip}(W,\ -R,\ R)"
+    quantities = {
+        "range": Quantity("rad/s", math.inf, 0.1, 10.0, 0.4, "any", "largest rate that is shown", POSITIVE),
+        "softness": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "share by which the stops are soft", 0.0, 1.0),
+    }
+    switches = ("range",)
+    sentence = "Beyond its range the sensor shows its largest number: tops are flat, or bent where its stops are soft."
+    equation = r"W_m = (1 - s)\,\mathrm{clip}(W,\ -R,\ R) + s\,R\tanh(W/R)"
     source = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"
     confounder = "gyro_scale"
     experiment = "Choose the sensor's next larger range; a flat top that stays at one number in every run is the range."
 
     range: float = math.inf
+    softness: float = 0.0
 
     def sensor(self, t, crv):
         if self.is_absent():
             return crv
-        return np.clip(crv, -self.range, self.range)
+        hard = np.clip(crv, -self.range, self.range)
+        if not self.softness:
+            return hard
+        return hard + self.softness * (self.range * np.tanh(crv / self.range) - hard)

@@ -118,6 +118,7 @@ def test_what_is_left_out_is_named():
         ("uneven_contact_normals", "turning_share"),
         ("spin_friction", "sliding_share"),
         ("hysteretic_contact", "curved_share"),
+        ("gyro_saturation", "softness"),
         ("inertia_deviation", "xz"),
         ("gyro_misalignment", "yz"),
         ("gyro_bandwidth", "delay"),

@@ -1,5 +1,7 @@
 """What the releases tell before anything is cut into windows."""
 
+import pytest
+
 from rockref import Model
 from rockref.discover.presearch import EXPLAINED, HELD, STRONG, release_fit, suspects
 from rockref.discover.search import Setup
@@ -30,6 +32,19 @@ def test_a_slight_pull_is_found_where_a_clock_explains_nearly_as_much():
     shares = seen["release_shares"]
     assert STRONG < seen["loss"] < HELD and shares["clock_error"] > EXPLAINED
     assert sets[1] == ("lingering_wire_pull",) and shares["lingering_wire_pull"] > shares["clock_error"]
+
+
+def test_soft_stops_of_a_gyroscope_are_found_at_the_release():
+    """They make no flat tops, and bend the last fifth of a second before the impact."""
+    setup = setup_of("gyro_saturation:range=0.6,softness=1")
+    _, sets, seen = suspects(setup)
+    assert "flat_top" not in seen and seen["loss"] > STRONG
+    assert sets[1] == ("gyro_saturation",) and seen["release_shares"]["gyro_saturation"] > 0.9
+    names = [p.name for p in setup.parameters(("gyro_saturation",))]
+    z = dict(zip(names, seen["starts"]["gyro_saturation",], strict=True))
+    # In typical sizes of the inverse, of which 1/0.6 is two thirds of one.
+    assert z["gyro_saturation.range"] == pytest.approx(2 / 3, rel=0.05)
+    assert z["gyro_saturation.softness"] == pytest.approx(1.0, abs=0.2)
 
 
 def test_nothing_is_suspected_of_a_release_that_the_baseline_explains():

@@ -33,12 +33,12 @@ def states(*windows: np.ndarray) -> np.ndarray:
     return out
 
 
-def seen(rows, *, matrix=None, slow=None, follows=None, start=None, bias=0.0, drift=0.0, limit=np.inf):
+def seen(rows, *, matrix=None, slow=None, follows=None, start=None, bias=0.0, drift=0.0, limit=np.inf, softness=0.0):
     B = len(rows)
     return records(
         rows, np.eye(3) if matrix is None else matrix, filter_coefficients(STEP, 300.0), slow,
         np.zeros(B, bool) if follows is None else follows, np.full(B, N), N, PER,
-        np.zeros(B) if start is None else start, 1 / RATE, np.full(3, bias), np.full(3, drift), limit,
+        np.zeros(B) if start is None else start, 1 / RATE, np.full(3, bias), np.full(3, drift), limit, softness,
     )  # fmt: skip
 
 
@@ -61,6 +61,14 @@ def test_saturation_is_the_last_thing():
     free = seen(states(rates(3)))
     assert np.abs(free).max() > 0.4
     np.testing.assert_array_equal(found, np.clip(free, -0.4, 0.4))
+
+
+@pytest.mark.parametrize("softness", [0.3, 1.0])
+def test_soft_stops_are_those_of_the_effect(softness):
+    free, found = seen(states(rates(3))), seen(states(rates(3)), limit=0.4, softness=softness)
+    # The same formula, compiled.
+    np.testing.assert_allclose(found, GyroSaturation(0.4, softness).sensor(None, free), rtol=1e-14)
+    np.testing.assert_array_equal(seen(states(rates(3)), softness=softness), free)
 
 
 def test_a_slow_filter_runs_on_over_windows_that_follow():

@@ -49,6 +49,15 @@ def test_scale_bias_and_range_are_those_of_each_axis():
     assert np.array_equal(out, np.sign(CRV) * np.minimum(np.abs(CRV), 0.5))
 
 
+def test_soft_stops_bend_the_rates_as_a_hyperbolic_tangent_does():
+    e2 = np.exp(4 * CRV)  # of twice the rates over the range
+    soft = GyroSaturation(0.5, 1.0).sensor(T, CRV)
+    assert soft == pytest.approx(0.5 * (e2 - 1) / (e2 + 1), rel=1e-12)
+    hard, between = GyroSaturation(0.5).sensor(T, CRV), GyroSaturation(0.5, 0.25).sensor(T, CRV)
+    assert between == pytest.approx(0.75 * hard + 0.25 * soft, rel=ROUNDED)
+    assert GyroSaturation(softness=1.0).sensor(T, CRV) is CRV
+
+
 @pytest.mark.parametrize("kind", [GyroMisalignment, GyroScale, GyroDrift, GyroSaturation, GyroBandwidth, ClockError])
 def test_an_absent_sensor_effect_gives_back_the_record(kind):
     assert kind().sensor(T, CRV) is CRV
