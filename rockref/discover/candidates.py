@@ -56,6 +56,7 @@ SELDOM |= {("quadratic_drag", "c_v"): 20.0}
 #: The same for what turns one form of a law into another one, 1 being all the way; no effect is there by it alone.
 FORMS = {
     ("uneven_foot_stiffness", "tangential_share"): 1.0,
+    ("uneven_foot_damping", "normal_share"): 1.0,
     ("uneven_contact_normals", "turning_share"): 1.0,
     ("spin_friction", "sliding_share"): 1.0,
     ("hysteretic_contact", "curved_share"): 1.0,

@@ -14,7 +14,8 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.beside import on_threads, threads_left
-from rockref.discover.windows import STATES, Series
+from rockref.discover.reconstruct import moved_by
+from rockref.discover.windows import STATES, Series, running_mean
 
 Item = TypeVar("Item")
 
@@ -31,6 +32,9 @@ RATE_ERROR = 9e-4
 #: Error of the reconstructed attitude [rad]: at the start, and its growth with the root of time (white noise of
 #: 0.05 deg/s at 1 kHz integrates to 2.8e-5 rad after a second; decided with some room).
 ATTITUDE_ERROR, ATTITUDE_GROWTH = 2.5e-5, 4e-5
+#: What adds up to attitudes far beyond those errors. Decided: half a typical drift was held in its place: differences of
+#: the starts that it moves and of their corrections cancel to a thousandth only, and the rest looks like knowledge.
+ADDING_UP = ("gyro_drift.",)
 #: Rise of a window's loss, per sample value, that tells that a joint step threw it into another order of impacts.
 THROWN = 0.03
 #: Shares of a window on which its corrections are found one after the other; decided: some 25 ms at a time, the
@@ -66,17 +70,6 @@ class Parameter:
         """The number at z."""
         v = self.centre * np.exp(self.spread * z) if self.log else self.centre + self.spread * z
         return float(min(max(v, self.low), self.high))
-
-
-def running_mean(r: np.ndarray, samples: int) -> np.ndarray:
-    """Means of r (B, M, 3) over so many samples about each, times their root: white noise keeps its size.
-
-    At the ends the mean is over what is there, and counts for less.
-    """
-    sums = np.concatenate([np.zeros_like(r[:, :1]), np.cumsum(r, axis=1)], axis=1)
-    first = np.arange(r.shape[1]) - samples // 2
-    begin, end = np.maximum(first, 0), np.minimum(first + samples, r.shape[1])
-    return (sums[:, end] - sums[:, begin]) / np.sqrt(samples)
 
 
 @dataclass
@@ -240,10 +233,12 @@ class Fit:
         J[self.series.first if which is None else self.series.first[which]] = 0
         return J
 
-    def parameter_jacobian(self, z: np.ndarray, corrections: np.ndarray, r: np.ndarray, only=None) -> np.ndarray:
+    def parameter_jacobian(self, z, corrections, r: np.ndarray, Js: np.ndarray, only=None) -> np.ndarray:
         """d residual / d z, (B, G, M, 3), by forward differences (of the parameters `only`, if given).
 
         What belongs to one run moves only the windows of that run: such parameters of all runs are moved together.
+        What is in ADDING_UP is seen with corrections that move the starts of the windows back to where they were; the
+        way back is added by the derivatives of the corrections, Js, which so make up for it exactly.
         """
         only = range(len(z)) if only is None else only
         columns = np.zeros((len(only), *r.shape))
@@ -256,7 +251,12 @@ class Fit:
             moved = z.copy()
             for at in group:
                 moved[only[at]] += self.parameters[only[at]].step
-            change = fit.residual(moved, corrections) - r
+            if self.parameters[only[group[0]]].name.startswith(ADDING_UP):
+                shift = moved_by(fit.series.starts(*fit.models(z)), fit.series.starts(*fit.models(moved)))
+                shift[self.series.first] = 0
+                change = fit.residual(moved, corrections - shift) - r + np.einsum("bi,bimk->bmk", shift, Js)
+            else:
+                change = fit.residual(moved, corrections) - r
             for at in group:
                 p = self.parameters[only[at]]
                 mine = slice(None) if p.run is None else self.series.run_of == p.run
@@ -320,7 +320,7 @@ class Fit:
         z, c = point.z, point.corrections
         r = self.residual(z, c)
         Js = self.state_jacobian(z, c, r)
-        Jg = self.parameter_jacobian(z, c, r)
+        Jg = self.parameter_jacobian(z, c, r, Js)
         w = self.weights(r)
         return self.reduced(r, Js, Jg, w, c, z)
 

@@ -33,10 +33,11 @@ def information(
     """
     z, c = point.z, point.corrections
     r = fit.residual(z, c)
-    Js, Jg = fit.state_jacobian(z, c, r), fit.parameter_jacobian(z, c, r)
+    Js = fit.state_jacobian(z, c, r)
+    Jg = fit.parameter_jacobian(z, c, r, Js)
     if extra is not None:
         assert z_extra is not None
-        more = extra.parameter_jacobian(z_extra, c, r, only=range(len(z), len(extra.parameters)))
+        more = extra.parameter_jacobian(z_extra, c, r, Js, only=range(len(z), len(extra.parameters)))
         Jg = np.concatenate([Jg, more], axis=1)
     w = fit.weights(r) if weighted else np.ones_like(r)
     return by_run(fit, r, Js, Jg, w, c)

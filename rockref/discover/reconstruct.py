@@ -221,6 +221,16 @@ def corner_starts(Lambda, W, corrections, body, P, props, upright, place, state,
             memory[b, pivot, 3] = 0.0 if scale == 1.0 else 1.0
 
 
+def moved_by(begun: tuple[np.ndarray, np.ndarray], other: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    """Corrections (B, 5), as those of `corner_starts`, that make other starts of these, but for a turn about body Z.
+
+    Starts are attitudes (B, 3, 3) and rates (B, 3) [rad/s] that differ a little.
+    """
+    turned = np.einsum("bji,bjk->bik", begun[0], other[0])
+    tilt, roll = (turned[:, 2, 1] - turned[:, 1, 2]) / 2, (turned[:, 0, 2] - turned[:, 2, 0]) / 2
+    return np.concatenate([np.stack([tilt, roll], axis=1), other[1] - begun[1]], axis=1)
+
+
 def standing_place(P, upright, x, Lambda):
     """Where the block stands when it comes upright on the point that carries it at release, (3,) [m], z = 0."""
     r = P @ Lambda.T

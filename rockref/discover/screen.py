@@ -45,7 +45,8 @@ def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...]
     """Every candidate by one Gauss-Newton step of everything (nuisances, corrections, candidate) from a fit's point."""
     z, c = point.z, point.corrections
     r = fit.residual(z, c)
-    Js, Jg, w = fit.state_jacobian(z, c, r), fit.parameter_jacobian(z, c, r), fit.weights(r)
+    Js = fit.state_jacobian(z, c, r)
+    Jg, w = fit.parameter_jacobian(z, c, r, Js), fit.weights(r)
     promised = promise(fit, point, r, Js, Jg, w)
 
     def tried(own: Setup, id: str) -> Trial:
@@ -58,14 +59,14 @@ def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...]
     return sorted(trials, key=lambda t: -t.gain)
 
 
-def own_columns(wide: Fit, point: Point, effect: str, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def own_columns(wide: Fit, point: Point, effect: str, r: np.ndarray, Js: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Where the last effect is absent beside a narrower family's point, z (G,), and the derivative of its parameters
     there, (B, own, M, 3); r: the residuals there."""
     G, own = len(point.z), len(wide.parameters) - len(point.z)
     wide.parameters = tuple(replace(p, step=PROBE) if p.name.startswith(effect + ".") else p for p in wide.parameters)
     wide.forget()
     z0 = np.concatenate([point.z, np.zeros(own)])
-    return z0, wide.parameter_jacobian(z0, point.corrections, r, only=range(G, G + own))
+    return z0, wide.parameter_jacobian(z0, point.corrections, r, Js, only=range(G, G + own))
 
 
 def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, least: float) -> Trial:
@@ -75,7 +76,7 @@ def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, le
     """
     r, Js, Jg, w = linear
     c = point.corrections
-    z0, Jc = own_columns(wide, point, effects[-1], r)
+    z0, Jc = own_columns(wide, point, effects[-1], r, Js)
     H, g, (H_ss, H_sg, g_s, _) = wide.reduced(r, Js, np.concatenate([Jg, Jc], axis=1), w, c, z0)
     H, g = with_priors(H, g, wide.prior, z0)
     dz = np.clip(-np.linalg.solve(H, g), -3, 3)

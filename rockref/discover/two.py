@@ -63,11 +63,12 @@ def promises(
     """Every pair with one of the effects `leading`, who stands first in it, by what one step promises; best first."""
     z, c = point.z, point.corrections
     r = fit.residual(z, c)
-    Js, Jg, w = fit.state_jacobian(z, c, r), fit.parameter_jacobian(z, c, r), fit.weights(r)
+    Js = fit.state_jacobian(z, c, r)
+    Jg, w = fit.parameter_jacobian(z, c, r, Js), fit.weights(r)
 
     def own(setup: Setup, id: str) -> tuple[np.ndarray, np.ndarray]:
         wide = setup.fit(fit.series.twin(), (id,))
-        _, columns = own_columns(wide, point, id, r)
+        _, columns = own_columns(wide, point, id, r, Js)
         return columns, wide.prior[len(point.z) :]
 
     ids = [kind.id for kind in kinds]

@@ -33,8 +33,8 @@ LEAST_SIZE = 0.2
 #: Rivals whose gain is above this share of the best one, or within so many units of it, are not told apart from it.
 #: Fitted in full, the true effect leads by 70 of 1000 units where another law comes nearest (a cable for drag); fits
 #: end within some ten units of their best place, or, where the feet stand elsewhere and rates of another scale look the
-#: same, within 80 of 2400.
-RIVAL, CLOSE = 0.96, 30.0
+#: same, within 130 of 3140 (sides that were off under the stated inertia).
+RIVAL, CLOSE = 0.95, 30.0
 #: A winner that ends above the noise has not arrived, and what is left to gain may be a rival's: rivals are told apart
 #: by more than that, up to this many units (decided: half a typical drag, stopped in a side valley, was left 110 behind
 #: a cable by which 200 remained; of thirteen single effects that left no window structured eleven ended below 300).

@@ -166,6 +166,17 @@ def true_rates(crv: np.ndarray, t: np.ndarray, rate: float, bandwidth: float, se
     return undo_low_pass(w, rate, ((bandwidth, DAMPING), *own)) @ np.linalg.inv(sensor.matrix()).T
 
 
+def running_mean(r: np.ndarray, samples: int) -> np.ndarray:
+    """Means of r (B, M, 3) over so many samples about each, times their root: white noise keeps its size.
+
+    At the ends the mean is over what is there, and counts for less.
+    """
+    sums = np.concatenate([np.zeros_like(r[:, :1]), np.cumsum(r, axis=1)], axis=1)
+    first = np.arange(r.shape[1]) - samples // 2
+    begin, end = np.maximum(first, 0), np.minimum(first + samples, r.shape[1])
+    return (sums[:, end] - sums[:, begin]) / np.sqrt(samples)
+
+
 class Series:
     """The runs of an experiment cut into windows, ready to be compared with any model.
 
@@ -211,7 +222,7 @@ class Series:
 
     def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
         """True rates of run i and the smoothed ones; kept for the sensors that were seen last."""
-        names = ("turn", "skew", "scale", "bias", "drift", "bandwidth", "damping")
+        names = ("turn", "skew", "scale", "bias", "drift", "bandwidth", "damping", "range", "softness")
         key = (i, *(np.asarray(getattr(sensor, n), float).tobytes() for n in names))
         if key not in self._rates:
             if len(self._rates) > 64:
@@ -266,6 +277,11 @@ class Series:
         result = (body, P, props, effects, Lambda, W, upright, place, state, memory, yaw, plate)
         self._prepared, self._releases = (key, models, result), releases
         return result
+
+    def starts(self, models, tilt: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Attitude (B, 3, 3) and rates (B, 3) [rad/s] with which the windows begin, without corrections."""
+        _, _, _, _, Lambda, W, *_ = self.prepared(models, tilt, sensor_of(models[0]))
+        return Lambda, W
 
     def stepped(self, batch: Batch, which: np.ndarray) -> np.ndarray:
         """States of the windows `which` at the steps that are wanted, (len(which), R, STATE)."""

@@ -111,6 +111,7 @@ def test_what_is_left_out_is_named():
     [
         ("uneven_foot_stiffness", "foot1"),
         ("uneven_foot_stiffness", "tangential_share"),
+        ("uneven_foot_damping", "normal_share"),
         ("lingering_wire_pull", "evenness"),
         ("uneven_foot_damping", "foot2"),
         ("uneven_foot_friction", "foot3"),

@@ -119,13 +119,44 @@ def test_parameters_of_runs_are_moved_together_and_kept_apart():
 
     fit.residual = residual
     z = np.zeros(5)
-    J = fit.parameter_jacobian(z, None, residual(z, None))
+    J = fit.parameter_jacobian(z, None, residual(z, None), None)
     assert len(calls) == 1 + 3  # the start, two shared parameters, one group
     for j in range(5):
         mine = np.ones(4, bool) if j < 2 else fit.series.run_of == j - 2
         # A linear model: forward differences are exact but for rounding.
         np.testing.assert_allclose(J[mine, j], slopes[j][mine], rtol=1e-9)
         assert np.all(J[~mine, j] == 0)
+
+
+def test_what_adds_up_is_seen_from_the_starts_that_there_were():
+    """A drift that only moves the starts: its column is theirs, however the residual bends meanwhile."""
+    fit, rng = object.__new__(Fit), np.random.default_rng(1)
+    Js, moves = rng.normal(size=(3, STATES, M, 3)), rng.normal(size=(3, STATES))
+    begun = np.tile(np.eye(3), (3, 1, 1))
+
+    def starts(z):
+        tilt, roll, *rates = 1e-4 * z[0] * moves.T
+        turns = np.stack([np.stack(row, -1) for row in ((0 * roll, 0 * roll, roll), (0 * roll, 0 * roll, -tilt))], 1)
+        Lambda = begun.copy()
+        Lambda[:, :2] += turns
+        Lambda[:, 2, 0], Lambda[:, 2, 1] = -roll, tilt
+        return Lambda, np.stack(rates, 1)
+
+    def residual(z, corrections):
+        _, rates = starts(z)
+        tilt_roll = 1e-4 * z[0] * moves[:, :2]
+        whole = corrections + np.concatenate([tilt_roll, rates], axis=1)
+        return np.einsum("bi,bimk->bmk", whole + 1e6 * whole**3, Js)
+
+    first = np.array([False, False, True])
+    fit.series = SimpleNamespace(run_of=np.zeros(3, int), workers=1, starts=starts, first=first)
+    fit.models, fit.residual = lambda z: (z,), residual
+    fit.parameters = (Parameter("gyro_drift.bias_x", None, 0.0, 1.0, step=1.0),)
+    J = fit.parameter_jacobian(np.zeros(1), np.zeros((3, STATES)), residual(np.zeros(1), np.zeros((3, STATES))), Js)
+    # The bent part, 1e6 of the cube of 1e-4 and a little more, would be a hundredth and more; here rounding is left.
+    np.testing.assert_allclose(J[~first, 0], 1e-4 * np.einsum("bi,bimk->bmk", moves, Js)[~first], atol=1e-16)
+    plain = residual(np.ones(1), np.zeros((3, STATES)))
+    np.testing.assert_allclose(J[first, 0], plain[first], atol=1e-16)
 
 
 def test_the_loss_is_that_of_the_samples_that_are_there(problem):

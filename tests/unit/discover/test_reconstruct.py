@@ -9,6 +9,7 @@ from rockref import Model
 from rockref.discover.reconstruct import (
     attitudes,
     corner_starts,
+    moved_by,
     plate_motion,
     standing_place,
     undo_low_pass,
@@ -107,6 +108,16 @@ def test_acceleration_is_kept(corner):
     assert np.linalg.norm(late - early) < 0.15 * np.linalg.norm(early)
     spin = [(w[b] - w[a]) / (200 * h) for a, b in ((0, 200), (600, 800))]
     assert np.linalg.norm(spin[1] - spin[0]) < 0.15 * np.linalg.norm(spin[0])
+
+
+def test_corrections_make_other_starts_of_these():
+    """Turned about the body's X and Y, and other rates; a turn about Z is no correction's."""
+    rng = np.random.default_rng(4)
+    Lambda = np.stack([exponential(v) for v in rng.normal(size=(6, 3))])
+    W, by = rng.normal(size=(6, 3)), 1e-4 * rng.normal(size=(6, 5))
+    other = np.stack([L @ exponential(np.array([a, c, 2e-4])) for L, (a, c, *_) in zip(Lambda, by, strict=True)])
+    # Turns of 2e-4 leave their squares, 4e-8.
+    np.testing.assert_allclose(moved_by((Lambda, W), (other, W + by[:, 2:])), by, atol=5e-8)
 
 
 def test_yaw_is_counted_since_the_point_touched_and_slips():

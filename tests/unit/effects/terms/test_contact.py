@@ -182,6 +182,15 @@ def test_damping_of_a_foot_is_that_of_both_dampers():
     assert all(getattr(changed, key) is getattr(points, key) for key in ("P", "K_N", "K_T", "mu_0", "mu"))
 
 
+def test_the_tangential_damper_of_a_foot_stays_behind_by_its_share():
+    """Share 1: all the way; share 1/2: by the root."""
+    points = five_points()
+    _, alone = UnevenFootDamping(0.5, 2.0, 3.0, 4.0, normal_share=1.0).points("block", points)
+    assert np.array_equal(alone.C_T, points.C_T) and np.array_equal(alone.C_N, 30.0 * FACTORS)
+    _, half = UnevenFootDamping(0.5, 2.0, 3.0, 4.0, normal_share=0.5).points("block", points)
+    assert np.array_equal(half.C_T, 40.0 * np.sqrt(FACTORS)) and np.array_equal(half.C_N, alone.C_N)
+
+
 @pytest.mark.parametrize("kind", [UnevenFootStiffness, UnevenFootDamping])
 def test_an_effect_on_feet_names_itself_where_a_point_has_none(kind):
     with pytest.raises(ValueError, match=f"^effect {kind.id}: contact point 'left' belongs to no foot"):
