@@ -32,8 +32,8 @@ RATE_ERROR = 9e-4
 #: Error of the reconstructed attitude [rad]: at the start, and its growth with the root of time (white noise of
 #: 0.05 deg/s at 1 kHz integrates to 2.8e-5 rad after a second; decided with some room).
 ATTITUDE_ERROR, ATTITUDE_GROWTH = 2.5e-5, 4e-5
-#: What adds up to attitudes far beyond those errors. Decided: half a typical drift was held in its place: differences of
-#: the starts that it moves and of their corrections cancel to a thousandth only, and the rest looks like knowledge.
+#: What adds up to attitudes far beyond those errors. Decided: half a typical drift was held in place: differences of
+#: starts and of their corrections cancel to a thousandth only, and the rest looks like knowledge.
 ADDING_UP = ("gyro_drift.",)
 #: Rise of a window's loss, per sample value, that tells that a joint step threw it into another order of impacts.
 THROWN = 0.03
