@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from rockref.discover import verdict as rules
+from rockref.discover.candidates import FORMS
 from rockref.discover.fit import Fit, Parameter, Point
 from rockref.discover.information import Information, covariance, eliminated, own_parameters
 
@@ -106,8 +107,9 @@ def step_small(fit: Fit, point: Point) -> Gate:
 
 
 def off_bounds(fit: Fit, point: Point) -> Gate:
-    """Whether every parameter is inside its prior."""
-    off = np.abs(point.z) / fit.prior
+    """Whether every parameter is inside its prior; a share between two forms of a law has a price, and no prior."""
+    form = np.array([tuple(p.name.split(".")) in FORMS for p in fit.parameters])
+    off = np.where(form, 0.0, np.abs(point.z) / fit.prior)
     worst = int(np.argmax(off))
     words = f"{fit.parameters[worst].name} is farthest from the centre of its prior: {off[worst]:.1f} deviations."
     return Gate("off_bounds", bool(off[worst] < BOUND), float(off[worst]), BOUND, words)

@@ -184,6 +184,12 @@ def decide(facts: Facts) -> Decision:
             f"Something moves the block that is not in the catalogue: the nearest candidate, {name}, gains {best:.0f} "
             f"units, and {facts.room:.0f} are left above the noise.",
         )  # fmt: skip
+    if facts.room > best and proof < HELD_OUT:
+        return Decision(
+            "none", (),
+            f"{name} gains {best:.0f} units where {facts.room:.0f} are left, and the held-out runs show nothing of it: "
+            "not accepted.",
+        )  # fmt: skip
     rivals = tuple(id for id, g in facts.gains.items() if id != name and g > max(min(RIVAL * best, best - apart), 0))
     if rivals:
         members = (name, *sorted(rivals, key=lambda id: -facts.gains[id]))[:3]

@@ -1,15 +1,19 @@
 """A fit as a model: what stands in the file, and what belongs to one run only."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from rockref import Model
 from rockref.discover.baseline import baseline_parameters
+from rockref.discover.candidates import parameters_of
 from rockref.discover.errors import STRETCHES, errors_of, stretch_of
 from rockref.discover.fit import Fit
 from rockref.discover.fitted import estimates, fitted_model, in_file_order, origin_of
 from rockref.discover.gates import off_bounds, other_start, step_small
 from rockref.discover.windows import series
+from rockref.effects import catalogue
 from tests.unit.discover.synthetic import experiment
 
 TABLE = Model.table_3_1()
@@ -49,6 +53,15 @@ def test_a_parameter_at_its_bound_is_named(fit):
     far.z[3] = -3.5
     gate = off_bounds(made, far)
     assert not gate.passed and made.parameters[3].name in gate.sentence and gate.value == 3.5
+
+
+def test_the_form_of_a_law_has_no_bound():
+    """All of the way from one form to the other is ten deviations of its price."""
+    parameters = parameters_of(catalogue.find("lingering_wire_pull"), 2)
+    made = SimpleNamespace(parameters=parameters, prior=np.array([p.prior for p in parameters]))
+    at = {"lingering_wire_pull.force": 2.0, "lingering_wire_pull.evenness": 1.0, "lingering_wire_pull.tau": 0.5}
+    gate = off_bounds(made, SimpleNamespace(z=np.array([at[p.name] for p in parameters])))
+    assert gate.passed and gate.value == pytest.approx(2.0 / 3.0) and "force" in gate.sentence
 
 
 def test_another_start_moves_what_is_shared_only(fit):

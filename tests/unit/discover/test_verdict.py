@@ -44,6 +44,15 @@ def test_no_gain_on_held_out_runs_is_only_indicated():
     assert decide(facts(held=(0.0, 0.0))).verdict == "indicated"
 
 
+@pytest.mark.parametrize("held, verdict", [(0.004, "none"), (0.016, "class")])
+def test_what_leaves_more_than_it_gains_has_to_show_on_held_out_runs(held, verdict):
+    """A control whose fit had stopped in a side valley: feet gained 462 units, 1024 were left."""
+    gains = {"uneven_foot_stiffness": 462.0, "uneven_contact_normals": 185.0}
+    unsettled = replace(facts(("uneven_foot_stiffness",), gains, held=(held, held)), room=1024.0)
+    assert decide(unsettled).verdict == verdict
+    assert decide(replace(unsettled, room=400.0)).verdict == "class"
+
+
 def test_harm_on_held_out_runs_is_not_accepted():
     assert decide(facts(held=(-0.5, -0.5))).verdict == "none"
 
