@@ -18,8 +18,8 @@ FLAT = 12
 BESIDE, LEAST = 0.04, 6
 #: Resolutions below the limit that a sample at the stops may show (rounding leaves half of one).
 ROUNDED = 0.6
-#: Rates beyond the range, in ranges, that soft stops still tell (decided: there they show 0.996 of it, and noise counts
-#: a hundred times), and places in which the curve is followed by lines (a line leaves 1e-6 of the range).
+#: Rates beyond the range, in ranges, that soft stops still tell (decided: there they show 0.995 of it, and noise counts
+#: a hundred times), and places in which the curve is followed by lines, 0.004 ranges apart: they leave 4e-6 of it.
 TOLD, PLACES = 3.0, 1501
 
 

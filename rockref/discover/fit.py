@@ -32,8 +32,7 @@ RATE_ERROR = 9e-4
 #: Error of the reconstructed attitude [rad]: at the start, and its growth with the root of time (white noise of
 #: 0.05 deg/s at 1 kHz integrates to 2.8e-5 rad after a second; decided with some room).
 ATTITUDE_ERROR, ATTITUDE_GROWTH = 2.5e-5, 4e-5
-#: What adds up to attitudes far beyond those errors. Decided: half a typical drift was held in place: differences of
-#: starts and of their corrections cancel to a thousandth only, and the rest looks like knowledge.
+#: What adds up to attitudes far beyond those errors (decided: half a typical drift was held in its place otherwise).
 ADDING_UP = ("gyro_drift.",)
 #: Rise of a window's loss, per sample value, that tells that a joint step threw it into another order of impacts.
 THROWN = 0.03
@@ -237,10 +236,12 @@ class Fit:
         """d residual / d z, (B, G, M, 3), by forward differences (of the parameters `only`, if given).
 
         What belongs to one run moves only the windows of that run: such parameters of all runs are moved together.
-        What is in ADDING_UP is seen with corrections that move the starts of the windows back to where they were; the
-        way back is added by the derivatives of the corrections, Js, which so make up for it exactly.
+        What is in ADDING_UP is seen with corrections that move the starts of the windows back to where they were. The
+        way back is added by the derivatives of the corrections, Js (B, STATES, M, 3), which so make up for it exactly.
         """
         only = range(len(z)) if only is None else only
+        adding_up = any(self.parameters[j].name.startswith(ADDING_UP) for j in only)
+        begun = self.series.starts(*self.models(z)) if adding_up else None
         columns = np.zeros((len(only), *r.shape))
         together: dict[str, list[int]] = {}
         for at, j in enumerate(only):
@@ -251,8 +252,8 @@ class Fit:
             moved = z.copy()
             for at in group:
                 moved[only[at]] += self.parameters[only[at]].step
-            if self.parameters[only[group[0]]].name.startswith(ADDING_UP):
-                shift = moved_by(fit.series.starts(*fit.models(z)), fit.series.starts(*fit.models(moved)))
+            if begun is not None and self.parameters[only[group[0]]].name.startswith(ADDING_UP):
+                shift = moved_by(begun, fit.series.starts(*fit.models(moved)))
                 shift[self.series.first] = 0
                 change = fit.residual(moved, corrections - shift) - r + np.einsum("bi,bimk->bmk", shift, Js)
             else:
@@ -350,8 +351,7 @@ class Fit:
             dz = -np.linalg.solve(A, g)
             dz = np.clip(dz, -1.5, 1.5)
             dc = -np.linalg.solve(H_ss, (g_s + H_sg @ dz)[..., None])[..., 0]
-            limit = 4 * self.state_prior
-            dc = np.clip(dc, -limit, limit)
+            dc = np.clip(dc, -4 * self.state_prior, 4 * self.state_prior)
             dc[self.series.first] = 0
             trial, _ = self.point(point.z + dz, point.corrections + dc)
             kept, _ = self.point(point.z + dz, point.corrections)

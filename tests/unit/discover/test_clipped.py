@@ -55,7 +55,7 @@ def test_what_is_not_clipped_stays_as_it_is(two_runs):
 def test_what_soft_stops_have_bent_is_put_back(softness):
     crv = np.linspace(-0.9, 0.9, 60).reshape(-1, 3)
     shown = GyroSaturation(0.6, softness).sensor(None, crv)
-    # A table of 1500 lines over six ranges leaves 1e-6 of the range, a few times that where the curve is flat.
+    # Lines over h = 0.004 ranges leave |f''/f'| h^2/8 of one, at most 2 h^2/8: 4e-6, of 0.6 rad/s.
     np.testing.assert_allclose(let_go(shown, 0.6, softness), crv, atol=1e-5)
 
 
