@@ -34,6 +34,10 @@ EXPLAINED = 0.6
 #: Decided: axes askew and a release with a velocity explain 0.33 and 0.11 alone and all of it together; axes askew and
 #: a drift, which was not there, 0.61.
 TOGETHER, FEW = 0.9, 3
+#: A fit of the releases goes on past its iterations, up to LONGEST, while one of them takes off more than this share of
+#: what is left. Decided: of a wire that pulled with 6.3 N half was left after six, the sixth had taken off a seventh of
+#: it, and after nine nothing was left; fits that were on no way had gained hundredths.
+FALLING, LONGEST = 0.05, 24
 #: A tone stands out when its power exceeds this many times the median of the scan (decided on records without one).
 TONE = 12.0
 
@@ -61,9 +65,11 @@ def release_fit(setup: Setup, effects: tuple[str, ...] = (), iterations: int = 6
         moves[:, i] = shares
         point = best_for_all(fit, point, moves)
     lam, little = 1e-2, 0
-    for _ in range(iterations):
+    for i in range(LONGEST):
         before = point.objective
         point, lam = fit.step(point, lam)
+        if i + 1 >= iterations and before - point.objective <= max(FALLING * excess(fit, point), 1.0):
+            break
         # Twice in a row: a shaking base of half the typical size gained 1.1 and 0.8 units before it gained 400.
         little = little + 1 if before - point.objective < 1.0 else 0
         if little == 2:

@@ -1,4 +1,4 @@
-"""From a gyroscope record to the state of the block at any instant: rates, attitude, and the pivot that carries it."""
+"""From a gyroscope record to what it says of the block at any instant: rates, attitude, and what follows from them."""
 
 from __future__ import annotations
 
@@ -134,95 +134,8 @@ def plate_motion(Lambda, W, P, dt, mass, plate_mass, stiffness, damping):
     return out
 
 
-@numba.njit(cache=True, nogil=True)
-def _solve3(A, b):
-    d = (
-        A[0, 0] * (A[1, 1] * A[2, 2] - A[1, 2] * A[2, 1])
-        - A[0, 1] * (A[1, 0] * A[2, 2] - A[1, 2] * A[2, 0])
-        + A[0, 2] * (A[1, 0] * A[2, 1] - A[1, 1] * A[2, 0])
-    )
-    out = np.empty(3)
-    for k in range(3):
-        B = A.copy()
-        B[:, k] = b
-        out[k] = (
-            B[0, 0] * (B[1, 1] * B[2, 2] - B[1, 2] * B[2, 1])
-            - B[0, 1] * (B[1, 0] * B[2, 2] - B[1, 2] * B[2, 0])
-            + B[0, 2] * (B[1, 0] * B[2, 1] - B[1, 1] * B[2, 0])
-        ) / d
-    return out
-
-
-@numba.njit(cache=True, nogil=True)
-def _skew(r):
-    return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
-
-
-@numba.njit(cache=True, nogil=True)
-def corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, loads):
-    """Start states of B windows on the corner that carries the block, quasi-statically.
-
-    Lambda : (B, 3, 3), W : (B, 3) reconstructed attitude and rates; corrections : (B, 5) tilt and roll [rad, body
-    axes], rates [rad/s]. body (B, BODY), P (B, n, 3), props (B, n, PROPS) as in the compiled step; upright : (B, 3, 3)
-    orientation and place : (B, 3) position of the standing block, which place the corner on the plate [m];
-    loads : (B, 3) further acceleration that acts like gravity [m/s2]. Fills state (B, STATE) and memory (B, n, MEMORY).
-
-    The lowest point is the pivot. The block turns rigidly about it, which gives velocity and acceleration of the
-    centre of mass and the force at the pivot; penetration and anchor are set so that the springs carry this force.
-    """
-    for b in range(Lambda.shape[0]):
-        a, c = corrections[b, 0], corrections[b, 1]
-        hat = np.array([[0.0, 0.0, c], [0.0, 0.0, -a], [-c, a, 0.0]])
-        L = Lambda[b] @ (np.eye(3) + hat + hat @ hat / 2)
-        w_body = W[b] + corrections[b, 2:5]
-        n = P.shape[1]
-        pivot, lowest = 0, 1e9
-        for i in range(n):
-            z = L[2, 0] * P[b, i, 0] + L[2, 1] * P[b, i, 1] + L[2, 2] * (P[b, i, 2] + props[b, i, 6]) - props[b, i, 6]
-            if z < lowest:
-                pivot, lowest = i, z
-        centre = P[b, pivot].copy()
-        radius = props[b, pivot, 6]
-        centre[2] += radius
-        r = L @ centre
-        r[2] -= radius
-        mass, g = body[b, 0], body[b, 1]
-        J = body[b, 2:11].copy().reshape(3, 3)
-        inertia = L @ J @ L.T
-        omega = L @ w_body
-        R, S = _skew(r), _skew(omega)
-        gravity = np.array([-loads[b, 0], -loads[b, 1], g - loads[b, 2]])
-        # a_G = -(domega x r) - omega x (omega x r);  F = m (a_G + g e_z);  I domega + omega x I omega = r x F
-        A = inertia - mass * (R @ R)
-        Orr = S @ (S @ r)
-        rhs = -(S @ (inertia @ omega)) + mass * (R @ (gravity - Orr))
-        domega = _solve3(A, rhs)
-        acceleration = R @ domega - Orr
-        F = mass * (acceleration + gravity)
-        K_N, K_T, mu = props[b, pivot, 0], props[b, pivot, 1], props[b, pivot, 5]
-        xi = max(F[2], 0.0) / K_N
-        size, limit = np.sqrt(F[0] ** 2 + F[1] ** 2), mu * max(F[2], 0.0)
-        scale = 1.0 if size <= limit or size == 0 else limit / size
-        foot = upright[b] @ P[b, pivot] + place[b]
-        v = R @ omega  # the pivot is at rest: v = -omega x r = r x omega
-        x0, y0 = foot[0], foot[1]
-        state[b, :] = 0.0
-        state[b, 0], state[b, 1], state[b, 2] = x0 - r[0], y0 - r[1], -r[2] - xi
-        state[b, 3:6] = v
-        for j in range(3):
-            for k in range(3):
-                state[b, 6 + 3 * j + k] = L[j, k]
-        state[b, 15:18] = w_body
-        memory[b, :, :] = 0.0
-        if F[2] > 0:
-            memory[b, pivot, 0] = x0 + scale * F[0] / K_T
-            memory[b, pivot, 1] = y0 + scale * F[1] / K_T
-            memory[b, pivot, 2] = 1.0
-            memory[b, pivot, 3] = 0.0 if scale == 1.0 else 1.0
-
-
 def moved_by(begun: tuple[np.ndarray, np.ndarray], other: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-    """Corrections (B, 5), as those of `corner_starts`, that make other starts of these, but for a turn about body Z.
+    """Corrections (B, 5), as those of `standing_starts`, that make other starts of these, but for a turn about body Z.
 
     Starts are attitudes (B, 3, 3) and rates (B, 3) [rad/s] that differ a little.
     """

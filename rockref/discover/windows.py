@@ -8,17 +8,17 @@ gyroscope implies, with five small corrections of its own; and the pieces, joine
 from __future__ import annotations
 
 import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from rockref.api import Model
 from rockref.discover.beside import threads_left
 from rockref.discover.clipped import let_go, unclipped
+from rockref.discover.handed_on import leaves_dents, plate_of, spin_slip
 from rockref.discover.own_windows import own_of, run_own
 from rockref.discover.reconstruct import (
     attitudes,
-    corner_starts,
     local_rates,
     plate_motion,
     roughness,
@@ -27,6 +27,7 @@ from rockref.discover.reconstruct import (
     yaw_since_touch,
 )
 from rockref.discover.record import filter_coefficients, records
+from rockref.discover.standing import standing_starts
 from rockref.effects.sensor.gyro_bandwidth import DAMPING
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
@@ -137,25 +138,6 @@ def sensor_of(model: Model) -> Sensor:
     return Sensor(**values)
 
 
-def spin_slip(model: Model, problem: Problem) -> float:
-    """Turn at which the carrying point slips in spin under the block's weight [rad]; 0 without spin friction."""
-    radius = sum(e.values()["radius"] for e in model.active_effects() if e.id == "spin_friction")
-    if not radius:
-        return 0.0
-    points, block = problem.points, problem.block
-    return float(np.mean(points.mu) * np.mean(block.mass) * np.mean(block.g) / (np.mean(points.K_T) * radius))
-
-
-def plate_of(model: Model) -> tuple[float, float, float] | None:
-    """Mass [kg], stiffness [N/m] and damping [N s/m] of a plate that yields; None where it is rigid."""
-    for e in model.active_effects():
-        if e.id == "compliant_support":
-            v = e.values()
-            stiffness = (2 * np.pi * v["frequency"]) ** 2 * v["mass"]
-            return v["mass"], stiffness, 2 * v["ratio"] * float(np.sqrt(stiffness * v["mass"]))
-    return None
-
-
 def true_rates(crv: np.ndarray, t: np.ndarray, rate: float, bandwidth: float, sensor: Sensor) -> np.ndarray:
     """The block's rates at the samples of a record, with the sensor undone, (N, 3) [rad/s]; crv: with no flat tops.
 
@@ -211,13 +193,14 @@ class Series:
         self._rows = np.empty((0, col.STATE))
         self._prepared: tuple | None = None
         self._releases: list[Problem] = []
-        self._carried = np.zeros((self.B, 2))
+        self._carried, self._pressed = np.zeros((self.B, 2)), np.zeros((self.B, 1))
 
     def twin(self) -> Series:
         """The same windows for another thread: what is kept from call to call is its own."""
         other = copy.copy(self)
         other._rates = dict(self._rates)
-        other._rows, other._carried = np.empty((0, col.STATE)), self._carried.copy()
+        other._rows = np.empty((0, col.STATE))
+        other._carried, other._pressed = self._carried.copy(), self._pressed.copy()
         return other
 
     def rates(self, i: int, sensor: Sensor) -> tuple[np.ndarray, np.ndarray]:
@@ -244,7 +227,7 @@ class Series:
             return self._prepared[2]
         B, n = self.B, models[0].body()[1].n
         body, P, props = np.empty((B, col.BODY)), np.empty((B, n, 3)), np.empty((B, n, col.PROPS))
-        effects, state = np.empty((B, slots.SLOTS)), np.zeros((B, col.STATE))
+        effects, state = np.zeros((B, slots.SLOTS)), np.zeros((B, col.STATE))
         memory, Lambda, W = np.zeros((B, n, col.MEMORY)), np.empty((B, 3, 3)), np.empty((B, 3))
         upright, place, yaw, plate = np.empty((B, 3, 3)), np.empty((B, 3)), np.zeros(B), np.zeros((B, 2))
         releases: list[Problem] = []
@@ -302,8 +285,8 @@ class Series:
         body, P, props, effects, Lambda, W, upright, place, release, release_memory, yaw, plate = arrays
         plate = plate + self._carried[which]
         state, memory = np.empty_like(release), np.empty_like(release_memory)
-        loads = np.zeros((len(which), 3))
-        corner_starts(Lambda, W, corrections, body, P, props, upright, place, state, memory, loads)
+        pressed = np.zeros(P.shape[:2]) + self._pressed[which]
+        standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, upright, place, state, memory)
         state[:, col.Q : col.Q_RATE + 1] = plate
         state[:, [col.X + 2, col.V + 2]] += plate
         memory[:, :, col.YAW] = memory[:, :, col.ANCHORED] * yaw[:, None]
@@ -316,16 +299,26 @@ class Series:
         return Batch(body, P, props, memory, effects, state, sensor.clock / self.rate / per_sample, wanted)
 
     def carry(self, models, tilt: np.ndarray, corrections: np.ndarray) -> bool:
-        """Let the plate under each window begin as the window before it left it; whether there is such a plate."""
-        if plate_of(models[0]) is None:
+        """Let the plate and the dents under each window begin as the window before it left them; whether there are any.
+
+        Among a user's own effects dents begin where the window begins.
+        """
+        plate = plate_of(models[0])
+        if plate is None and not leaves_dents(models[0]):
             return False
         sensor = sensor_of(models[0])
         batch = self.batch(models, tilt, corrections, np.arange(self.B), sensor, self.length)
-        states = self.stepped(batch, np.arange(self.B))
-        ends = states[np.arange(self.B), self.length * self.ROWS_PER_SAMPLE][:, col.Q : col.Q_RATE + 1]
+        batch = replace(batch, wanted=batch.wanted[np.arange(self.B), self.length * self.ROWS_PER_SAMPLE][:, None])
         follows = np.flatnonzero((self.stop[:-1] == self.start[1:]) & (self.run_of[:-1] == self.run_of[1:])) + 1
-        plate = self.prepared(models, tilt, sensor)[-1]
-        self._carried[follows] = np.nan_to_num(ends[follows - 1] - plate[follows])
+        if self._releases:
+            ends = self.stepped(batch, np.arange(self.B))
+        else:
+            ends, _, memory = run_batch(batch, threads_left(self.B, self.workers), full=True)
+            self._pressed = np.zeros(memory.shape[::2])
+            self._pressed[follows] = np.nan_to_num(memory[follows - 1, 0, :, col.XI_LARGEST])
+        if plate is not None:
+            began = self.prepared(models, tilt, sensor)[-1]
+            self._carried[follows] = np.nan_to_num(ends[follows - 1, 0, col.Q : col.Q_RATE + 1] - began[follows])
         return True
 
     def simulate(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None, upto=None) -> np.ndarray:

@@ -65,7 +65,7 @@ def _turned(m0, m1, m2, E0, E1, E2, E3, E4, E5, E6, E7, E8):
 
 
 @inlined
-def _switches(e):
+def switches(e):
     """Which effects are on, from their numbers (SLOTS,)."""
     return slots.Switches(
         e[slots.HERTZ] != 0.0, e[slots.HYSTERESIS] != 0.0, e[slots.HUNT] != 0.0, e[slots.STRIBECK] != 0.0,
@@ -81,7 +81,7 @@ def _make_begin(groups: int, evaluate):
     def begin(body, centres, props, memory, forces, e, s):
         """a and T (6) at the start; forces and memories are written."""
         forces[:, :] = 0.0
-        on = _switches(e)
+        on = switches(e)
         a0, a1, a2, T0, T1, T2, _ = evaluate(
             body, centres, props, memory, forces, e, on, of_time(on, e, s[col.TIME]), s[col.Q], s[col.Q_RATE],
             s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14],
@@ -119,7 +119,7 @@ def _make_loop(groups: int, source: int):
         for b in range(first, last):
             k = b if full else 0
             body, centres, props, memory, forces = bodies[b], all_centres[b], all_props[b], memories[b], all_forces[b]
-            e, on, state, wanted = effects[b], _switches(effects[b]), states[b], all_wanted[b]
+            e, on, state, wanted = effects[b], switches(effects[b]), states[b], all_wanted[b]
             rows_state, rows_F, rows_memory = all_rows_state[b], all_rows_F[k], all_rows_memory[k]
             x0, x1, x2, v0, v1, v2 = state[0], state[1], state[2], state[3], state[4], state[5]
             L0, L1, L2, L3, L4, L5 = state[6], state[7], state[8], state[9], state[10], state[11]

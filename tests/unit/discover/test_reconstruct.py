@@ -1,24 +1,18 @@
-"""States from a record: attitude, the filter undone, and a block that stands on one corner."""
+"""From a record to rates and attitude, the filter undone, and to what follows from them."""
 
 from functools import reduce
 
 import numpy as np
 import pytest
 
-from rockref import Model
 from rockref.discover.reconstruct import (
     attitudes,
-    corner_starts,
     moved_by,
     plate_motion,
-    standing_place,
     undo_low_pass,
     yaw_since_touch,
 )
 from rockref.effects.sensor.gyro_bandwidth import DAMPING
-from rockref.engines.compiled import columns as col
-from rockref.engines.compiled import pack, slots
-from rockref.engines.compiled.batch import Batch, run_batch
 from rockref.measure.gyroscope import low_pass
 from rockref.model.rotation import exponential
 
@@ -61,53 +55,6 @@ def test_low_pass_undone():
     # The filter delays by 0.75 ms and that is gone; what is left is the first-order hold against the filter's own law.
     assert np.abs(found - w[::2])[inside].max() < 0.02
     assert np.abs(found - w[::2])[inside].max() < 0.3 * np.abs(seen - w[::2])[inside].max()
-
-
-@pytest.fixture(scope="module")
-def corner():
-    """Table 3.1's block on one corner, in slow motion, for 8 ms: states (rows, STATE), P, K_N, the pivot."""
-    problem = pack.with_memory(Model.table_3_1().problem(duration=1.0, theta_0=0.08))
-    # Tilted about the main axis and rolled by 2 mrad: one corner is clearly the lowest.
-    Lambda = (problem.start.Lambda @ exponential(np.array([0.0, 0.002, 0.0])))[None].copy()
-    W = np.array([[0.25, 0.01, 0.0]])
-    body, props = pack.body_row(problem)[None], pack.props_rows(problem)[None]
-    P = problem.points.P[None].copy()
-    state, memory = np.empty((1, col.STATE)), np.empty((1, P.shape[1], col.MEMORY))
-    place = standing_place(problem.points.P, np.eye(3), problem.start.x, problem.start.Lambda)[None]
-    corner_starts(Lambda, W, np.zeros((1, 5)), body, P, props, np.eye(3)[None], place, state, memory, np.zeros((1, 3)))
-    h, rows = 1e-5, 801
-    wanted = np.arange(rows)[None].astype(np.int64)
-    out = np.empty((1, rows, col.STATE))
-    batch = Batch(body, P, props, memory.copy(), np.zeros((1, slots.SLOTS)), state.copy(), h, wanted)
-    return run_batch(batch, 1, out=out)[0].copy(), P[0], props[0], memory[0], h
-
-
-def test_one_corner_touches_and_the_lowest_one(corner):
-    states, P, props, memory, _ = corner
-    L = states[0, col.L : col.L + 9].reshape(3, 3)
-    heights = (P @ L.T)[:, 2]
-    assert np.flatnonzero(memory[:, col.ANCHORED] + memory[:, col.SLIDING]).tolist() == [int(np.argmin(heights))]
-
-
-def test_force_is_that_of_the_motion_and_does_not_ring(corner):
-    states, P, props, memory, h = corner
-    L = states[:, col.L : col.L + 9].reshape(-1, 3, 3)
-    pivot = int(np.argmax(memory[:, col.ANCHORED]))
-    depth = -(states[:, col.X + 2] + (L @ P[pivot])[:, 2])
-    assert depth[0] > 0
-    # A start without the balance swings by its whole depth; what is left here changes with the posture.
-    assert np.abs(depth / depth[0] - 1).max() < 0.1
-
-
-def test_acceleration_is_kept(corner):
-    states, _, _, _, h = corner
-    v, w = states[:, col.V : col.V + 3], states[:, col.W_ : col.W_ + 3]
-    early = (v[200] - v[0]) / (200 * h)
-    late = (v[800] - v[600]) / (200 * h)
-    # Over 8 ms the posture changes by 2 mrad of 70: the acceleration by a few per cent; ringing would change its sign.
-    assert np.linalg.norm(late - early) < 0.15 * np.linalg.norm(early)
-    spin = [(w[b] - w[a]) / (200 * h) for a, b in ((0, 200), (600, 800))]
-    assert np.linalg.norm(spin[1] - spin[0]) < 0.15 * np.linalg.norm(spin[0])
 
 
 def test_corrections_make_other_starts_of_these():

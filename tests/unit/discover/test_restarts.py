@@ -79,7 +79,19 @@ def test_plate_under_the_block_is_handed_on_from_window_to_window():
     assert shares[0] > 0.3 and shares[-1] < 0.1
 
 
-def test_without_a_plate_nothing_is_handed_on():
+def test_dents_under_the_block_are_handed_on_from_window_to_window():
+    fit, point = at_truth("hysteretic_contact:kappa=1")
+    medians = []
+    for _ in range(5):
+        point = fit.relax_states(point, 2)
+        point = fit.grow(point, rough(fit, point))
+        medians.append(np.median(2 * point.loss / fit.series.count))
+        point = fit.carried(point)
+    # Begun on fresh feet the windows hold 1.05 of the noise, in their dents 0.98; noise alone is 0.93 to 0.95.
+    assert medians[0] > 1.02 and medians[-1] < 1.0
+
+
+def test_without_plate_or_dents_nothing_is_handed_on():
     fit, point = at_truth()
     assert fit.carried(point) is point
 
