@@ -58,10 +58,12 @@ test-all: lint  ## lint, then every test, then the mutants
 	HYPOTHESIS_PROFILE=ci $(PYTEST) $(ARGS)
 	@$(MAKE) --no-print-directory mutate
 
-# Begun before pytest, which imports parts of the package before a plugin could look. Worker processes write files of their own.
-coverage: env  ## which branches of what is not compiled the tests of `make test` take, folder by folder
+# Begun before pytest, which imports parts of the package before a plugin could look. Worker processes write files of
+# their own; a test in which no file has room has none for these, either.
+coverage: env  ## which branches of what is not compiled the tests take, folder by folder (ARGS="-m 'not slow'": the quick)
 	$(VENV)/bin/coverage erase
-	HYPOTHESIS_PROFILE=ci $(VENV)/bin/coverage run -m pytest $(BESIDE) -q -m 'not slow' $(ARGS)
+	HYPOTHESIS_PROFILE=ci $(VENV)/bin/coverage run -m pytest $(BESIDE) -q --deselect \
+	  tests/acceptance/test_faults.py::test_no_room_ends_with_2_and_leaves_earlier_results $(ARGS)
 	$(VENV)/bin/coverage combine -q
 	$(VENV)/bin/coverage json -q -o .coverage.json
 	$(PY) -m tests.covered .coverage.json
