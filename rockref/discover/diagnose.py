@@ -18,6 +18,7 @@ from rockref.discover.evidence import HeldOut, held_out, rms_deg_s
 from rockref.discover.families import (
     Family,
     amplitudes,
+    far_fetched,
     gain_between,
     gain_over,
     loud,
@@ -264,6 +265,8 @@ def conclude(
         loud=(loud(final.point.loss, final.fit.series.count), loud(with_effect.loss, with_effect.count)),
         off=checks["off_bounds"].value,
         agree=checks["runs_agree"].passed,
+        far_fetched=far_fetched(look.order, final),
+        odds=checks["runs_agree"].value if checks["gradient_small"].value < rules.ARRIVED else 0.0,
     )
     decision = rules.decide(facts)
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -114,6 +114,13 @@ def size_of(family: Family, effect: str | None = None) -> float:
         and p.name not in ("base_vibration.frequency", "base_vibration.direction")
     ]
     return float(max(z, default=0.0))
+
+
+def far_fetched(families: Iterable[Family], winner: Family) -> frozenset[str]:
+    """Effects that these families would need at far more than their typical size; none, if the winner is one."""
+    if max((size_of(winner, e) for e in winner.effects), default=0.0) > rules.FAR_FETCHED:
+        return frozenset()
+    return frozenset(f.effects[-1] for f in families if size_of(f) > rules.FAR_FETCHED)
 
 
 def amplitudes(family: Family) -> dict[str, dict[str, Any]]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rockref.discover.evidence import CLIP
-from rockref.discover.families import Family, amplitudes, by_sample, gain_between, size_of
+from rockref.discover.families import Family, amplitudes, by_sample, far_fetched, gain_between, size_of
 from rockref.discover.fit import Parameter, Point
 from rockref.discover.fitted import estimates
 from tests.unit.discover.bowls import SAMPLES, WINDOWS, Bowl, family, series
@@ -35,6 +35,19 @@ def test_a_form_of_a_law_is_no_size_of_it():
     for pull in (0.0, 0.4):
         wire = Family(("lingering_wire_pull",), fit, Point(np.array([pull, 2.0, 1.0]), None, np.ones(1)))
         assert size_of(wire) == pull
+
+
+@pytest.mark.parametrize("scale, found", [(2.5, {"dimension_deviation"}), (4.2, set())])
+def test_what_would_have_to_be_far_above_its_typical_size_is_far_fetched(scale, found):
+    """Unless the winner has to be, too."""
+
+    def sized(effect: str, z: float) -> Family:
+        fit = SimpleNamespace(parameters=(Parameter(f"{effect}.x", None, 1.0, 0.02),))
+        return Family((effect,), fit, Point(np.array([z]), None, np.ones(1)))
+
+    winner = sized("gyro_scale", scale)
+    families = [winner, sized("dimension_deviation", -4.45), sized("inertia_deviation", 3.9)]
+    assert far_fetched(families, winner) == found
 
 
 def test_what_leaks_into_a_number_that_is_typically_none_is_in_its_interval():

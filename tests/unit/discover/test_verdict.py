@@ -34,6 +34,23 @@ def test_near_rival_makes_a_class_of_at_most_three():
     assert found.verdict == "class" and found.effects[0] == "quadratic_drag" and len(found.effects) == 3
 
 
+def test_a_rival_far_above_its_typical_size_is_none():
+    gains = {"gyro_scale": 4336.0, "dimension_deviation": 4326.0}
+    alike = facts(("gyro_scale",), gains)
+    assert decide(alike).verdict == "class"
+    assert decide(replace(alike, far_fetched=frozenset({"dimension_deviation"}))).verdict == "named"
+
+
+def test_one_effect_by_other_numbers_in_each_run_is_something_else():
+    """A magnet was named a wire that pulls: it does at one release what a wire does, and at another more."""
+    wire = facts(("lingering_wire_pull",), {"lingering_wire_pull": 2415.0})
+    assert decide(replace(wire, odds=3.3)).verdict == "named"
+    found = decide(replace(wire, odds=5.1))
+    assert found.verdict == "something_else" and "lingering_wire_pull" in found.sentence
+    # Of two effects each takes over some of the other's, run by run.
+    assert decide(replace(facts(("lingering_wire_pull", "clock_error")), odds=5.1)).verdict == "pair"
+
+
 def test_windows_that_stay_structured_are_something_else():
     found = decide(facts(bad=rules.UNEXPLAINED + 0.01))
     assert found.verdict == "something_else" and found.effects == ()
