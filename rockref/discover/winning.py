@@ -25,10 +25,9 @@ BEHIND = 1.1
 #: The same after one round of changed sizes (decided: an inertia whose objective was 19 per cent above took 100 s of a
 #: core for the other rounds, and came down to 15).
 STILL_BEHIND = 1.03
-#: What a winner at its end may leave above the noise before all of its kin are tried in its place (decided: of 52 right
-#: ones 42 left less), and how many of them are where it leaves less (decided: sides that were off had 1.06 on short
-#: windows, where a scale had 0.98; both came down to the noise. Of the kin of a scale sides are the second).
-UNSETTLED, NEAREST = 250.0, 2
+#: What a winner at its end may leave above the noise before its kin are tried in its place (decided: of 52 right ones
+#: 42 left less).
+UNSETTLED = 250.0
 
 
 def upheld(look: Look, winner: Family, second: bool, seed: int, say: Callable[[str], None]) -> Family | None:
@@ -86,7 +85,7 @@ def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int
     if structured(winner) > MISSING:
         rivals = []
     ended = ranked(look.kept, all_finished(setup, [winner, *rivals[:CONTENDERS]], seed), say)
-    if structured(ended.order[0]) <= MISSING:
+    if UNSETTLED < room(ended.order[0]) and structured(ended.order[0]) <= MISSING:
         ended = with_kin(setup, ended, seed, say)
     look.gains |= {id: max(gain, look.gains.get(id, -np.inf)) for id, gain in ended.gains.items()}
     left = [f for f in look.order if f.effects[-1] not in ended.gains]
@@ -96,8 +95,7 @@ def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int
 
 
 def with_kin(setup: Setup, ended: Look, seed: int, say: Callable[[str], None]) -> Look:
-    """The families at their ends, and the kin of the first of them, begun where it ended, less its effect: all of them
-    where it leaves something, else the nearest.
+    """The families at their ends, and the kin of the first of them, begun where it ended, less its effect.
 
     A look from nominal parameters fits in full what came nearest on short windows. Kin may have begun too far off there
     (a centre of mass 0.3 mm off was at 1.06, where the tilt of the plate, which hardly differs, had 1.00, and was left:
@@ -105,8 +103,7 @@ def with_kin(setup: Setup, ended: Look, seed: int, say: Callable[[str], None]) -
     """
     winner = ended.order[0]
     offered = {kind.id for kind in candidates_beside(setup, ended.kept.effects)} - set(ended.gains)
-    near_to_it = kin(winner.effects[-1])[: None if room(winner) > UNSETTLED else NEAREST]
-    others = [(*winner.effects[:-1], id) for id in near_to_it if id in offered]
+    others = [(*winner.effects[:-1], id) for id in kin(winner.effects[-1]) if id in offered]
     if not others:
         return ended
     tried = in_the_valley_of(setup, winner, others, ended.kept)
