@@ -50,7 +50,7 @@ def held(r, omega, inertia, mass, g, moment):
     """Force (3,) [N] of the plate on a block that turns about a resting point, and its angular acceleration (3,).
 
     r : (3,) from the centre of mass to that point; omega : (3,); inertia : (3, 3) in the laboratory; moment [N m]: of
-    the plate about the vertical through that point.
+    the plate about the vertical through that point. Newton's and Euler's equations, A1 to A3 of the law.
     """
     R, S = _skew(r), _skew(omega)
     gravity = np.array([0.0, 0.0, g])
