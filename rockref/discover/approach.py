@@ -15,7 +15,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from rockref.discover.candidates import SELDOM, SHAPES
-from rockref.discover.fit import Fit, Parameter, Point
+from rockref.discover.fit import Fit, Point
+from rockref.discover.parameter import Parameter
 from rockref.discover.windows import STATES
 
 #: Changes of the warp that are looked at [m]; decided: three standard deviations of heights known to 15 %, in steps of

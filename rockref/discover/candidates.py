@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 
 from rockref.api import Model
-from rockref.discover.fit import Parameter
+from rockref.discover.parameter import Parameter
 from rockref.effects import catalogue
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.loads.base_vibration import BaseVibration

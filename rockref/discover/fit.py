@@ -14,6 +14,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.beside import on_threads, threads_left
+from rockref.discover.parameter import Parameter
 from rockref.discover.reconstruct import moved_by
 from rockref.discover.windows import STATES, Series, running_mean
 
@@ -43,32 +44,6 @@ GROWTH = (0.35, 0.7, 1.0)
 STRUCTURED = 1.5
 #: Mean loss above which a window's corrections are improved by themselves before each joint step (1 is noise).
 ROUGH = 1.3
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """One number to be found. z = 0 is its centre, z = +-1 one prior standard deviation away.
-
-    set(model, value) -> model, for run `run` or for all (None); value = centre * exp(spread z) if `log`, else
-    centre + spread z. step: of the finite difference, in z. prior: standard deviation in z (inf for none).
-    """
-
-    name: str
-    set: Callable[[Model, float], Model]
-    centre: float
-    spread: float
-    log: bool = False
-    run: int | None = None
-    step: float = 0.05
-    prior: float = 1.0
-    low: float = -np.inf
-    high: float = np.inf
-    unit: str = ""
-
-    def value(self, z: float) -> float:
-        """The number at z."""
-        v = self.centre * np.exp(self.spread * z) if self.log else self.centre + self.spread * z
-        return float(min(max(v, self.low), self.high))
 
 
 @dataclass
@@ -341,7 +316,7 @@ class Fit:
         g = g_g - np.einsum("bsg,bs->g", K, g_s)
         return H, g, (H_ss, H_sg, g_s, K)
 
-    def step(self, point: Point, lam: float, only=None) -> tuple[Point, float]:
+    def step(self, point: Point, lam: float) -> tuple[Point, float]:
         """One damped Gauss-Newton step of everything; returns the better point and the next damping."""
         H, g, (H_ss, H_sg, g_s, _) = self.normal_equations(point)
         H = H + np.diag(1 / self.prior**2)

@@ -9,8 +9,9 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.candidates import is_inverse, value_of
-from rockref.discover.fit import Fit, Parameter, Point
+from rockref.discover.fit import Fit, Point
 from rockref.discover.intervals import half_widths
+from rockref.discover.parameter import Parameter
 from rockref.discover.provenance import versions
 from rockref.effects.base import Effect
 from rockref.measure.experiment import Experiment

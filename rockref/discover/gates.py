@@ -10,8 +10,9 @@ import numpy as np
 
 from rockref.discover import verdict as rules
 from rockref.discover.candidates import FORMS
-from rockref.discover.fit import Fit, Parameter, Point
+from rockref.discover.fit import Fit, Point
 from rockref.discover.information import Information, covariance, eliminated, own_parameters
+from rockref.discover.parameter import Parameter
 
 #: Two fits agree while they differ by less than this many widened standard deviations in every shared parameter
 #: (decided: two draws from the same law differ by more than three widths once in thirty numbers at root two a width).

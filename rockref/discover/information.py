@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.discover.fit import Fit, Parameter, Point
+from rockref.discover.fit import Fit, Point
+from rockref.discover.parameter import Parameter
 from rockref.discover.windows import STATES
 
 

@@ -6,7 +6,8 @@ import numpy as np
 
 from rockref.discover import verdict as rules
 from rockref.discover.candidates import SELDOM, SHAPES
-from rockref.discover.fit import Fit, Parameter, Point
+from rockref.discover.fit import Fit, Point
+from rockref.discover.parameter import Parameter
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
 NINETY = 1.645

@@ -21,8 +21,9 @@ from rockref.api import Model, simulate
 from rockref.discover import verdict as rules
 from rockref.discover.baseline import baseline_parameters
 from rockref.discover.candidates import FORMS, SHAPES, kinds, parameters_of, value_of
-from rockref.discover.fit import Fit, Parameter
+from rockref.discover.fit import Fit
 from rockref.discover.information import eliminated, information, own_parameters
+from rockref.discover.parameter import Parameter
 from rockref.discover.screen import PROBE
 from rockref.discover.search import MIDDLE
 from rockref.discover.windows import Cut, Series, series

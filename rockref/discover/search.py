@@ -13,7 +13,8 @@ from rockref.discover.baseline import baseline_parameters, roll_parameters
 from rockref.discover.beside import side_by_side
 from rockref.discover.candidates import parameters_of
 from rockref.discover.coarse import coarse_to_fine
-from rockref.discover.fit import Fit, Parameter, Point, out_of_step
+from rockref.discover.fit import Fit, Point, out_of_step
+from rockref.discover.parameter import Parameter
 from rockref.discover.windows import Cut, Series, gyro_of, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment

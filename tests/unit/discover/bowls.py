@@ -6,7 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from rockref.discover.families import Family
-from rockref.discover.fit import Parameter, Point
+from rockref.discover.fit import Point
+from rockref.discover.parameter import Parameter
 from rockref.discover.search import Setup
 
 WINDOWS, SAMPLES = 40, 60

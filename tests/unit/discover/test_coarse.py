@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from rockref.discover.coarse import coarse_to_fine
-from rockref.discover.fit import Fit, Parameter, running_mean
+from rockref.discover.fit import Fit, running_mean
+from rockref.discover.parameter import Parameter
 from rockref.discover.windows import STATES
 
 B, M = 6, 160

@@ -7,8 +7,9 @@ import pytest
 
 from rockref.discover.evidence import CLIP
 from rockref.discover.families import Family, amplitudes, by_sample, far_fetched, gain_between, size_of
-from rockref.discover.fit import Parameter, Point
+from rockref.discover.fit import Point
 from rockref.discover.fitted import estimates
+from rockref.discover.parameter import Parameter
 from tests.unit.discover.bowls import SAMPLES, WINDOWS, Bowl, family, series
 
 

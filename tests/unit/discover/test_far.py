@@ -10,7 +10,8 @@ from rockref import Model
 from rockref.discover import far, search
 from rockref.discover.families import Family, same_windows
 from rockref.discover.far import first_looks, first_steps, in_the_valley_of, kin, nominal_beside
-from rockref.discover.fit import Parameter, Point
+from rockref.discover.fit import Point
+from rockref.discover.parameter import Parameter
 from rockref.discover.search import SHORT, Setup, nominal, windows
 from rockref.effects import catalogue
 from rockref.effects.catalogue import parse

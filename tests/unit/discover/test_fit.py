@@ -5,8 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.discover.fit import CAP, CAUCHY, Fit, Parameter
+from rockref.discover.fit import CAP, CAUCHY, Fit
 from rockref.discover.information import by_run, eliminated
+from rockref.discover.parameter import Parameter
 from rockref.discover.windows import STATES
 
 B, G, M = 6, 4, 5

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rockref.discover.fit import Parameter
+from rockref.discover.parameter import Parameter
 from rockref.discover.plainer import plainer
 from rockref.discover.verdict import DETECTED
 from tests.unit.discover.bowls import Bowl, family

@@ -7,7 +7,7 @@ import pytest
 
 from rockref.discover.approach import HIGHER, higher
 from rockref.discover.families import mean_loss, structured
-from rockref.discover.fit import Parameter
+from rockref.discover.parameter import Parameter
 from rockref.discover.resized import AFFORDABLE, LAST, UNSETTLED, cheapest, moves, placed_at, resized
 from tests.unit.discover.bowls import ALONE, WINDOWS, Bowl, family
 

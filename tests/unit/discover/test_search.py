@@ -11,7 +11,8 @@ from rockref.discover import search
 from rockref.discover.approach import JUMPS, along_ridge
 from rockref.discover.baseline import baseline_parameters
 from rockref.discover.coarse import STAGES
-from rockref.discover.fit import Parameter, Point
+from rockref.discover.fit import Point
+from rockref.discover.parameter import Parameter
 from rockref.discover.search import ARRIVED, arrived, early, jumped, led_on
 from tests.unit.discover.bowls import ALONE, Bowl
 from tests.unit.discover.bowls import WINDOWS as BOWLS

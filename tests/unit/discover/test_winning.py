@@ -8,8 +8,8 @@ import pytest
 from rockref.discover import verdict as rules
 from rockref.discover import winning
 from rockref.discover.families import gain_over
-from rockref.discover.fit import Parameter
 from rockref.discover.looking import Look
+from rockref.discover.parameter import Parameter
 from rockref.discover.winning import CONTENDS, all_finished, exchanged, finished, to_the_end, upheld
 from rockref.effects.loads.quadratic_drag import QuadraticDrag
 from rockref.effects.sensor.gyro_scale import GyroScale
