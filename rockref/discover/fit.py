@@ -82,6 +82,7 @@ class Fit:
         spread = np.sqrt(ATTITUDE_ERROR**2 + ATTITUDE_GROWTH**2 * s.time)
         self.state_prior = np.stack([spread, spread, *[np.full(s.B, RATE_ERROR)] * 3], axis=1)
         self.prior = np.array([p.prior for p in self.parameters])
+        self.most = np.array([p.most for p in self.parameters])
         self.stated = np.array([r.release_tilt for r in s.runs])
         self._last: tuple | None = None
 
@@ -208,7 +209,7 @@ class Fit:
         return J
 
     def parameter_jacobian(self, z, corrections, r: np.ndarray, Js: np.ndarray, only=None) -> np.ndarray:
-        """d residual / d z, (B, G, M, 3), by forward differences (of the parameters `only`, if given).
+        """d residual / d z, (B, G, M, 3), by differences away from bounds (of the parameters `only`, if given).
 
         What belongs to one run moves only the windows of that run: such parameters of all runs are moved together.
         What is in ADDING_UP is seen with corrections that move the starts of the windows back to where they were. The
@@ -226,7 +227,7 @@ class Fit:
         def some(fit: Fit, group: list[int]) -> None:
             moved = z.copy()
             for at in group:
-                moved[only[at]] += self.parameters[only[at]].step
+                moved[only[at]] += self.parameters[only[at]].step_from(z[only[at]])
             if begun is not None and self.parameters[only[group[0]]].name.startswith(ADDING_UP):
                 shift = moved_by(begun, fit.series.starts(*fit.models(moved)))
                 shift[self.series.first] = 0
@@ -236,7 +237,7 @@ class Fit:
             for at in group:
                 p = self.parameters[only[at]]
                 mine = slice(None) if p.run is None else self.series.run_of == p.run
-                columns[at][mine] = change[mine] / p.step
+                columns[at][mine] = change[mine] / p.step_from(z[only[at]])
 
         self.on_twins(some, list(together.values()))
         return columns.swapaxes(0, 1)
@@ -328,8 +329,9 @@ class Fit:
             dc = -np.linalg.solve(H_ss, (g_s + H_sg @ dz)[..., None])[..., 0]
             dc = np.clip(dc, -4 * self.state_prior, 4 * self.state_prior)
             dc[self.series.first] = 0
-            trial, _ = self.point(point.z + dz, point.corrections + dc)
-            kept, _ = self.point(point.z + dz, point.corrections)
+            z = np.minimum(point.z + dz, self.most)
+            trial, _ = self.point(z, point.corrections + dc)
+            kept, _ = self.point(z, point.corrections)
             swap = kept.loss < trial.loss  # a window may keep its corrections where the joint step overshoots
             trial.corrections[swap], trial.loss[swap] = kept.corrections[swap], kept.loss[swap]
             thrown = np.flatnonzero((trial.loss - point.loss > THROWN * self.series.count) & ~self.series.first)

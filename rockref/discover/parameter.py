@@ -34,3 +34,13 @@ class Parameter:
         """The number at z."""
         v = self.centre * np.exp(self.spread * z) if self.log else self.centre + self.spread * z
         return float(min(max(v, self.low), self.high))
+
+    @property
+    def most(self) -> float:
+        """z at which the upper bound is reached; further up nothing changes, and a derivative sees nothing."""
+        ratio = self.high / self.centre if self.log else self.high - self.centre
+        return float((np.log(ratio) if self.log else ratio) / self.spread)
+
+    def step_from(self, z: float) -> float:
+        """The step of the finite difference at z: downwards where the upper bound leaves no room above."""
+        return self.step if z + self.step <= self.most else -self.step

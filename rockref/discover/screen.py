@@ -86,8 +86,9 @@ def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, le
         dc = -np.linalg.solve(H_ss, (g_s + H_sg @ (share * dz))[..., None])[..., 0]
         dc = np.clip(dc, -4 * wide.state_prior, 4 * wide.state_prior)
         dc[wide.series.first] = 0
-        trial, _ = wide.point(z0 + share * dz, c + dc)
-        kept, _ = wide.point(z0 + share * dz, c)
+        z = np.minimum(z0 + share * dz, wide.most)
+        trial, _ = wide.point(z, c + dc)
+        kept, _ = wide.point(z, c)
         swap = kept.loss < trial.loss
         trial.corrections[swap], trial.loss[swap] = kept.corrections[swap], kept.loss[swap]
         gain = point.objective - trial.objective

@@ -129,6 +129,23 @@ def test_parameters_of_runs_are_moved_together_and_kept_apart():
         assert np.all(J[~mine, j] == 0)
 
 
+def test_a_derivative_is_taken_away_from_an_upper_bound():
+    """A share of 1 shows nothing of more than 1; less of it shows what it does."""
+    share = Parameter("gyro_saturation.softness", None, 0.0, 1.0, low=0.0, high=1.0)
+    factor = Parameter("uneven_foot_friction.foot1", None, 2.0, 0.5, log=True, high=4.0)
+    assert share.most == 1.0 and factor.value(factor.most) == pytest.approx(4.0, rel=1e-15)
+    assert Parameter("K_N", None, 6e7, 0.15, log=True).most == np.inf
+    assert [share.step_from(z) for z in (0.0, 0.95, 0.96, 1.0)] == [0.05, 0.05, -0.05, -0.05]
+    fit = object.__new__(Fit)
+    fit.series = SimpleNamespace(run_of=np.zeros(1, int), workers=1)
+    fit.parameters = (share,)
+    fit.residual = lambda z, corrections: np.full((1, M, 3), share.value(z[0]) ** 2)
+    for z, slope in ((0.0, 0.05), (1.0, 1.95)):
+        z = np.array([z])
+        J = fit.parameter_jacobian(z, None, fit.residual(z, None), None)
+        np.testing.assert_allclose(J, slope, rtol=1e-12)
+
+
 def test_what_adds_up_is_seen_from_the_starts_that_there_were():
     """A drift that only moves the starts: its column is theirs, however the residual bends meanwhile."""
     fit, rng = object.__new__(Fit), np.random.default_rng(1)

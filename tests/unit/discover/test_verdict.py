@@ -47,6 +47,8 @@ def test_one_effect_by_other_numbers_in_each_run_is_something_else():
     assert decide(replace(wire, odds=3.3)).verdict == "named"
     found = decide(replace(wire, odds=5.1))
     assert found.verdict == "something_else" and "lingering_wire_pull" in found.sentence
+    # Windows that are out of step throw the run that they are in.
+    assert decide(replace(wire, odds=5.1, bad=0.1)).verdict == "named"
     # Of two effects each takes over some of the other's, run by run.
     assert decide(replace(facts(("lingering_wire_pull", "clock_error")), odds=5.1)).verdict == "pair"
 
