@@ -26,7 +26,6 @@ from typing import Any
 import numpy as np
 from rich.progress import Progress
 
-from rockref.discover import search, windows
 from rockref.discover import verdict as rules
 from rockref.discover.blind.marks import mark
 from rockref.discover.blind.rivals import first_of_ranking, said
@@ -34,9 +33,11 @@ from rockref.discover.blind.scoring import VERDICT
 from rockref.discover.blind.sealing import unseal, write_json
 from rockref.discover.blind.table import scores
 from rockref.discover.diagnose import baseline_model, diagnose
-from rockref.discover.families import Family, size_of
-from rockref.discover.looking import candidates_beside
-from rockref.discover.screen import screen
+from rockref.discover.fit import search
+from rockref.discover.fit.families import Family, size_of
+from rockref.discover.looking.look import candidates_beside
+from rockref.discover.looking.screen import screen
+from rockref.discover.windows import series as windows
 from rockref.measure.experiment import FIT, load_experiment
 from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError

@@ -6,8 +6,8 @@ Run it in the folder of the project: ``python examples/compare_models.py`` (half
 from pathlib import Path
 
 from rockref import Model
-from rockref.discover.compare import compare
-from rockref.discover.sentences import findings
+from rockref.discover.compare.models import compare
+from rockref.discover.compare.sentences import findings
 from rockref.measure import load_experiment
 from rockref.report.comparison_page import comparison_page
 

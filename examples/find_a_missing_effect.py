@@ -8,8 +8,8 @@ on a free core). `rockref diagnose` asks the same of the whole catalogue.
 from pathlib import Path
 
 from rockref.discover.add import add
-from rockref.discover.compare import baseline_model, compare
-from rockref.discover.sentences import findings
+from rockref.discover.compare.models import baseline_model, compare
+from rockref.discover.compare.sentences import findings
 from rockref.measure import load_experiment
 
 EXPERIMENT = Path(__file__).resolve().parents[1] / "data/experiments/mystery-05"

@@ -59,8 +59,8 @@ def compare(
     from rockref.commands._models import labels, named_models
     from rockref.commands._progress import progress
     from rockref.commands._results import say_written
-    from rockref.discover.compare import baseline_model
-    from rockref.discover.compare import compare as run_comparison
+    from rockref.discover.compare.models import baseline_model
+    from rockref.discover.compare.models import compare as run_comparison
     from rockref.measure import load_experiment
     from rockref.report.output import usable_folder, write_report
 

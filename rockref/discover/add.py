@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnose import baseline_model
-from rockref.discover.errors import FIT_STRETCH, STRETCHES, Errors, errors_of, holdout_errors, spread_of
-from rockref.discover.families import Family, afresh, mean_loss
-from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of
+from rockref.discover.fit.errors import FIT_STRETCH, STRETCHES, Errors, errors_of, holdout_errors, spread_of
+from rockref.discover.fit.families import Family, afresh, mean_loss
+from rockref.discover.fit.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of
+from rockref.discover.fit.information import covariance, information
+from rockref.discover.fit.search import Setup, baseline
 from rockref.discover.fitting import started_family, usable
-from rockref.discover.information import covariance, information
-from rockref.discover.presearch import MISLEADING, release_fit, tone
-from rockref.discover.resized import resized
-from rockref.discover.screen import screen
-from rockref.discover.search import Setup, baseline
-from rockref.discover.stretches import AXES
+from rockref.discover.looking.presearch import MISLEADING, release_fit, tone
+from rockref.discover.looking.resized import resized
+from rockref.discover.looking.screen import screen
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, Experiment, load_experiment
 from rockref.model.errors import InputError

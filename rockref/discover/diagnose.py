@@ -12,10 +12,9 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover import verdict as rules
-from rockref.discover.beside import side_by_side
-from rockref.discover.clipped import flat_tops
-from rockref.discover.evidence import HeldOut, held_out, rms_deg_s
-from rockref.discover.families import (
+from rockref.discover.fit.beside import side_by_side
+from rockref.discover.fit.evidence import HeldOut, held_out, rms_deg_s
+from rockref.discover.fit.families import (
     Family,
     amplitudes,
     far_fetched,
@@ -29,19 +28,20 @@ from rockref.discover.families import (
     size_of,
     structured,
 )
-from rockref.discover.gates import Gate, gradient_small, off_bounds, runs_agree, step_small
-from rockref.discover.information import information
-from rockref.discover.looking import FAR, POLISH, TOO_FAR, Look, duel, look_further
+from rockref.discover.fit.gates import Gate, gradient_small, off_bounds, runs_agree, step_small
+from rockref.discover.fit.information import information
+from rockref.discover.fit.search import FRESH, Setup, baseline
+from rockref.discover.looking.look import FAR, POLISH, TOO_FAR, Look, duel, look_further
+from rockref.discover.looking.presearch import STRONG, suspects
+from rockref.discover.looking.two import two_at_once
+from rockref.discover.looking.winning import exchanged, finished, to_the_end, upheld
 from rockref.discover.on_this_data import seen_by
-from rockref.discover.own_windows import known_own
 from rockref.discover.plan import switches_of
-from rockref.discover.presearch import STRONG, suspects
-from rockref.discover.search import FRESH, Setup, baseline
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
-from rockref.discover.two import two_at_once
-from rockref.discover.windows import gyro_of
-from rockref.discover.winning import exchanged, finished, to_the_end, upheld
+from rockref.discover.windows.clipped import flat_tops
+from rockref.discover.windows.own import known_own
+from rockref.discover.windows.series import gyro_of
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 

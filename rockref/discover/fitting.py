@@ -12,13 +12,13 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.diagnose import baseline_model
-from rockref.discover.errors import FIT_STRETCH, Errors, errors_of
-from rockref.discover.families import Family, mean_loss
-from rockref.discover.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of, start_from
-from rockref.discover.gates import Gate, gates, other_start
-from rockref.discover.information import covariance, information
-from rockref.discover.presearch import suspects
-from rockref.discover.search import Setup, baseline
+from rockref.discover.fit.errors import FIT_STRETCH, Errors, errors_of
+from rockref.discover.fit.families import Family, mean_loss
+from rockref.discover.fit.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of, start_from
+from rockref.discover.fit.gates import Gate, gates, other_start
+from rockref.discover.fit.information import covariance, information
+from rockref.discover.fit.search import Setup, baseline
+from rockref.discover.looking.presearch import suspects
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, Experiment, load_experiment
 from rockref.model.errors import InputError

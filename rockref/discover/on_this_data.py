@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.candidates import kinds
-from rockref.discover.fit import Fit, Point
-from rockref.discover.information import eliminated, information
-from rockref.discover.plan import LEFT_OUT, NEEDED_Z, amplitude, cosines, switches_of
-from rockref.discover.search import Setup
+from rockref.discover.fit.candidates import LEFT_OUT, kinds
+from rockref.discover.fit.information import eliminated, information
+from rockref.discover.fit.least_squares import Fit, Point
+from rockref.discover.fit.search import Setup
+from rockref.discover.plan import NEEDED_Z, amplitude, cosines, switches_of
 
 
 def seen_by(

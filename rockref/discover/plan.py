@@ -19,14 +19,14 @@ import numpy as np
 
 from rockref.api import Model, simulate
 from rockref.discover import verdict as rules
-from rockref.discover.baseline import baseline_parameters
-from rockref.discover.candidates import FORMS, SHAPES, kinds, parameters_of, value_of
-from rockref.discover.fit import Fit
-from rockref.discover.information import eliminated, information, own_parameters
-from rockref.discover.parameter import Parameter
-from rockref.discover.screen import PROBE
-from rockref.discover.search import MIDDLE
-from rockref.discover.windows import Cut, Series, series
+from rockref.discover.fit.baseline import baseline_parameters
+from rockref.discover.fit.candidates import FORMS, LEFT_OUT, SHAPES, kinds, parameters_of, value_of
+from rockref.discover.fit.information import eliminated, information, own_parameters
+from rockref.discover.fit.least_squares import Fit
+from rockref.discover.fit.parameter import Parameter
+from rockref.discover.fit.search import MIDDLE
+from rockref.discover.looking.screen import PROBE
+from rockref.discover.windows.series import Cut, Series, series
 from rockref.effects.base import Effect
 from rockref.measure.experiment import Experiment, Gyro, Run
 from rockref.measure.gyroscope import record
@@ -37,9 +37,6 @@ from rockref.model.errors import InputError
 #: The gyroscope and the tilt uncertainty of a plan without an experiment: those of the shipped experiments.
 GYRO = Gyro(sample_rate=1000.0, noise=0.05 / DEGREES, bandwidth=300.0, resolution=0.01 / DEGREES)
 TILT_UNCERTAINTY = 0.0014
-#: Candidates that no window can judge by a derivative: a shaking base has a phase of its own in every run, and a
-#: clipped record has none at all.
-LEFT_OUT = ("base_vibration", "gyro_saturation")
 #: Seconds of each run that are simulated and used; decided: what the diagnosis uses.
 DURATION = 3.0
 #: Finite differences over a whole run are smaller by this factor; decided: what is a small change over a window is

@@ -13,11 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.baseline import baseline_parameters
-from rockref.discover.information import eliminated
-from rockref.discover.plan import LEFT_OUT, Release, alternatives, says, switches_of
-from rockref.discover.search import TILT_UNCERTAINTY, Setup
-from rockref.discover.windows import gyro_of
+from rockref.discover.fit.baseline import baseline_parameters
+from rockref.discover.fit.candidates import LEFT_OUT
+from rockref.discover.fit.information import eliminated
+from rockref.discover.fit.search import TILT_UNCERTAINTY, Setup
+from rockref.discover.plan import Release, alternatives, says, switches_of
+from rockref.discover.windows.series import gyro_of
 from rockref.effects import catalogue
 
 #: Mass that an experimenter would add, as a share of the block's (decided: two discs of a barbell on 54 kg).

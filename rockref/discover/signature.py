@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.discover.fit import Fit, Point
+from rockref.discover.fit.least_squares import Fit, Point
 
 AXES = ("main", "transverse", "longitudinal")
 #: A misfit of the first swings, in the median over the runs, that is so many times that of the windows after them

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rockref.discover.add import Addition, add
-from rockref.discover.compare import Comparison, baseline_model, compare
+from rockref.discover.compare.models import Comparison, baseline_model, compare
 from rockref.discover.diagnose import Diagnosis, diagnose
 from rockref.measure.experiment import load_experiment
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rockref.discover.add import Addition, State
-from rockref.discover.errors import STRETCH_WORDS, STRETCHES
-from rockref.discover.stretches import AXES
+from rockref.discover.compare.stretches import AXES
+from rockref.discover.fit.errors import STRETCH_WORDS, STRETCHES
 from rockref.report import tables
 from rockref.report.fit_text import estimates_table
 from rockref.report.page import Table

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from rockref.discover.compare import Comparison, RunComparison
-from rockref.discover.features import Features
-from rockref.discover.sentences import findings
-from rockref.discover.stretches import AXES, STRETCH_WORDS, STRETCHES, stretch_masks
+from rockref.discover.compare.features import Features
+from rockref.discover.compare.models import Comparison, RunComparison
+from rockref.discover.compare.sentences import findings
+from rockref.discover.compare.stretches import AXES, STRETCH_WORDS, STRETCHES, stretch_masks
 from rockref.engines import machine
 from rockref.measure.impacts import Impacts
 from rockref.model.channel import DEGREES

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from rockref.discover.compare import Comparison
+from rockref.discover.compare.models import Comparison
 from rockref.report import blocks, tables
 from rockref.report.page import MAX_BYTES, Page
 

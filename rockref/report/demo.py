@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 
 from rockref.api import Model, simulate
-from rockref.discover.compare import Comparison, baseline_model, compare
-from rockref.discover.finding import Finding
-from rockref.discover.sentences import findings
+from rockref.discover.compare.finding import Finding
+from rockref.discover.compare.models import Comparison, baseline_model, compare
+from rockref.discover.compare.sentences import findings
+from rockref.discover.compare.stretches import AXES
 from rockref.discover.story import Journey, run_story
-from rockref.discover.stretches import AXES
 from rockref.measure import envelope_shape, envelopes, load_experiment, main_impacts
 from rockref.measure.activity import leakage, onset
 from rockref.measure.experiment import Experiment

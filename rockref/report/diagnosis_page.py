@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.compare import Comparison, compare
+from rockref.discover.compare.models import Comparison, compare
+from rockref.discover.compare.sentences import findings
+from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnose import Diagnosis, baseline_model
 from rockref.discover.diagnosis_record import plain
-from rockref.discover.sentences import findings
-from rockref.discover.stretches import AXES
 from rockref.effects import catalogue
 from rockref.report import blocks, diagnosis_text, style, tables
 from rockref.report.comparison_page import add_runs

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from rockref.discover.add import cell_names
-from rockref.discover.errors import STRETCH_WORDS, STRETCHES
+from rockref.discover.fit.errors import STRETCH_WORDS, STRETCHES
 from rockref.report import style
 from rockref.report.drawing import Line, Panel, chart, key
 from rockref.report.page import Page, Table

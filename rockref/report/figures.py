@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from rockref.discover.compare import Comparison
-from rockref.discover.stretches import AXES
+from rockref.discover.compare.models import Comparison
+from rockref.discover.compare.stretches import AXES
 from rockref.model.channel import DEGREES
 from rockref.model.storage import write_bytes
 from rockref.report import style, tables

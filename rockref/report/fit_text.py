@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rockref.discover.fitted import Estimate
+from rockref.discover.fit.fitted import Estimate
+from rockref.discover.fit.gates import Gate
 from rockref.discover.fitting import Fitted
-from rockref.discover.gates import Gate
 from rockref.report.page import Table
 from rockref.report.text import print_table
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from rockref.discover.compare import Comparison
+from rockref.discover.compare.models import Comparison
 from rockref.model.errors import InputError
 from rockref.report.comparison_page import comparison_page
 from rockref.report.figures import write_figures

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.discover.compare import MeasuredRun, RunComparison
+from rockref.discover.compare.models import MeasuredRun, RunComparison
 from rockref.model.response import Response
 from rockref.report.attitude import angles, integrated, lowest_points
 from rockref.report.encoding import packed

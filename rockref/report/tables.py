@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from rockref.discover.compare import Comparison, RunComparison
-from rockref.discover.sentences_shape import LEDGER_SHARE
-from rockref.discover.stretches import AXES, STRETCH_WORDS, STRETCHES
+from rockref.discover.compare.models import Comparison, RunComparison
+from rockref.discover.compare.sentences_shape import LEDGER_SHARE
+from rockref.discover.compare.stretches import AXES, STRETCH_WORDS, STRETCHES
 from rockref.model.channel import DEGREES
 from rockref.report.page import Table
 

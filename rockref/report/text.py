@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rockref.discover.compare import Comparison
-from rockref.discover.sentences import findings
+from rockref.discover.compare.models import Comparison
+from rockref.discover.compare.sentences import findings
 from rockref.report import tables
 from rockref.report.page import Table
 

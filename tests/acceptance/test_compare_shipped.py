@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from rockref import Model
-from rockref.discover.compare import baseline_model, compare
-from rockref.discover.sentences import findings
+from rockref.discover.compare.models import baseline_model, compare
+from rockref.discover.compare.sentences import findings
 from rockref.measure import load_experiment
 
 DATA = Path(__file__).resolve().parents[2] / "data/experiments"

@@ -21,7 +21,7 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples/my_effect.py"
 #: MODEL stand for paths.
 COMMANDS = {
     "simulate": ("simulate MODEL", "rockref.api.simulate"),
-    "compare": ("compare EXPERIMENT --model table_3_1 --model MODEL", "rockref.discover.compare.compare"),
+    "compare": ("compare EXPERIMENT --model table_3_1 --model MODEL", "rockref.discover.compare.models.compare"),
     "fit": ("fit EXPERIMENT --model MODEL", "rockref.discover.fitting.fit_experiment"),
     "diagnose": ("diagnose EXPERIMENT --model MODEL", "rockref.discover.diagnose.diagnose"),
     "add": ("add rolling_resistance EXPERIMENT --model MODEL", "rockref.discover.add.add"),

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rockref.discover.information import eliminated
+from rockref.discover.fit.information import eliminated
 from rockref.discover.plan import cosines
 from rockref.discover.tosses import descent
 from rockref.discover.tosses.first_guess import guessed

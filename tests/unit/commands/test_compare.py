@@ -129,7 +129,7 @@ def printed(comparison, width, terminal):
 
 @pytest.fixture(scope="module")
 def of_two_models(short):
-    from rockref.discover.compare import compare
+    from rockref.discover.compare.models import compare
     from rockref.measure import load_experiment
 
     return compare(load_experiment(short), [Model.table_3_1(), Model.four_points()], ["table_3_1", "four_points"])

@@ -5,10 +5,10 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from rockref.discover.families import Family
-from rockref.discover.fit import Point
-from rockref.discover.parameter import Parameter
-from rockref.discover.search import Setup
+from rockref.discover.fit.families import Family
+from rockref.discover.fit.least_squares import Point
+from rockref.discover.fit.parameter import Parameter
+from rockref.discover.fit.search import Setup
 
 WINDOWS, SAMPLES = 40, 60
 #: What fits that are no fits need of a setup: one after the other.

@@ -9,10 +9,10 @@ import numpy as np
 from rockref import Model
 from rockref.discover.add import Addition, State
 from rockref.discover.diagnose import Diagnosis
-from rockref.discover.errors import Errors
-from rockref.discover.fitted import Estimate
+from rockref.discover.fit.errors import Errors
+from rockref.discover.fit.fitted import Estimate
+from rockref.discover.fit.gates import Gate
 from rockref.discover.fitting import Fitted
-from rockref.discover.gates import Gate
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 

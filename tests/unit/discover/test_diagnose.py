@@ -7,7 +7,7 @@ import pytest
 
 from rockref.discover import diagnose
 from rockref.discover.diagnose import beginning, ranked_by, without
-from rockref.discover.looking import Look
+from rockref.discover.looking.look import Look
 from tests.unit.discover.bowls import WINDOWS, Bowl, family
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from rockref import Model
 from rockref.discover import plan as planning
-from rockref.discover.baseline import baseline_parameters
+from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.plan import Release, Says, against, alternatives, cosines, further, outlook, releases_from
 from rockref.effects import catalogue
 from rockref.model.errors import InputError

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rockref import Model
-from rockref.discover.fit import Fit
-from rockref.discover.search import MIDDLE, Setup, windows
-from rockref.discover.windows import STATES
+from rockref.discover.fit.least_squares import Fit
+from rockref.discover.fit.search import MIDDLE, Setup, windows
+from rockref.discover.windows.series import STATES
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 

@@ -8,7 +8,7 @@ import pytest
 
 from rockref import Model
 from rockref.discover import separating
-from rockref.discover.baseline import baseline_parameters
+from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.plan import GYRO, Release, Says
 from rockref.discover.separating import Offer, apart, offers, separating_run
 

@@ -8,7 +8,7 @@ import pytest
 from rich.console import Console
 
 from rockref import Model
-from rockref.discover.compare import compare
+from rockref.discover.compare.models import compare
 from rockref.effects.catalogue import parse
 from rockref.report import blocks, figures, tables
 from rockref.report.comparison_page import add_runs, comparison_page

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rockref.discover.compare import compare
+from rockref.discover.compare.models import compare
 from rockref.report.diagnosis_page import compared, diagnosis_page, write_diagnosis
 from rockref.report.page import MAX_BYTES
 from tests.unit.discover import fakes

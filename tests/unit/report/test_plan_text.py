@@ -7,7 +7,7 @@ import pytest
 from rich.console import Console
 
 from rockref import Model
-from rockref.discover.baseline import baseline_parameters
+from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.plan import Plan, Release, Says, further, outlook
 from rockref.effects import catalogue
 from rockref.report.plan_text import print_plan

@@ -5,7 +5,7 @@ import sys
 import numpy as np
 import pytest
 
-from rockref.discover import search
+from rockref.discover.fit import search
 from rockref.measure.experiment import load_experiment
 from rockref.measure.impacts import main_impacts
 from tests.shipped import CONTROL, ROOT

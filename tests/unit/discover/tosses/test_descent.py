@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rockref.discover.parameter import Parameter
+from rockref.discover.fit.parameter import Parameter
 from rockref.discover.tosses import descent
 
 

@@ -1,0 +1,55 @@
+"""What a candidate is worth: gains window by window, on the runs that were fitted and on those that were not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rockref.discover.fit.approach import approached
+from rockref.discover.fit.least_squares import Fit, Point
+from rockref.discover.fit.search import MIDDLE, Setup, windows
+
+#: A window counts at most this much per sample value in a gain; decided: windows that fall into another order of corner
+#: impacts by luck would else outweigh all others.
+CLIP = 0.12
+#: Share of the windows, the worst fitting ones, that the error in deg/s leaves out: they are out of step.
+TRIMMED = 0.10
+
+
+def clipped_gain(worse: np.ndarray, better: np.ndarray, count: np.ndarray) -> float:
+    """Sum over windows of the loss difference, each clipped to CLIP per sample value."""
+    limit = CLIP * count
+    return float(np.sum(np.clip(worse - better, -limit, limit)))
+
+
+def rms_deg_s(fit: Fit, point: Point) -> float:
+    """RMS of the residual in deg/s over the windows, the worst TRIMMED share of them left out."""
+    r = fit.residual(point.z, point.corrections) * fit.series.sigma
+    mean = np.sum(r**2, axis=(1, 2)) / fit.series.count
+    kept = mean <= np.quantile(mean, 1 - TRIMMED)
+    return float(np.degrees(np.sqrt(np.sum(r[kept] ** 2) / np.sum(fit.series.count[kept]))))
+
+
+@dataclass
+class HeldOut:
+    """Held-out runs seen by a model whose shared parameters are fixed: loss per window, rms."""
+
+    loss: np.ndarray
+    count: np.ndarray
+    run_of: np.ndarray
+    rms: float
+
+
+def held_out(setup: Setup, fit: Fit, point: Point, experiment, effects: tuple[str, ...], seed: int = 1) -> HeldOut:
+    """Apply the parameters of a fit to the held-out runs: only release tilt, phases and window states are free."""
+    runs = experiment.holdout_runs()
+    fixed = fit.models(point.z)[0][0]
+    own = replace(setup, experiment=experiment, runs=runs, base=fixed)
+    parameters = [p for p in own.parameters(effects) if p.run is not None]
+    series = windows(own, MIDDLE, fixed)
+    free = Fit(series, fixed, tuple(parameters), log=setup.log)
+    rng = np.random.default_rng(seed)
+    start = free.relax_states(approached(free, np.zeros(len(parameters))), 2)
+    best = free.run(start, 3, rng)
+    return HeldOut(best.loss, series.count, series.run_of, rms_deg_s(free, best))

@@ -1,0 +1,170 @@
+"""One look further: which effect explains more, tried from everywhere that is cheap, and held against its rivals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.discover import verdict as rules
+from rockref.discover.fit.candidates import LEFT_OUT, kinds
+from rockref.discover.fit.families import (
+    Family,
+    gain_between,
+    gain_over,
+    mean_loss,
+    refit,
+    refit_all,
+    same_windows,
+    size_of,
+    structured,
+)
+from rockref.discover.fit.search import Setup
+from rockref.discover.looking.far import fitted_anew, from_far, in_the_valley_of, kin, own_z
+from rockref.discover.looking.screen import screen
+from rockref.effects.base import Effect
+
+#: Candidates that are refitted after the screen, and iterations of their refit and of the baseline's.
+REFITTED, ITERATIONS = 6, 3
+#: Further iterations of a challenge, half of those of a baseline that is left; the family that is gone on with, and
+#: whose sizes are read, gets three times as many while it gains.
+POLISH = 4
+#: Share of structured windows above which candidates are looked for from nominal parameters first, and above which a
+#: family is too far off for small steps (decided: from a baseline with 0.39 no small step led on; with 0.18 one did).
+FAR, TOO_FAR = 0.2, 0.5
+#: A look leads nowhere where it leaves more than NOWHERE of the structured windows that there were, and these are more
+#: than FEW_STRUCTURED of all (on controls 0 to 2 % stay structured).
+NOWHERE, FEW_STRUCTURED = 0.6, 0.05
+#: Trials whose one step gained less, and promises less, than this are not refitted (but for the three best of them).
+WORTH_A_REFIT = 120.0
+#: Share of the leader's gain below which a candidate is left where it is (decided: refits have doubled a gain).
+BEHIND = 0.4
+#: Gain above which an effect needs no challenge by the narrower family begun where it ended.
+PLAIN = 3000.0
+#: Share of structured windows below which the only candidate near the front, with a plain gain, is not fitted afresh.
+CLEAN = 0.03
+
+
+@dataclass
+class Look:
+    """Candidates on top of a family: the family refitted, the candidates by gain, their gains.
+
+    in_full : whether the front of them was fitted through both stages already.
+    """
+
+    kept: Family
+    order: list[Family]
+    gains: dict[str, float]
+    in_full: bool = False
+
+
+def candidates_beside(setup: Setup, effects: tuple[str, ...]) -> tuple[type[Effect], ...]:
+    """What could be missing beside these effects and those of the model that was given."""
+    had = (e.id for e in setup.base.active_effects())
+    return kinds(setup.experiment.baseline, (*effects, *had, *LEFT_OUT), setup.own)
+
+
+def look_further(setup: Setup, start: Family, seed: int, say) -> Look:
+    """What candidates gain on top of a family, from where it stands or, where it is far off, from nominal parameters.
+
+    The family itself gets the same budget. Where one way leads nowhere, the other one is gone, too.
+    """
+    offered, second = candidates_beside(setup, start.effects), bool(start.effects)
+    kept, far = refit(start, ITERATIONS, seed + 1), structured(start) > FAR
+    families = from_far(setup, offered, kept, say) if far else from_near(setup, offered, start, seed)
+    look = ranked(kept, families, say, in_full=far)
+    if leads_on(look, second) or structured(kept) <= FEW_STRUCTURED or (far and structured(kept) > TOO_FAR):
+        return look
+    others = from_near(setup, offered, start, seed) if far else from_far(setup, offered, kept, say, look.order)
+    return ranked(kept, [*families, *others], say, in_full=True)
+
+
+def from_near(setup: Setup, offered: Sequence[type[Effect]], start: Family, seed: int) -> list[Family]:
+    """Candidates screened by one step from where a family stands, the best of them refitted."""
+    trials = screen(start.fit, start.point, offered, setup, start.effects)
+    worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
+    return race(setup, [Family(t.effects, t.fit, t.point) for t in worth], start, seed)
+
+
+def leads_on(look: Look, second: bool) -> bool:
+    """Whether the leader of a look is an effect, and some candidate leaves much less structured than there was."""
+    best = min(structured(f) for f in (look.kept, *look.order))
+    return best <= NOWHERE * structured(look.kept) and there(look, second)
+
+
+def ranked(kept: Family, families: list[Family], say, in_full: bool = False) -> Look:
+    """Names by the most that one of their families gains over the one that was kept; of each the family that fits best.
+
+    A gain hears little of the windows that are out of step; of two fits of one family the one that has fewer of them
+    goes on, though the other may gain more.
+    """
+    gains: dict[str, float] = {}
+    best: dict[str, Family] = {}
+    for f in families:
+        id = f.effects[-1]
+        gains[id] = max(gains.get(id, -np.inf), gain_between(kept, f))
+        best[id] = min(best.get(id, f), f, key=mean_loss)
+    order = sorted(best.values(), key=lambda f: -gains[f.effects[-1]])
+    for f in order:
+        say(f"  {f.effects[-1]}: gain {gains[f.effects[-1]]:.0f}, size {size_of(f):.2f}")
+    return Look(kept, order, gains, in_full)
+
+
+def there(look: Look, second: bool) -> bool:
+    """Whether the leader of a look is an effect: gain and size."""
+    return bool(look.order) and rules.is_detected(look.gains[look.order[0].effects[-1]], size_of(look.order[0]), second)
+
+
+def race(setup: Setup, families: list[Family], start: Family, seed: int) -> list[Family]:
+    """Refit families an iteration at a time; one that has fallen far behind the leader stays where it is."""
+    alive = set(range(len(families)))
+    for i in range(ITERATIONS):
+        further = dict(zip(alive, refit_all(setup, [families[k] for k in alive], 1, seed + 1 + i), strict=True))
+        families = [further.get(k, f) for k, f in enumerate(families)]
+        gains = {k: gain_over(start, families[k]) for k in alive}
+        leader = max(gains.values(), default=0.0)
+        if leader < WORTH_A_REFIT / 2 and i:
+            break
+        alive = {k for k in alive if gains[k] > min(BEHIND * leader, leader - WORTH_A_REFIT)}
+    return families
+
+
+def challenge(look: Look, wider: Family, seed: int) -> None:
+    """Begin the narrower family once more where the wider one ended, less the effect; if that is better, gains shrink.
+
+    A fit that was begun afresh may only have found a better valley, with the effect or without it.
+    """
+    if not same_windows(look.kept, wider):
+        return
+    point, _ = look.kept.fit.point(wider.point.z[: len(look.kept.point.z)], wider.point.corrections)
+    again = refit(Family(look.kept.effects, look.kept.fit, point), POLISH, seed)
+    if again.point.objective < look.kept.point.objective:
+        less = gain_over(look.kept, again)
+        look.kept = again
+        look.gains = {id: gain - less for id, gain in look.gains.items()}
+
+
+def duel(setup: Setup, look: Look, say) -> Family:
+    """The winner of a look, its near rivals and its kin, each fitted once more from the nominal parameters, and, where
+    the gain is not plain, from where the winner ended.
+
+    A name is not given before the effects that are most easily taken for it were fitted in full. Gains are mended.
+    """
+    winner = look.order[0]
+    gain = look.gains[winner.effects[-1]]
+    near = [f.effects for f in look.order[:3] if look.gains[f.effects[-1]] >= rules.RIVAL_BEFORE_DUEL * gain]
+    if structured(winner) < CLEAN and len(near) == 1 and gain > PLAIN:
+        return winner
+    z = {f.effects: f.point.z[len(look.kept.point.z) :] for f in look.order}
+    offered = [k.id for k in candidates_beside(setup, look.kept.effects)]
+    relatives = [(*look.kept.effects, id) for id in kin(winner.effects[-1]) if id in offered]
+    begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
+    anew = fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
+    fought = [*(f for f in look.order if f.effects in near), *anew]
+    mended = ranked(look.kept, fought, say)
+    if mended.gains[mended.order[0].effects[-1]] < PLAIN:
+        others = [effects for effects in begun if effects != mended.order[0].effects]
+        mended = ranked(look.kept, [*fought, *in_the_valley_of(setup, mended.order[0], others, look.kept)], say)
+    look.order, look.gains = mended.order, look.gains | {id: max(g, 0.0) for id, g in mended.gains.items()}
+    return look.order[0]

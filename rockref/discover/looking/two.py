@@ -1,0 +1,99 @@
+"""Two effects at once, where the best single one leaves too much: every pair by one step, the best of them raced.
+
+An effect that is fitted while another one is missing bends until it stands for both (a scale of the gyroscope came out
+three times too large where a foot resisted spin, too), and what is added to it then finds no place. One step from the
+baseline, not yet bent, sees both; all pairs cost little more than all single effects, whose derivatives are joined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from rockref.discover.fit.beside import side_by_side
+from rockref.discover.fit.families import Family, mean_loss, refit_all
+from rockref.discover.fit.least_squares import Fit, Point
+from rockref.discover.fit.search import Setup
+from rockref.discover.looking.far import FAR_OFF, LOOKS, in_full, nominal_beside
+from rockref.discover.looking.look import Look, candidates_beside, ranked
+from rockref.discover.looking.screen import SHARES, own_columns, with_priors
+from rockref.effects.base import Effect
+
+#: Pairs that are raced on the short windows. Decided: of five experiments with a sensor and another effect the right
+#: pair was among the first four, and won the race, in each.
+RACED = 4
+
+
+@dataclass(frozen=True)
+class Promise:
+    """Two effects, what one step of everything promises to gain with them, and its changes of z (theirs the last)."""
+
+    effects: tuple[str, str]
+    gain: float
+    dz: np.ndarray
+
+
+def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], None]) -> Look | None:
+    """The best pair, fitted in full, as a look on top of one of its effects; None where no pair comes near the runs.
+
+    first : the look that found `start` on top of the plain baseline. One effect of the pair, at least, led somewhere in
+    it; what the pair gains is counted over that one alone.
+    """
+    alone = {f.effects[-1]: f for f in first.order} | {start.effects[-1]: start}
+    plain = nominal_beside(setup, first.kept)
+    begun = plain.fit.run(plain.point, LOOKS, np.random.default_rng(setup.seed))
+    leading = [start.effects[-1], *(f.effects[-1] for f in first.order if f.effects != start.effects)]
+    found = promises(setup, plain.fit, begun, candidates_beside(setup, ()), leading)
+    tried = side_by_side(setup, lambda own, p: stepped_along(own, plain.fit, begun, p), found[:RACED])
+    raced = sorted(refit_all(setup, tried, LOOKS, setup.seed), key=mean_loss)
+    for f in raced:
+        say(f"  two at once: {' + '.join(f.effects)} {mean_loss(f):.2f}")
+    if mean_loss(raced[0]) > FAR_OFF:
+        return None
+    best = in_full(setup, raced[0])
+    return ranked(alone[best.effects[0]], [best], say, in_full=True)
+
+
+def promises(
+    setup: Setup, fit: Fit, point: Point, kinds: Sequence[type[Effect]], leading: Sequence[str]
+) -> list[Promise]:
+    """Every pair with one of the effects `leading`, who stands first in it, by what one step promises; best first."""
+    z, c = point.z, point.corrections
+    r = fit.residual(z, c)
+    Js = fit.state_jacobian(z, c, r)
+    Jg, w = fit.parameter_jacobian(z, c, r, Js), fit.weights(r)
+
+    def own(setup: Setup, id: str) -> tuple[np.ndarray, np.ndarray]:
+        wide = setup.fit(fit.series.twin(), (id,))
+        _, columns = own_columns(wide, point, id, r, Js)
+        return columns, wide.prior[len(point.z) :]
+
+    ids = [kind.id for kind in kinds]
+    columns, priors = zip(*side_by_side(setup, own, ids), strict=True)
+    G = len(point.z)
+    ends = G + np.cumsum([len(p) for p in priors])
+    mine = {id: list(range(end - len(p), end)) for id, p, end in zip(ids, priors, ends, strict=True)}
+    prior = np.concatenate([fit.prior, *priors])
+    z = np.concatenate([z, np.zeros(len(prior) - G)])
+    H, g, _ = fit.reduced(r, Js, np.concatenate([Jg, *columns], axis=1), w, c, z)
+    H, g = with_priors(H, g, prior, z)
+    order = {id: i for i, id in enumerate(leading)}
+    found = []
+    for pair in combinations(ids, 2):
+        if order.keys() & set(pair):
+            a, b = sorted(pair, key=lambda id: order.get(id, len(order)))
+            at = [*range(G), *mine[a], *mine[b]]
+            dz = np.clip(-np.linalg.solve(H[np.ix_(at, at)], g[at]), -3, 3)
+            found.append(Promise((a, b), float(-(g[at] @ dz) / 2), dz))
+    return sorted(found, key=lambda p: -p.gain)
+
+
+def stepped_along(setup: Setup, fit: Fit, point: Point, promise: Promise) -> Family:
+    """The pair at the better of two shares of its step, each window's corrections improved by themselves."""
+    wide = setup.fit(fit.series.twin(), promise.effects)
+    z = np.concatenate([point.z, np.zeros(len(promise.dz) - len(point.z))])
+    places = [wide.relax_states(wide.point(z + share * promise.dz, point.corrections)[0]) for share in SHARES]
+    return Family(promise.effects, wide, min(places, key=lambda p: p.objective))

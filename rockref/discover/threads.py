@@ -1,0 +1,57 @@
+"""Threads for work that does not depend on each other: as many as are free, never more than there are workers."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from threading import Lock
+from typing import TypeVar
+
+Item = TypeVar("Item")
+Found = TypeVar("Found")
+
+
+class Crew:
+    """How many threads are at work: one, and those that it has others do its work, while it waits for them."""
+
+    def __init__(self) -> None:
+        self.at_work, self._lock = 1, Lock()
+
+    @contextmanager
+    def more(self, by: int) -> Iterator[None]:
+        """So many more (or fewer) are at work meanwhile."""
+        with self._lock:
+            self.at_work += by
+        try:
+            yield
+        finally:
+            with self._lock:
+                self.at_work -= by
+
+
+_crew = Crew()
+
+
+def threads_left(items: int, workers: int | None) -> int:
+    """Threads for so many items: as many as there are workers (default: all cores) less those that others have."""
+    return max(1, min(items, (workers or os.cpu_count() or 1) + 1 - _crew.at_work))
+
+
+def on_threads(
+    do: Callable[[Item], Found], items: Sequence[Item], threads: int, failed: Callable[[], None] = lambda: None
+) -> list[Found]:
+    """[do(item) for item in items] on so many threads; failed : called at once where one fails."""
+
+    def done(item: Item) -> Found:
+        with _crew.more(1):
+            return do(item)
+
+    with ThreadPoolExecutor(threads) as pool, _crew.more(-1):
+        try:
+            return list(pool.map(done, items))
+        except BaseException:
+            failed()
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise

@@ -1,0 +1,160 @@
+"""Effects as numbers that a fit moves: absent at zero, typical at one, and back."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rockref import InputError, Model
+from rockref.discover import plan as planning
+from rockref.discover.fit.baseline import baseline_parameters
+from rockref.discover.fit.candidates import BETWEEN, FACTORS, FIXED, SELDOM, SHAPES, kinds, parameters_of, value_of
+from rockref.discover.fit.fitted import start_from, z_of
+from rockref.discover.fitting import known_effects
+from rockref.effects import catalogue
+
+TABLE = Model.table_3_1()
+PLAIN = [kind for kind in catalogue.IN_STEP_ORDER if kind.id != "base_vibration"]
+
+
+@pytest.fixture(autouse=True)
+def no_others(monkeypatch):
+    """What a test tells the process about effects of its own is forgotten after it."""
+    monkeypatch.setattr(catalogue, "OWN", {})
+
+
+def put(kind, z: float) -> Model:
+    """The model with every number of the effect at z, shapes at their typical value."""
+    model = TABLE
+    for p in parameters_of(kind, 1):
+        shape = tuple(p.name.split(".")) in SHAPES
+        model = p.set(model, p.value(0.0 if shape else z))
+    return model
+
+
+@pytest.mark.parametrize("kind", PLAIN, ids=lambda kind: kind.id)
+def test_zero_is_absence(kind):
+    assert put(kind, 0.0).active_effects() == ()
+
+
+@pytest.mark.parametrize("kind", PLAIN, ids=lambda kind: kind.id)
+def test_one_is_there_and_of_typical_size(kind):
+    (effect,) = put(kind, 1.0).active_effects()
+    assert effect.id == kind.id
+    for name, q in kind.quantities.items():
+        value = getattr(effect, name)
+        if (kind.id, name) in FIXED or kind.id in FACTORS and (kind.id, name) not in SHAPES | SELDOM:
+            continue
+        plain = q.sign == "+" or (kind.id, name) in SHAPES or not np.isfinite(q.absent)
+        sized = q.typical if plain else q.absent + abs(q.typical - q.absent)
+        if (kind.id, name) in SELDOM:
+            sized = q.absent + SELDOM[kind.id, name]
+        if (kind.id, name) in BETWEEN:
+            sized = (q.least + q.most) / 2
+        assert value == pytest.approx(sized, rel=1e-9), name
+
+
+@pytest.mark.parametrize("kind", PLAIN, ids=lambda kind: kind.id)
+def test_z_comes_back_from_a_model(kind):
+    parameters = (*baseline_parameters(TABLE, 2, 0.0014), *parameters_of(kind, 2))
+    z = np.zeros(len(parameters))
+    # Half a size: inside every hard limit, and not at the centre.
+    z[[p.name.startswith(kind.id + ".") for p in parameters]] = 0.5
+    model = TABLE
+    for p, zi in zip(parameters, z, strict=True):
+        if p.run is None:
+            model = p.set(model, p.value(zi))
+    np.testing.assert_allclose(start_from(parameters, model), z, atol=1e-9)
+
+
+def test_value_and_z_are_inverse():
+    for p in baseline_parameters(TABLE, 1, 0.0014):
+        assert z_of(p, p.value(0.7)) == pytest.approx(0.7, abs=1e-12)
+        assert value_of(p, 0.7) == p.value(0.7)
+
+
+def test_foot_defects_are_no_candidate_where_the_baseline_has_them():
+    eight, four = ({kind.id for kind in kinds(b)} for b in ("eight_points", "four_points"))
+    assert four - eight == {"foot_defects"}
+    assert "gyro_scale" not in {kind.id for kind in kinds("four_points", ["gyro_scale"])}
+
+
+def test_each_run_of_a_shaking_base_has_its_own_phase():
+    kind = catalogue.find("base_vibration")
+    parameters = parameters_of(kind, 3, frequency=16.4)
+    shared = [p for p in parameters if p.run is None]
+    assert [p.name for p in shared] == ["base_vibration.frequency", "base_vibration.direction"]
+    assert shared[0].value(0.0) == 16.4
+    model = TABLE
+    for p in parameters:
+        if p.run in (None, 1):
+            model = p.set(model, p.value(1.0 if p.run is None or "cosine" in p.name else -1.0))
+    (effect,) = model.active_effects()
+    size = kind.quantities["amplitude"].typical
+    assert effect.amplitude == pytest.approx(np.sqrt(2) * size) and effect.phase == pytest.approx(-np.pi / 4)
+
+
+EXAMPLE = Path(__file__).resolve().parents[4] / "examples/my_effect.py"
+OWN = """
+import math
+from dataclasses import dataclass
+from rockref.effects.base import Effect, Quantity
+
+@dataclass(frozen=True)
+class Mine(Effect):
+    id = "mine"
+    quantities = {
+        "range": Quantity("rad/s", math.inf, 0.1, 10.0, 0.5),
+        "push": Quantity("N", 0.0, -2.0, 2.0, 0.0),
+        "shape": Quantity("1", 2.0, 1.0, 4.0, 3.0),
+    }
+    switches = ("range", "push")
+    range: float = math.inf
+    push: float = 0.0
+    shape: float = 2.0
+
+    def sensor(self, t, crv):
+        return crv / (1 + abs(crv / self.range) ** self.shape) + self.push
+"""
+
+
+def test_a_users_own_effect_is_a_candidate_like_any_other():
+    """Named by its file once, it is known by its id: what fit, add and plan ask for."""
+    (id,) = known_effects((f"{EXAMPLE}:EddyBrake",))
+    kind = catalogue.find(id)
+    (p,) = parameters_of(kind, 6)
+    assert (id, p.name, p.unit, p.low) == ("eddy_brake", "eddy_brake.c", "N m s", 0.0)
+    assert put(kind, 0.0).active_effects() == ()
+    assert put(kind, 1.0).active_effects() == (kind(0.05),)
+    assert start_from((p,), put(kind, 0.5)) == pytest.approx([0.5])
+    with pytest.raises(InputError, match="given twice"):
+        known_effects((id, f"{EXAMPLE}:EddyBrake"))
+
+
+def test_numbers_of_a_users_own_that_are_infinite_none_or_only_shape(tmp_path):
+    """Found as an inverse; in quarters of the range; not moved, but typical."""
+    (tmp_path / "mine.py").write_text(OWN, encoding="utf-8")
+    kind = catalogue.named(f"{tmp_path / 'mine.py'}:Mine")
+    parameters = parameters_of(kind, 1)
+    assert [p.name for p in parameters] == ["mine.range", "mine.push"]
+    assert put(kind, 0.0).active_effects() == ()
+    assert put(kind, 0.5).active_effects() == (kind(range=1.0, push=0.5, shape=3.0),)
+    assert [value_of(p, 0.5) for p in parameters] == [1.0, 0.5]
+    np.testing.assert_allclose(start_from(parameters, put(kind, 0.5)), [0.5, 0.5])
+
+
+def test_one_who_fits_or_plans_may_name_a_file(monkeypatch):
+    """`plan` asks every release about the class that the file has."""
+    asked = []
+
+    class Enough(Exception):
+        pass
+
+    def says(model, release, effects, *rest, **more):
+        asked.append([kind.id for kind in effects])
+        raise Enough
+
+    monkeypatch.setattr(planning, "says", says)
+    with pytest.raises(Enough):
+        planning.plan(TABLE, [planning.Release(0.117)], [f"{EXAMPLE}:EddyBrake", "quadratic_drag"])
+    assert asked == [["eddy_brake", "quadratic_drag"]]

@@ -1,0 +1,125 @@
+"""One look further, on bowls in place of fits: the race, the challenge, gains and sizes."""
+
+import numpy as np
+import pytest
+
+from rockref.discover.fit.families import gain_over, mean_loss
+from rockref.discover.looking import look as looking
+from rockref.discover.looking.look import Look, challenge, race, ranked, there
+from tests.unit.discover.bowls import ALONE, Bowl, family, series
+
+
+def test_who_falls_far_behind_the_leader_stays_where_it_is():
+    start = family((), Bowl(np.array([0.0]), floor=1.2), [0.0])
+    good = Bowl(np.array([0.0, 0.2]), floor=1.0)
+    bad = Bowl(np.array([0.0, 0.2]), floor=1.19)
+    found = race(ALONE, [family(("a",), good, [0.0, 0.0]), family(("b",), bad, [0.0, 0.0])], start, seed=0)
+    assert good.iterations == looking.ITERATIONS and bad.iterations == 1
+    assert gain_over(start, found[0]) > gain_over(start, found[1])
+
+
+def test_a_race_that_nobody_leads_ends_early():
+    start = family((), Bowl(np.array([0.0])), [0.0])
+    bowls = [Bowl(np.array([0.0, 0.001])) for _ in range(3)]
+    race(ALONE, [family(("a",), b, [0.0, 0.0]) for b in bowls], start, seed=0)
+    assert all(b.iterations == 2 for b in bowls)
+
+
+def test_an_effect_that_only_found_a_better_valley_loses_its_gain():
+    """The baseline is stuck at z = 0.3; begun where the effect's fit ended, it is as good without the effect."""
+    kept = family((), Bowl(np.array([0.0]), stuck=True), [0.3])
+    wider = family(("rolling_resistance",), Bowl(np.array([0.0, 0.0])), [0.0, 0.4])
+    wider.point = wider.fit.point([0.0, 0.0], wider.point.corrections)[0]
+    gain = gain_over(kept, wider)
+    assert gain > 100
+    look = Look(kept, [wider], {"rolling_resistance": gain})
+    challenge(look, wider, seed=0)
+    assert look.gains["rolling_resistance"] == pytest.approx(0.0, abs=1e-9)
+    assert look.kept.point.z[0] == 0.0
+
+
+def test_an_effect_that_is_there_keeps_its_gain():
+    kept = family((), Bowl(np.array([0.0]), floor=1.2, stuck=True), [0.0])
+    wider = family(("rolling_resistance",), Bowl(np.array([0.0, 0.5]), floor=1.0), [0.0, 0.5])
+    gain = gain_over(kept, wider)
+    look = Look(kept, [wider], {"rolling_resistance": gain})
+    challenge(look, wider, seed=0)
+    assert look.gains["rolling_resistance"] == gain > 100
+
+
+def test_no_challenge_where_the_cuts_have_moved():
+    kept = family((), Bowl(np.array([0.0])), [0.3])
+    wider = family(("gyro_scale",), Bowl(np.array([0.0, 0.0]), series=series(7)), [0.0, 0.0])
+    look = Look(kept, [wider], {"gyro_scale": 500.0})
+    challenge(look, wider, seed=0)
+    assert look.gains == {"gyro_scale": 500.0} and look.kept is kept
+
+
+def test_a_look_keeps_the_better_family_of_each_name_best_first():
+    kept = family((), Bowl(np.array([0.0]), floor=1.2), [0.0])
+    worse = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.15), [0.0, 1.0])
+    better = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.05), [0.0, 1.0])
+    other = family(("quadratic_drag",), Bowl(np.array([0.0, 1.0]), floor=1.10), [0.0, 1.0])
+    look = ranked(kept, [worse, other, better], lambda line: None, in_full=True)
+    assert look.order == [better, other] and look.in_full
+    assert look.gains["rolling_resistance"] == gain_over(kept, better)
+
+
+@pytest.mark.parametrize("size, found", [(0.05, False), (1.0, True)])
+def test_a_gain_without_a_size_is_no_effect(size, found):
+    kept = family((), Bowl(np.array([0.0]), floor=1.2), [0.0])
+    wider = family(("rolling_resistance",), Bowl(np.array([0.0, size])), [0.0, size])
+    assert there(ranked(kept, [wider], lambda line: None), second=False) is found
+    assert not there(Look(kept, [], {}), second=False)
+
+
+def test_of_two_fits_of_one_name_the_one_with_fewer_windows_out_of_step_goes_on():
+    """A gain is clipped window by window: it hears that half of the windows are nearer, not that they have arrived."""
+    kept = family((), Bowl(np.array([0.0]), floor=1.1), [0.0])
+    nearer = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.0), [0.0, 1.0])
+    kept.point.loss[::2] *= 4.0
+    nearer.point.loss[::2] *= 3.0
+    arrived = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.02), [0.0, 1.0])
+    assert gain_over(kept, nearer) > gain_over(kept, arrived) and mean_loss(nearer) > mean_loss(arrived)
+    for families in ([nearer, arrived], [arrived, nearer]):
+        look = ranked(kept, families, lambda line: None)
+        assert look.order == [arrived]
+        assert look.gains["rolling_resistance"] == gain_over(kept, nearer)
+
+
+def left(effects, share):
+    """A family that leaves this share of its windows structured."""
+    z = [0.0, 1.0][: len(effects) + 1]
+    found = family(effects, Bowl(np.array(z)), z)
+    found.point.loss[: round(share * len(found.point.loss))] *= 4.0
+    return found
+
+
+@pytest.mark.parametrize(
+    "at_first, near, far, asked",
+    [
+        pytest.param(0.15, 0.0, 0.0, ["near"], id="near, and a small step leads on"),
+        pytest.param(0.05, 0.05, 0.0, ["near"], id="near, and too little is structured"),
+        pytest.param(0.1, 0.1, 0.0, ["near", "far"], id="near, and no small step leads on"),
+        pytest.param(0.4, 0.0, 0.0, ["far"], id="far off"),
+        pytest.param(0.4, 0.0, 0.4, ["far", "near"], id="far off, and nothing leads on there"),
+        pytest.param(0.9, 0.9, 0.9, ["far"], id="too far off for small steps"),
+    ],
+)
+def test_where_candidates_begin(monkeypatch, at_first, near, far, asked):
+    """Shares of structured windows: at first, and with the candidate, begun where the family is or far from it."""
+    seen: list[str] = []
+
+    def way(name, share):
+        def found(*_):
+            seen.append(name)
+            return [left(("rolling_resistance",), share)]
+
+        return found
+
+    monkeypatch.setattr(looking, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(looking, "refit", lambda family, *_: family)
+    monkeypatch.setattr(looking, "from_near", way("near", near))
+    monkeypatch.setattr(looking, "from_far", way("far", far))
+    look = looking.look_further(ALONE, left((), at_first), 0, lambda line: None)
+    assert seen == asked and look.in_full == ("far" in asked)

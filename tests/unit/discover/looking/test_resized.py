@@ -1,0 +1,145 @@
+"""Fits that have stopped beside their valley go on from other sizes of their effects."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from rockref.discover.fit.approach import HIGHER, higher
+from rockref.discover.fit.families import mean_loss, structured
+from rockref.discover.fit.parameter import Parameter
+from rockref.discover.looking.resized import AFFORDABLE, LAST, UNSETTLED, cheapest, moves, placed_at, resized
+from tests.unit.discover.bowls import ALONE, WINDOWS, Bowl, family
+
+
+@dataclass
+class Walled(Bowl):
+    """A bowl that leads down from near its bottom only: farther off a fit stays where it is."""
+
+    radius: float = 0.3
+
+    def run(self, point, iterations, rng, relative=0.0):
+        off = np.max(np.abs(point.z - self.bottom))
+        return super().run(point, iterations, rng, relative) if off < self.radius else point
+
+
+def test_a_size_that_is_twice_too_large_is_found():
+    bottom = np.array([0.1, 0.4])
+    stuck = family(("rolling_resistance",), Walled(bottom, floor=0.97), np.array([0.0, 0.8]))
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+
+
+def test_a_rival_that_stays_behind_goes_on_once():
+    """Twice too large it comes down to 1.05 in one round; where 1.02 is what would be near, that was the last one."""
+    once, on = (Walled(np.array([0.1, 0.4]), floor=1.05) for _ in range(2))
+    start = np.array([0.0, 0.8])
+    near, behind = (
+        resized(ALONE, family(("rolling_resistance",), b, start), 0, most=m) for b, m in ((on, 2), (once, 1.02))
+    )
+    assert mean_loss(behind) < 1.06 and mean_loss(near) <= mean_loss(behind)
+    assert once.iterations < on.iterations
+
+
+def test_a_fit_that_has_arrived_is_only_taken_to_its_end():
+    arrived = family(("rolling_resistance",), Bowl(np.array([0.0, 0.4]), floor=0.9), np.array([0.0, 0.45]))
+    found = resized(ALONE, arrived, seed=0)
+    assert found.fit.iterations == LAST
+    assert found.point.z == pytest.approx([0.0, 0.4], abs=0.05 * 0.5**LAST * 1.01)
+
+
+@dataclass
+class Seen(Walled):
+    """The same, seen in every tenth window."""
+
+    def point(self, z, corrections):
+        point, states = super().point(z, corrections)
+        seen = np.arange(WINDOWS) % 10 == 0
+        noise = 0.5 * self.floor * self.series.count
+        point.loss = noise + 10 * seen * (point.loss - noise)
+        return point, states
+
+
+@dataclass
+class Spinning(Seen):
+    """A law of two forms."""
+
+    @property
+    def parameters(self):
+        names = ["K_N", "spin_friction.radius", "spin_friction.sliding_share"]
+        return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in names)
+
+
+@pytest.mark.parametrize("right, stuck_at", [(1.0, 0.0), (0.0, 0.9)])
+def test_the_other_form_of_a_law_is_found(right, stuck_at):
+    bottom = np.array([0.1, 0.8, right])
+    stuck = family(("spin_friction",), Spinning(bottom, floor=0.97), np.array([0.1, 0.8, stuck_at]))
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+
+
+@dataclass
+class Feet(Seen):
+    """The heights and the distance of four feet that belong to an effect."""
+
+    @property
+    def parameters(self):
+        names = [f"foot_defects.delta_long{i}" for i in (1, 2, 3, 4)] + ["foot_defects.delta_diag"]
+        return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in names)
+
+
+def test_feet_that_are_all_too_low_are_found():
+    """Heights that are all low by 0.3, at the right distance: neither one foot nor all five numbers lead there."""
+    bottom = np.array([1.4, 1.5, 1.3, 1.6, 1.5])
+    low = bottom - np.array([0.3, 0.3, 0.3, 0.3, 0.0])
+    stuck = family(("foot_defects",), Feet(bottom, floor=0.97, radius=0.2), low)
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+    assert structured(stuck) > UNSETTLED
+    assert higher(stuck.fit).tolist() == [[h, h, h, h, 0.0] for h in HIGHER]
+    assert higher(Bowl(np.array([0.0, 0.4]))).shape == (0, 2)
+
+
+@dataclass
+class Rough(Walled):
+    """A bowl that only averages lead down: sample by sample a fit stays where it is."""
+
+    radius: float = 0.0
+
+    def run(self, point, iterations, rng, relative=0.0):
+        self.radius = 10.0 if self.averaged > 1 else 0.0
+        return super().run(point, iterations, rng, relative)
+
+
+def test_a_fit_above_the_noise_is_led_on_by_averages():
+    bottom = np.array([0.2, 0.4])
+    stuck = family(("rolling_resistance",), Rough(bottom, floor=0.97), np.array([0.0, 0.1]))
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+
+
+def test_a_fit_that_most_windows_contradict_is_left_alone():
+    lost = family(("rolling_resistance",), Bowl(np.array([0.0, 0.4]), floor=2.0), np.array([0.0, 0.8]))
+    assert resized(ALONE, lost, seed=0) is lost
+
+
+def test_what_does_not_help_is_not_kept():
+    stuck = family(("rolling_resistance",), Walled(np.array([0.0, 0.4]), floor=1.0), np.array([0.0, 0.75]))
+    stuck.fit.radius = 0.0
+    found = resized(ALONE, stuck, seed=0)
+    assert found.point.objective <= stuck.point.objective
+    assert found.point.z in np.array([[0.0, 0.75], [0.0, 0.375]])
+
+
+def test_a_trifle_is_looked_at_with_half_a_size():
+    """A foot of a tenth of the size that it has: neither half of it nor half as much again leads to the valley."""
+    bottom = np.array([0.1, 0.6])
+    stuck = family(("rolling_resistance",), Walled(bottom, floor=0.97), np.array([0.0, 0.06]))
+    assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+
+
+def test_only_sizes_of_effects_are_changed_and_the_cheapest_places_come_first():
+    bowl = Bowl(np.array([0.3, 1.0, 0.5]))
+    z = np.array([0.0, 1.2, 0.5])
+    assert np.all(moves(bowl, z)[:, 0] == 0)
+    assert sorted(np.abs(moves(bowl, z)).sum(axis=1)) == pytest.approx([0.25, 0.25, 0.6, 0.6])
+    point, _ = bowl.point(z, np.zeros((40, 5)))
+    found = cheapest(point, placed_at(bowl, point, moves(bowl, point.z)))
+    assert [p.objective for p in found] == sorted(p.objective for p in found)
+    assert all(p.objective < AFFORDABLE * point.objective for p in found)

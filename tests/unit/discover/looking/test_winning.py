@@ -1,0 +1,175 @@
+"""Who wins a look, on bowls in place of fits: trifles, rivals that had not arrived, and effects that are none."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from rockref.discover import verdict as rules
+from rockref.discover.fit.families import gain_over
+from rockref.discover.fit.parameter import Parameter
+from rockref.discover.looking import winning
+from rockref.discover.looking.look import Look
+from rockref.discover.looking.winning import CONTENDS, all_finished, exchanged, finished, to_the_end, upheld
+from rockref.effects.loads.quadratic_drag import QuadraticDrag
+from rockref.effects.sensor.gyro_scale import GyroScale
+from tests.unit.discover.bowls import ALONE, Bowl, family
+
+ROLLING, DRAG = ("rolling_resistance",), ("quadratic_drag",)
+
+
+def quiet(line):
+    pass
+
+
+def looked(kept, *order):
+    """A look whose gains are those of its families over the one that was kept."""
+    return Look(kept, list(order), {f.effects[-1]: gain_over(kept, f) for f in order})
+
+
+def test_a_trifle_that_gains_most_gives_way_to_an_effect_with_a_size():
+    kept = family((), Bowl(np.zeros(1), floor=1.2, stuck=True), np.zeros(1))
+    trifle = family(ROLLING, Bowl(np.array([0.0, 0.1]), floor=1.0), np.array([0.0, 0.1]))
+    whole = family(DRAG, Bowl(np.array([0.0, 0.0, 0.8]), floor=1.05), np.array([0.0, 0.0, 0.8]))
+    look = looked(kept, trifle, whole)
+    assert look.gains["rolling_resistance"] > look.gains["quadratic_drag"] > rules.DETECTED
+    assert upheld(look, trifle, False, 0, quiet) is whole
+    # Alone, the trifle is no effect; nor is a whole size that gains nothing.
+    assert upheld(looked(kept, trifle), trifle, False, 0, quiet) is None
+    idle = family(DRAG, Bowl(np.array([0.0, 0.0, 0.8]), floor=1.195), np.array([0.0, 0.0, 0.8]))
+    assert upheld(looked(kept, trifle, idle), trifle, False, 0, quiet) is None
+
+
+def test_a_baseline_that_does_as_well_from_there_leaves_no_effect():
+    kept = family((), Bowl(np.array([0.5]), floor=1.0), np.array([-0.4]))
+    wider = family(ROLLING, Bowl(np.array([0.5, 0.0]), floor=1.0), np.array([0.5, 0.4]))
+    look = looked(kept, wider)
+    assert look.gains["rolling_resistance"] > rules.DETECTED
+    assert upheld(look, wider, False, 0, quiet) is None
+
+
+def test_what_is_finished_has_arrived():
+    halfway = family(ROLLING, Bowl(np.array([0.2, 0.5])), np.array([0.0, 0.25]))
+    np.testing.assert_allclose(finished(ALONE, halfway, 0).point.z, [0.2, 0.5], atol=1e-3)
+
+
+def test_a_rival_that_had_not_arrived_overtakes():
+    kept = family((), Bowl(np.zeros(1), floor=1.2, stuck=True), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.04), np.array([0.0, 0.5]))
+    rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=1.0), np.array([0.0, 0.0, 0.77]))
+    look = looked(kept, winner, rival)
+    assert CONTENDS < look.gains["quadratic_drag"] / look.gains["rolling_resistance"] < 1
+    best = to_the_end(ALONE, look, winner, False, 0, quiet)
+    assert best.effects == DRAG
+    assert [f.effects for f in look.order] == [DRAG, ROLLING]
+    assert look.gains["quadratic_drag"] > look.gains["rolling_resistance"]
+
+
+@pytest.mark.parametrize("noise, gap, ahead", [(1.0, 0.4, False), (2.0, 0.35, True)], ids=["far behind", "hopeless"])
+def test_rivals_that_cannot_win_are_not_fitted_on(noise, gap, ahead):
+    """One that gains too little; and one beside a winner that most windows contradict: another effect is missing."""
+    kept = family((), Bowl(np.zeros(1), floor=noise + 0.2 + 0.1 * ahead, stuck=True), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=noise + 0.1 * ahead), np.array([0.0, 0.5]))
+    rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=noise), np.array([0.0, 0.0, 1.0 - gap]))
+    look = looked(kept, winner, rival)
+    assert (look.gains["quadratic_drag"] > CONTENDS * look.gains["rolling_resistance"]) is ahead
+    assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
+    assert rival.fit.iterations == 0
+
+
+@pytest.mark.parametrize("floor, taken", [(1.05, [ROLLING, DRAG]), (1.2, [ROLLING])], ids=["near", "far behind"])
+def test_a_rival_that_is_far_behind_once_polished_is_not_taken_to_its_end(monkeypatch, floor, taken):
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5])), np.array([0.0, 0.4]))
+    rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=floor), np.array([0.0, 0.0, 0.9]))
+    ended = []
+    monkeypatch.setattr(winning, "completed", lambda setup, f, seed, most=0: (ended.append(f.effects), f)[1])
+    found = all_finished(ALONE, [rival, winner], 0)
+    assert ended == taken and [f.effects for f in found] == [ROLLING, DRAG]
+    np.testing.assert_allclose(found[1].point.z, [0.0, 0.0, 1.0], atol=1e-3)
+
+
+def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
+    kept = family((), Bowl(np.zeros(1), floor=1.2, stuck=True), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.03), np.array([0.0, 0.5]))
+    trifle = family(DRAG, Bowl(np.array([0.0, 0.0, 0.1]), floor=1.0), np.array([0.0, 0.0, 0.1]))
+    look = looked(kept, winner, trifle)
+    assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
+
+
+@pytest.mark.parametrize(
+    "left, kin_at, best",
+    [(0.15, 0.0, DRAG), (0.15, 0.14, ROLLING), (0.02, 0.0, ROLLING)],
+    ids=["ahead", "far behind", "nothing is left"],
+)
+def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left, kin_at, best):
+    """Decided by what they gain over the plain baseline; one that falls behind there is not fitted on."""
+    kept = family((), Bowl(np.zeros(1), floor=1.3, stuck=True), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.0 + left), np.array([0.0, 0.5]))
+    kin = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=1.0 + kin_at), np.array([0.0, 0.0, 0.6]))
+    asked = []
+
+    def valley(setup, ended, others, over):
+        asked.append((ended.effects, others, over))
+        return [kin]
+
+    monkeypatch.setattr(winning, "in_the_valley_of", valley)
+    monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (QuadraticDrag, GyroScale))
+    look = looked(kept, winner)
+    assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == best
+    assert asked == ([] if left == 0.02 else [(ROLLING, [DRAG], kept)])
+    assert (kin.fit.iterations > 0) is (best == DRAG)
+    if best == DRAG:
+        assert look.gains["quadratic_drag"] > look.gains["rolling_resistance"] > rules.DETECTED
+
+
+@dataclass
+class Named(Bowl):
+    """A bowl whose parameters have the names that are given."""
+
+    names: tuple[str, ...] = ()
+
+    @property
+    def parameters(self):
+        return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in self.names)
+
+
+SIDES, SCALE, LEVER = ("sides.width", "sides.depth"), ("scale.x",), ("lever.m",)
+
+
+def at_its_bottom(effects, names, floor=1.0):
+    """A family of the baseline's one parameter and these, at the bottom of its bowl."""
+    bowl = Named(np.arange(1.0 + len(names)), floor=floor, names=("K_N", *names))
+    return family(effects, bowl, bowl.bottom)
+
+
+# A pair's loss of 0.01 is 36 units, more than what is CLOSE; one of 0.005 is less.
+@pytest.mark.parametrize(
+    "first, other, behind, floor, taken",
+    [
+        (SIDES, SCALE, 0.0, 1.0, True),
+        (SIDES, SCALE, 0.0, 1.005, True),
+        (SIDES, SCALE, 0.0, 1.01, False),
+        (SCALE, SIDES, 0.0, 0.995, False),
+        (SCALE, SIDES, 0.0, 0.99, True),
+        (SIDES, SCALE, 0.1, 1.0, False),
+    ],
+    ids=["alike and simpler", "nearly", "worse", "a little better, more flexible", "better", "no rival"],
+)
+def test_of_a_pair_the_first_effect_is_held_against_its_rivals(monkeypatch, first, other, behind, floor, taken):
+    """It won its look while the second was missing; `behind`: the share by which its rival was behind there."""
+    asked = []
+
+    def baseline(setup, effects, z):
+        asked.append((effects, list(z)))
+        end = at_its_bottom(effects, (*other, *LEVER), floor)
+        return end.fit, end.point
+
+    monkeypatch.setattr(winning, "baseline", baseline)
+    pair = at_its_bottom(("first", "lever"), (*first, *LEVER))
+    rival = at_its_bottom(("other",), other)
+    look = Look(at_its_bottom((), ()), [rival], {"first": 4000.0, "other": 4000.0 * (1 - behind)})
+    best = exchanged(ALONE, look, pair, 0, quiet)
+    assert best.effects == (("other", "lever") if taken else ("first", "lever"))
+    # Begun where the rival had ended, with the second effect as large as in the pair.
+    begun = (("other", "lever"), [*rival.point.z, pair.point.z[-1]])
+    assert asked == ([] if behind else [begun])

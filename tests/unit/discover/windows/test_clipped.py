@@ -1,0 +1,69 @@
+"""Records that are cut flat are seen, and what was cut off is put back well enough to know the attitude."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rockref import Model
+from rockref.discover.windows.clipped import TOLD, flat_tops, let_go, unclipped
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from tests.unit.discover.synthetic import experiment
+
+LIMIT = 0.45
+
+
+@pytest.fixture(scope="module")
+def two_runs():
+    return experiment(Model.table_3_1(), [{}, {"turned": True}], duration=1.2, noisy=True)
+
+
+def clipped(e, limits):
+    return tuple(replace(run, crv=np.clip(run.crv, -k, k)) for run, k in zip(e.runs, limits, strict=True))
+
+
+def test_records_that_are_cut_at_one_rate_have_flat_tops(two_runs):
+    assert flat_tops(two_runs, clipped(two_runs, (LIMIT, LIMIT))) == pytest.approx(LIMIT)
+
+
+def test_records_that_are_not_cut_have_none(two_runs):
+    assert flat_tops(two_runs, two_runs.runs) is None
+
+
+def test_tops_at_different_rates_are_not_one_gyroscope_s(two_runs):
+    assert flat_tops(two_runs, clipped(two_runs, (LIMIT, 0.9 * LIMIT))) is None
+
+
+@pytest.mark.parametrize("k", [0, 1])
+def test_the_attitude_survives_what_was_cut_off(two_runs, k):
+    """The peaks of 0.65 rad/s are cut at 0.45, 27 ms and more about every impact."""
+    run = clipped(two_runs, (LIMIT, LIMIT))[k]
+    whole, cut, back = two_runs.runs[k].crv, run.crv, unclipped(two_runs, clipped(two_runs, (LIMIT, LIMIT)))[k]
+    step = run.t[1] - run.t[0]
+    lost, left = (np.abs(np.cumsum(w[:, 0] - whole[:, 0]) * step).max() for w in (cut, back))
+    # Five milliradians and more would leave every later window out of step; half of one is within the corrections.
+    assert lost > 5e-3 and left < 5e-4
+    kept = np.abs(run.crv[:, 0]) < 0.99 * LIMIT
+    np.testing.assert_array_equal(back[kept], cut[kept])
+
+
+def test_what_is_not_clipped_stays_as_it_is(two_runs):
+    assert unclipped(two_runs, two_runs.runs)[0] is two_runs.runs[0].crv
+
+
+@pytest.mark.parametrize("softness", [0.3, 1.0])
+def test_what_soft_stops_have_bent_is_put_back(softness):
+    crv = np.linspace(-0.9, 0.9, 60).reshape(-1, 3)
+    shown = GyroSaturation(0.6, softness).sensor(None, crv)
+    # Lines over h = 0.004 ranges leave |f''/f'| h^2/8 of one, at most 2 h^2/8: 4e-6, of 0.6 rad/s.
+    np.testing.assert_allclose(let_go(shown, 0.6, softness), crv, atol=1e-5)
+
+
+def test_noise_beyond_soft_stops_is_the_largest_rate_that_they_tell():
+    assert let_go(np.array([0.61, -0.7]), 0.6, 1.0) == pytest.approx([TOLD * 0.6, -TOLD * 0.6])
+
+
+@pytest.mark.parametrize("limit, softness", [(0.6, 0.0), (np.inf, 1.0)])
+def test_hard_stops_and_none_leave_the_record(limit, softness):
+    crv = np.ones((4, 3))
+    assert let_go(crv, limit, softness) is crv

@@ -1,0 +1,96 @@
+"""From a record to rates and attitude, the filter undone, and to what follows from them."""
+
+from functools import reduce
+
+import numpy as np
+import pytest
+
+from rockref.discover.windows.reconstruct import (
+    attitudes,
+    moved_by,
+    plate_motion,
+    undo_low_pass,
+    yaw_since_touch,
+)
+from rockref.effects.sensor.gyro_bandwidth import DAMPING
+from rockref.measure.gyroscope import low_pass
+from rockref.model.rotation import exponential
+
+DT = 1e-3
+
+
+def test_constant_rate_turns_exactly():
+    w = np.array([0.3, -0.1, 0.2])
+    found = attitudes(np.eye(3), np.tile(w, (500, 1)), DT)
+    # The short series drops |w dt|^5/120 of each step: 1e-18.
+    np.testing.assert_allclose(found[-1], exponential(w * 499 * DT), atol=1e-13)
+
+
+def test_changing_rates_are_integrated_to_second_order():
+    def rates(t):
+        return np.stack([0.6 * np.sin(9 * t), 0.3 * np.cos(14 * t), 0.2 * np.sin(11 * t + 1)], axis=-1)
+
+    fine = np.arange(0, 0.5, DT / 16)
+    exact = reduce(lambda L, w: L @ exponential(w * DT / 16), rates(fine + DT / 32), np.eye(3))
+    error = []
+    for k in (4, 2):
+        t = np.arange(0, 0.5 + 1e-9, k * DT)
+        error.append(np.abs(attitudes(np.eye(3), rates(t), k * DT)[-1] - exact).max())
+    # The mean of the end rates is the trapezoid: half the step, a quarter of the error.
+    assert error[1] < 3e-6 and error[1] == pytest.approx(error[0] / 4, rel=0.1)
+
+
+def test_rotations_stay_rotations():
+    W = np.random.default_rng(0).normal(size=(3000, 3))
+    last = attitudes(np.eye(3), W, DT)[-1]
+    np.testing.assert_allclose(last @ last.T, np.eye(3), atol=1e-9)
+
+
+def test_low_pass_undone():
+    t = np.arange(4000) * 5e-4
+    w = np.stack([np.sin(2 * np.pi * f * t) for f in (3.0, 20.0, 60.0)], axis=1)
+    seen = low_pass(w, 5e-4, 300.0)[::2]
+    found = undo_low_pass(seen, 1000.0, ((300.0, DAMPING),))
+    inside = slice(200, -200)
+    # The filter delays by 0.75 ms and that is gone; what is left is the first-order hold against the filter's own law.
+    assert np.abs(found - w[::2])[inside].max() < 0.02
+    assert np.abs(found - w[::2])[inside].max() < 0.3 * np.abs(seen - w[::2])[inside].max()
+
+
+def test_corrections_make_other_starts_of_these():
+    """Turned about the body's X and Y, and other rates; a turn about Z is no correction's."""
+    rng = np.random.default_rng(4)
+    Lambda = np.stack([exponential(v) for v in rng.normal(size=(6, 3))])
+    W, by = rng.normal(size=(6, 3)), 1e-4 * rng.normal(size=(6, 5))
+    other = np.stack([L @ exponential(np.array([a, c, 2e-4])) for L, (a, c, *_) in zip(Lambda, by, strict=True)])
+    # Turns of 2e-4 leave their squares, 4e-8.
+    np.testing.assert_allclose(moved_by((Lambda, W), (other, W + by[:, 2:])), by, atol=5e-8)
+
+
+def test_yaw_is_counted_since_the_point_touched_and_slips():
+    corners = np.array([[0.1, 0.1, -0.5], [0.1, -0.1, -0.5]])
+    lean = exponential(np.array([-0.05, 0.0, 0.0])), exponential(np.array([0.05, 0.0, 0.0]))
+    Lambda = np.array([lean[0]] * 40 + [lean[1]] * 60)
+    W = np.array([L.T @ np.array([0.0, 0.0, 0.2]) for L in Lambda])
+    starts = np.array([30, 40, 70, 99])
+    # 0.2 rad/s about the vertical; the other corner touches from sample 40 on.
+    np.testing.assert_allclose(
+        yaw_since_touch(Lambda, W, corners, starts, DT, 1.0), [6e-3, 0, 6e-3, 11.8e-3], rtol=1e-9
+    )
+    np.testing.assert_allclose(yaw_since_touch(Lambda, -W, corners, starts, DT, 5e-3), [-5e-3, 0, -5e-3, -5e-3])
+
+
+def test_plate_rings_with_the_block_on_it():
+    """A change of the centre's vertical velocity starts free vibration at the frequency of plate and block together."""
+    mass, plate, stiffness = 50.0, 100.0, 1.5e7
+    corners = np.array([[0.0, 0.1, -0.5]])
+    W = np.zeros((400, 3))
+    W[10:, 0] = 0.1  # v_z = -(W x P)_z = -0.01 m/s from then on
+    motion = plate_motion(np.tile(np.eye(3), (400, 1, 1)), W, corners, DT, mass, plate, stiffness, 0.0)
+    assert np.all(motion[:10] == 0)
+    omega = np.sqrt(stiffness / (mass + plate))
+    jump = mass * 0.01 / (mass + plate)
+    t = DT * np.arange(390)
+    # Semi-implicit steps of 1/16 ms: the phase is off by less than (omega h)^2/24 of itself, the start by one sample.
+    np.testing.assert_allclose(motion[10:, 0], jump / omega * np.sin(omega * (t + DT)), atol=0.2 * jump / omega)
+    assert motion[10:, 0].max() == pytest.approx(jump / omega, rel=0.02)
