@@ -1,20 +1,22 @@
-"""Write the table of figures of `README.md` from `docs/figures.toml`: ``python docs/make_figures.py``."""
+"""Write `docs/reference/figures.md`, and the table of figures of `README.md`, from `docs/figures.toml`."""
 
 from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 README = ROOT / "README.md"
+PAGE = ROOT / "docs" / "reference" / "figures.md"
 SOURCE = ROOT / "docs" / "figures.toml"
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 
 
 def read() -> dict[str, Any]:
-    """The measured results: `machines` by their short name, and the list `row`."""
+    """The measured results: `machines` and `parts` by their short names, and the list `row`."""
     return tomllib.loads(SOURCE.read_text(encoding="utf-8"))
 
 
@@ -23,31 +25,53 @@ def measured(row: dict[str, Any]) -> str:
     return f"{row['date']}" if row["machine"] == "any" else f"{row['date']}, {row['machine']}"
 
 
-def table(found: dict[str, Any]) -> str:
-    """The machines in a sentence, and a line for each figure."""
-    used = [name for name in found["machines"] if name != "any" and any(r["machine"] == name for r in found["row"])]
-    where = "; ".join(f"*{name}* is {found['machines'][name]}" for name in used)
-    lines = [
-        "Each figure with the command that measures it again, the day on which it was measured, and the machine",
-        f"where it depends on one: {where}.",
-        "`docs/make_figures.py` writes this table from `docs/figures.toml`; `make bench` measures the speeds on yours.",
-        "",
-        "| what | figure | measured by | measured on |",
-        "| --- | --- | --- | --- |",
-    ]
-    for row in found["row"]:
+def machines(found: dict[str, Any], rows: list[dict[str, Any]]) -> str:
+    """What the short names of the machines of some rows stand for."""
+    used = [name for name in found["machines"] if name != "any" and any(r["machine"] == name for r in rows)]
+    return "; ".join(f"*{name}* is {found['machines'][name]}" for name in used)
+
+
+def table(rows: Iterable[dict[str, Any]]) -> list[str]:
+    """A line for each figure."""
+    lines = ["| what | figure | measured by | measured on |", "| --- | --- | --- | --- |"]
+    for row in rows:
         command = f"`{row['command']}`" if row["command"] else "by hand, once"
         lines.append(f"| {row['what']} | {row['figure']} | {command} | {measured(row)} |")
-    return "\n".join(lines)
+    return lines
 
 
-def page(text: str) -> str:
-    """The README with the table between its two markers."""
+def readme(text: str) -> str:
+    """The README with the table of the figures that are marked for it between its two markers."""
     part = re.compile(rf"(?<={BEGIN}\n).*?(?=\n{END})", re.DOTALL)
     if not part.search(text):
         raise SystemExit(f"{README.name} has no lines {BEGIN} and {END}")
-    return part.sub(lambda _: table(read()), text)
+    found = read()
+    rows = [row for row in found["row"] if row["readme"]]
+    lines = [
+        f"Each with the command that measures it again; {machines(found, rows)}. "
+        "[All figures](docs/reference/figures.md).",
+        "",
+        *table(rows),
+    ]
+    return part.sub(lambda _: "\n".join(lines), text)
+
+
+def page() -> str:
+    """All figures, part by part. Links are written from the root of the project, and shortened here."""
+    found = read()
+    lines = [
+        "# Figures",
+        "",
+        "Each figure with the command that measures it again, the day on which it was measured, and the machine where it",
+        f"depends on one: {machines(found, found['row'])}. `make bench` measures the speeds on yours.",
+        "",
+        "`python docs/make_figures.py` writes this page from `docs/figures.toml`.",
+    ]
+    for part, title in found["parts"].items():
+        lines += ["", f"## {title}", "", *table(row for row in found["row"] if row["part"] == part)]
+    return "\n".join(lines).replace("](docs/reference/", "](").replace("](docs/", "](../") + "\n"
 
 
 if __name__ == "__main__":
-    README.write_text(page(README.read_text(encoding="utf-8")), encoding="utf-8")
+    README.write_text(readme(README.read_text(encoding="utf-8")), encoding="utf-8")
+    PAGE.write_text(page(), encoding="utf-8")

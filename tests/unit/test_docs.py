@@ -54,16 +54,18 @@ def test_the_pages_of_commands_and_names_are_up_to_date():
     assert reference.API.read_text(encoding="utf-8") == reference.api_page()
 
 
-def test_the_table_of_the_readme_is_that_of_the_measured_figures(figures):
+def test_the_tables_are_those_of_the_measured_figures(figures):
     """`python docs/make_figures.py` writes it anew."""
     text = figures.README.read_text(encoding="utf-8")
-    assert figures.page(text) == text
+    assert figures.readme(text) == text
+    assert figures.PAGE.read_text(encoding="utf-8") == figures.page()
 
 
 def test_every_figure_says_what_was_measured_how_when_and_on_what(figures):
     found = figures.read()
     for row in found["row"]:
-        assert set(row) == {"what", "figure", "command", "date", "machine"}, row["what"]
+        assert set(row) == {"what", "figure", "command", "date", "machine", "part", "readme"}, row["what"]
+        assert row["part"] in found["parts"], row["what"]
         assert row["machine"] in found["machines"], row["what"]
         assert isinstance(row["date"], datetime.date), row["what"]
 
