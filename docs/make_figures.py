@@ -62,8 +62,8 @@ def page() -> str:
     lines = [
         "# Figures",
         "",
-        "Each figure with the command that measures it again, the day on which it was measured, and the machine where it",
-        f"depends on one: {machines(found, found['row'])}. `make bench` measures the speeds on yours.",
+        "Each figure with the command that measures it again, the day on which it was measured, and the machine where",
+        f"it depends on one: {machines(found, found['row'])}. `make bench` measures the speeds on yours.",
         "",
         "`python docs/make_figures.py` writes this page from `docs/figures.toml`.",
     ]
