@@ -93,7 +93,8 @@ def unpacked(packed: bytes, path: str | os.PathLike, limit: int) -> bytes:
     size = 0
     try:
         with gzip.GzipFile(fileobj=io.BytesIO(packed)) as stream:
-            while piece := stream.read(_CHUNK):
+            # read1: what comes before a cut is handed out, and counted; read would lose it.
+            while piece := stream.read1(_CHUNK):
                 size += len(piece)
                 if size > limit:
                     raise too_large(path, limit)
