@@ -9,7 +9,7 @@ import numpy as np
 
 from rockref.measure.columns import DEGREE, RATES
 from rockref.measure.faults import check_dropout, check_wild, wild_samples, without
-from rockref.measure.noise import noise_floor
+from rockref.measure.noise import LEAST_WINDOWS, noise_floor, window_samples
 from rockref.measure.notice import Notice
 from rockref.measure.running import half_width, running_mean, sample_step
 from rockref.measure.table import Table
@@ -28,8 +28,9 @@ FIRST_SWING = 1.3
 # decided: a block that creeps has come to a hundredth of its later rate when its first swing should be half over, a
 # tenth of it in the first third (one with a wire that pulled with 6.7 N at first and for 0.4 s: to 3 %, 28 % of it).
 RESTING, CREEPING = 0.01, 0.1
-# decided: a cusp stays within four noise widths of its top for about 4 ms; a flat top of 10 ms is no cusp.
-FLAT_TOP = 0.010
+# decided: a cusp stays within four noise widths of its top for about 4 ms; a flat top of 10 ms is no cusp. Fewer
+# than four samples are no top: a cusp between two of them leaves both there.
+FLAT_TOP, FLAT_SAMPLES = 0.010, 4
 # decided: clatter jumps by 6 deg/s in two samples and back in tens; a quarter of the first swing's rate is 9 deg/s.
 SPIKE = 0.25
 # decided: a gyroscope's scale and drift are off by a tenth of the tipping angle at most; beyond 1.3 of it there is no
@@ -148,6 +149,10 @@ def _check_length(t: np.ndarray, duration: float, where: str) -> None:
     if t[-1] < needed:
         what = f"the record ends at {t[-1]:.3g} s; the first impact is expected at {duration:.3g} s"
         raise InputError("E-SHORT", where, what, f"Record for at least {needed:.2g} s, or check width and height.")
+    least = LEAST_WINDOWS * window_samples(sample_step(t))
+    if len(t) < least:
+        what = f"{len(t)} samples, where {least} are needed to tell motion from noise"
+        raise InputError("E-SHORT", where, what, "Record for longer, or more samples a second.")
 
 
 def _check_alive(crv: np.ndarray, table: Table, where: str) -> None:
@@ -245,8 +250,9 @@ def _flat_tops(t: np.ndarray, crv: np.ndarray, names: list[str], width: float, w
             # Near the noise everything is flat.
             if limit < 20.0 * width:
                 continue
-            longest = _longest(x >= limit - 4.0 * width) * sample_step(t)
-            if longest > FLAT_TOP:
+            samples = _longest(x >= limit - 4.0 * width)
+            longest = samples * sample_step(t)
+            if longest > FLAT_TOP and samples >= FLAT_SAMPLES:
                 what = f"a flat {word} of {1e3 * longest:.0f} ms at {side * limit / DEGREE:.4g} deg/s"
                 cure = "The gyroscope seems to saturate there: give range_deg_s, or use a larger range."
                 notices.append(Notice("W-FLAT-TOP", f"{where}, column {name}", what, cure))

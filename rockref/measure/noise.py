@@ -13,6 +13,8 @@ from rockref.model.errors import InputError
 # decided: in 40 ms of free rocking a cubic follows the rate to 1e-4 deg/s, and 40 samples give the noise to 12 %.
 WINDOW = 0.04
 _DEGREE_OF_FIT = 3
+# decided: of fewer windows none can be called the calm one.
+LEAST_WINDOWS = 4
 # decided: the calmest tenth is free of impacts in every run seen; windows up to half as loud again differ by chance.
 CALM_SHARE, CALM_MARGIN = 10.0, 1.5
 
@@ -39,8 +41,8 @@ def noise_floor(t: np.ndarray, crv: np.ndarray) -> NoiseFloor:
     Raises InputError E-SIGNAL if the run is shorter than four windows or the shapes are wrong.
     """
     t, crv = checked_signal(t, crv)
-    size = max(2 * (_DEGREE_OF_FIT + 1), round(WINDOW / sample_step(t)))
-    if len(t) < 4 * size:
+    size = window_samples(sample_step(t))
+    if len(t) < LEAST_WINDOWS * size:
         what = f"{len(t)} samples, less than four windows of {size}"
         raise InputError("E-SIGNAL", "arguments t, crv", what, "Give a longer run.")
     residuals = _window_residuals(crv, size)
@@ -50,6 +52,11 @@ def noise_floor(t: np.ndarray, crv: np.ndarray) -> NoiseFloor:
     whiteness = np.array([_neighbours(residuals[calm[:, axis], :, axis]) for axis in range(3)])
     length = calm.sum(axis=0) * (size // 2) * sample_step(t)
     return NoiseFloor(sigma, length, whiteness, smallest_step(crv))
+
+
+def window_samples(step: float) -> int:
+    """Return how many samples, `step` s apart, a window has: those of 40 ms, and enough for a cubic."""
+    return max(2 * (_DEGREE_OF_FIT + 1), round(WINDOW / step))
 
 
 def _window_residuals(crv: np.ndarray, size: int) -> np.ndarray:

@@ -80,6 +80,32 @@ BAD = {
 }
 
 
+def slow_sampling(folder, as_table, rocking, rate, duration):
+    """The run at a few samples a second, in both files."""
+    path = folder / "experiment.toml"
+    text = path.read_text().replace("sample_rate_hz = 500", f"sample_rate_hz = {rate}")
+    path.write_text(text.replace("bandwidth_hz = 200", f"bandwidth_hz = {rate / 3}"))
+    t = np.arange(0.0, duration, 1.0 / rate)
+    noise = 0.05 * np.random.default_rng(0).standard_normal((len(t), 3))
+    for name, sign in (("run01.csv", 1), ("run02.csv", -1)):
+        (folder / name).write_text(as_table(t, np.degrees(rocking(sign=sign).crv(t)) + noise))
+    return folder
+
+
+def test_too_few_samples_name_the_file(folder, as_table, rocking):
+    """At 20 a second a second and a half is long enough for an impact, and too little for a noise floor."""
+    with pytest.raises(InputError) as caught:
+        load_experiment(slow_sampling(folder, as_table, rocking, 20, 1.5))
+    assert (caught.value.code, caught.value.where) == ("E-SHORT", str(folder / "run01.csv"))
+    assert "30 samples, where 32 are needed" in caught.value.what
+
+
+def test_a_cusp_of_few_samples_is_no_flat_top(folder, as_table, rocking):
+    """At 50 a second a single sample stands for 20 ms."""
+    codes = [n.code for n in load_experiment(slow_sampling(folder, as_table, rocking, 50, 3.0)).notices]
+    assert "W-FLAT-TOP" not in codes
+
+
 @pytest.mark.parametrize("case", BAD)
 def test_signal_that_cannot_be(folder, as_table, good_signal, case):
     change, header, code, where, words = BAD[case]
