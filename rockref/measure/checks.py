@@ -190,10 +190,13 @@ def _check_unit(ratio: float, peak: float, expected: float, where: str, name: st
     what = f"the first swing reaches {peak / DEGREE:.3g} deg/s, where {expected / DEGREE:.3g} deg/s are expected"
     low, high = RATE_MARGIN
     # A name that says deg_s over values in rad/s makes the rates 57 times too small, and the other way round.
+    other = "If not, check release tilt, width and height."
     if low < ratio / DEGREE < high and name.endswith("_deg_s"):
-        raise InputError("E-RADIANS", where, what, f"The values are in rad/s: name the column {name[:2]}_rad_s.")
+        cure = f"If the values are in rad/s, name the column {name[:2]}_rad_s. {other}"
+        raise InputError("E-RADIANS", where, what, cure)
     if low < ratio * DEGREE < high and name.endswith("_rad_s"):
-        raise InputError("E-DEGREES", where, what, f"The values are in deg/s: name the column {name[:2]}_deg_s.")
+        cure = f"If the values are in deg/s, name the column {name[:2]}_deg_s. {other}"
+        raise InputError("E-DEGREES", where, what, cure)
     cure = "Check the unit of the column, the release tilt, width and height, and that time starts at the release."
     raise InputError("E-RATE-SIZE", where, what, cure)
 

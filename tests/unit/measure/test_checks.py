@@ -106,6 +106,20 @@ def test_a_cusp_of_few_samples_is_no_flat_top(folder, as_table, rocking):
     assert "W-FLAT-TOP" not in codes
 
 
+def test_a_rate_of_another_size_need_not_be_its_unit(folder):
+    """Width and height exchanged: another block swings thirty times faster, and the column is named rightly."""
+    path = folder / "experiment.toml"
+    sizes = "width_m = 0.100\nheight_m = 0.688"
+    assert sizes in path.read_text()
+    path.write_text(path.read_text().replace(sizes, "width_m = 0.688\nheight_m = 0.100"))
+    with pytest.raises(InputError) as caught:
+        load_experiment(folder)
+    assert caught.value.code == "E-RADIANS"
+    assert (
+        caught.value.cure.startswith("If the values are in rad/s") and "check release tilt, width" in caught.value.cure
+    )
+
+
 @pytest.mark.parametrize("case", BAD)
 def test_signal_that_cannot_be(folder, as_table, good_signal, case):
     change, header, code, where, words = BAD[case]
