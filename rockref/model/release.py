@@ -68,7 +68,7 @@ def release_posture(
     Raises
     ------
     InputError
-        E-TILT, where theta_0 is not in (0, tipping angle); E-RELEASE, where there are no two pivot points.
+        E-TILT, where theta_0 is not in (0, tipping angle); E-RELEASE, where there are no two pivot points, or too soft.
 
     Decided (the excerpt says only "released"): a start that tilts about X only would drop the block onto one corner.
     """
@@ -86,6 +86,7 @@ def release_posture(
         tilt = tilt * np.array([-1, -1, 1], dtype)  # exp(-theta_0 X) times a half turn about Z
     roll = np.eye(3, dtype=dtype)
     depth = weight / 2 / points.K_N
+    check_depth(points, depth, i, j)
     # Heights above the plate, row e_z of the tilt times the rolled points, must be -depth_i and -depth_j:
     # a cos - b sin = d, with the roll's sine and cosine as unknowns.
     a = tilt[2, 2] * (centre[i, 2] - centre[j, 2])
@@ -103,6 +104,23 @@ def release_posture(
     x = np.array([0, 0, z], dtype)
     check_clear(points, x, Lambda, np.max(depth))
     return State.at_rest(x, Lambda, points.n)
+
+
+#: How far half the weight may press a pivot point in, in distances between the two; decided: no foot gives way by half
+#: the base, and beyond the roll that makes both touch need not exist.
+SOFTEST = 0.5
+
+
+def check_depth(points: ContactPoints, depth, i: int, j: int) -> None:
+    """Refuse pivot points i and j that half the weight presses in by `depth` (n,) [m] as no foot is (E-RELEASE)."""
+    k = i if depth[i] >= depth[j] else j
+    if depth[k] >= SOFTEST * abs(points.P[i, 0] - points.P[j, 0]):
+        raise InputError(
+            "E-RELEASE",
+            f"K_N of point {points.names[k]}",
+            f"is {points.K_N[k]:.4g} N/m, so that half the weight presses it in by {depth[k] * 1e3:.3g} mm",
+            "No foot gives way that far: give the stiffness in N/m.",
+        )
 
 
 #: How much deeper than the pivot points another point may start [m]; decided: a fitted foot may be pressed in a little,

@@ -192,3 +192,23 @@ def test_soft_feet_may_start_deep_inside_the_plate():
     height = state.x[2] + (state.Lambda @ points.P.T)[2]
     # The weight over twice the stiffness, to the rounding of heights of a third of a metre.
     assert np.min(height) == pytest.approx(-54 * 9.81 / 2 / 1e5, rel=1e-12)
+
+
+@pytest.mark.parametrize("K_N, soft", [([60.0] * 8, "1ext"), ([6e7, 60.0] + [6e7] * 6, "2ext")], ids=["all", "one"])
+def test_a_foot_that_half_the_weight_presses_in_by_metres_is_refused(K_N, soft):
+    """60 N/m, where 60 N/um was meant: the block fell through the plate, and was said to overturn."""
+    block, points = MODEL.body()
+    with pytest.raises(InputError) as refused:
+        release.release_posture(block, replace(points, K_N=np.array(K_N)), 0.1170)
+    assert (refused.value.code, refused.value.where) == ("E-RELEASE", f"K_N of point {soft}")
+    # 264.87 N over 60 N/m
+    assert refused.value.what == "is 60 N/m, so that half the weight presses it in by 4.41e+03 mm"
+    assert "N/m" in refused.value.cure
+
+
+def test_feet_of_soft_rubber_are_released():
+    """Pressed in by 26 mm of a base of 100 mm: odd, and still a release."""
+    block, points = MODEL.replace(K_N=1e4).body()
+    assert np.all(np.isfinite(release.release_posture(block, points, 0.1170).Lambda))
+    with pytest.raises(InputError, match="press"):
+        release.release_posture(block, replace(points, K_N=points.K_N / 2), 0.1170)
