@@ -28,6 +28,9 @@ FIRST_SWING = 1.3
 # decided: a block that creeps has come to a hundredth of its later rate when its first swing should be half over, a
 # tenth of it in the first third (one with a wire that pulled with 6.7 N at first and for 0.4 s: to 3 %, 28 % of it).
 RESTING, CREEPING = 0.01, 0.1
+# decided: 2 deg/s; a hand that lets go gives the block 1 deg/s, and the zero of a gyroscope is off by less. In the
+# first twentieth of its swing the block itself comes to a fiftieth of the rate.
+MOVING, BEGINNING = 0.05, 0.05
 # decided: a cusp stays within four noise widths of its top for about 4 ms; a flat top of 10 ms is no cusp. Fewer
 # than four samples are no top: a cusp between two of them leaves both there.
 FLAT_TOP, FLAT_SAMPLES = 0.010, 4
@@ -80,7 +83,7 @@ def tilts(t: np.ndarray, wx: np.ndarray, run: Run) -> np.ndarray:
 def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, experiment: Experiment) -> list[Notice]:
     """Check times t (N,) s and body rates crv (N, 3) rad/s of a release against what the block must do.
 
-    Returns notices (W-CONSTANT, W-FIRST-IMPACT, W-FLAT-TOP, W-SATURATED,
+    Returns notices (W-CONSTANT, W-MOVING, W-FIRST-IMPACT, W-FLAT-TOP, W-SATURATED,
     W-SPIKE, W-NOISE). Raises InputError: E-SHORT,
     E-STILL, E-RELEASE, E-AXES, E-SIGN, E-DEGREES, E-RADIANS, E-RATE-SIZE.
     """
@@ -95,6 +98,7 @@ def check_release_run(t: np.ndarray, crv: np.ndarray, table: Table, run: Run, ex
     _check_first_swing(t, crv, names, expected, duration, where, sign=_sign(run))
     notices = [
         *_constant(crv, names, where),
+        *_moving(t, crv, names, expected, duration, experiment.gyro.noise, where),
         *_first_impact(t, crv, duration, where),
         *_flat_tops(t, crv, names, experiment.gyro.noise + experiment.gyro.resolution, where),
         *_at_range(crv, names, experiment.gyro.range, where),
@@ -229,6 +233,23 @@ def _constant(crv: np.ndarray, names: list[str], where: str) -> list[Notice]:
         Notice("W-CONSTANT", f"{where}, column {names[axis]}", "all values are the same", cure)
         for axis in (1, 2)
         if not np.ptp(crv[:, axis]) > 0.0
+    ]
+
+
+def _moving(
+    t: np.ndarray, crv: np.ndarray, names: list[str], expected: float, duration: float, noise: float, where: str
+) -> list[Notice]:
+    """Look whether the block is at rest when it is let go: the mean rates of the beginning, noise rad/s a sample."""
+    rates = crv[t <= BEGINNING * duration]
+    if not len(rates):
+        return []
+    cure = "Count time from the release; what the gyroscope shows of a block at rest is its zero: subtract it."
+    # decided: five standard deviations of a mean are not noise.
+    most = MOVING * expected + 5.0 * noise / math.sqrt(len(rates))
+    return [
+        Notice("W-MOVING", f"{where}, column {name}", f"{rate / DEGREE:.3g} deg/s at the release, not at rest", cure)
+        for name, rate in zip(names, rates.mean(axis=0), strict=True)
+        if abs(rate) > most
     ]
 
 
