@@ -94,7 +94,8 @@ class _Change:
 
     @property
     def agrees(self) -> bool:
-        return abs(self.model - self.measured) <= self.tolerance
+        """Whether no difference can be called one: none between two losses that are both below what the ledger sees."""
+        return max(self.model, self.measured) < self.ledger or abs(self.model - self.measured) <= self.tolerance
 
     @property
     def told(self) -> bool:
