@@ -25,6 +25,8 @@ FIT, HOLDOUT = "fit", "holdout"
 USES = (FIT, HOLDOUT)
 KINDS = ("release", "toss")
 BASELINES = ("eight_points", "four_points")
+# kg/m3: osmium, the densest element, has 22590 (CRC Handbook of Chemistry and Physics).
+DENSEST = 23e3
 # decided: a campaign of more runs than this is several experiments.
 MAX_RUNS = 1000
 # decided: ids and names become parts of file names in reports.
@@ -181,7 +183,7 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
     document, sha256 = read_toml(source)
     experiment = replace(_head(document, folder, str(source)), toml_sha256=sha256)
     runs = _listed_runs(document["run"], experiment, str(source))
-    notices: list[Notice] = []
+    notices = _density(experiment, str(source))
     if not any(run.use == HOLDOUT for run in runs):
         cure = "Keep one run in four back, with another tilt or side."
         notices.append(Notice("W-NO-HOLDOUT", str(source), "no run is marked holdout", cure))
@@ -224,6 +226,15 @@ def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:
         gyro=gyro,
         runs=(),
     )
+
+
+def _density(experiment: Experiment, source: str) -> list[Notice]:
+    """Look whether a block of this mass, width and height can be of anything."""
+    density = experiment.mass / (experiment.width**2 * experiment.height)
+    if density <= DENSEST:
+        return []
+    what = f"a block of {experiment.mass:g} kg and this size has {density:.3g} kg/m3, and no matter has more than 23000"
+    return [Notice("W-DENSITY", f"{source}, [block]", what, "Check mass, width and height, and their units.")]
 
 
 def _bad_name(where: str, name: str) -> InputError:

@@ -227,3 +227,12 @@ def test_a_folder_of_tosses_is_told_from_releases(tmp_path):
     (tmp_path / "tosses.csv").write_text("", encoding="utf-8")
     with pytest.raises(InputError, match="holds tosses; this is not for tosses"):
         load_experiment(tmp_path)
+
+
+@pytest.mark.parametrize("old, new", [("mass_kg = 54.0", "mass_kg = 54000.0"), ("height_m = 0.688", "height_m = 0.1")])
+def test_a_block_denser_than_any_matter_is_remarked_on(folder, old, new):
+    """Grams called kilograms; or the width typed again for the height: 54 kg in a litre, twice as dense as osmium."""
+    rewrite(folder, old, new)
+    notices = load_experiment(folder, uses=()).notices
+    assert [n.code for n in notices] == ["W-DENSITY"]
+    assert notices[0].where == f"{folder / 'experiment.toml'}, [block]"
