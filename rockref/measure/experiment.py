@@ -279,8 +279,9 @@ def _listed_run(table: Any, experiment: Experiment, where: str) -> Run:
     if not _NAME.fullmatch(values["id"]):
         raise _bad_name(f"{where}, key id", values["id"])
     if release:
-        _check_tilt(values["release_tilt"], experiment, f"{where}, key release_tilt")
-        _check_turn(values["block_turned"], f"{where}, key block_turned")
+        tilt, turn = (next(key for key in table if key.startswith(name)) for name in ("release_tilt", "block_turned"))
+        _check_tilt(values["release_tilt"], experiment, f"{where}, key {tilt}")
+        _check_turn(values["block_turned"], f"{where}, key {turn}")
     return Run(
         id=values["id"],
         file=values["file"],

@@ -236,3 +236,10 @@ def test_a_block_denser_than_any_matter_is_remarked_on(folder, old, new):
     notices = load_experiment(folder, uses=()).notices
     assert [n.code for n in notices] == ["W-DENSITY"]
     assert notices[0].where == f"{folder / 'experiment.toml'}, [block]"
+
+
+def test_refused_tilts_and_turns_name_the_key_as_it_is_written(folder):
+    rewrite(folder, "block_turned_deg = 180", "block_turned_deg = 90")
+    assert refused(folder).where.endswith("run[2], key block_turned_deg")
+    rewrite(folder, "release_tilt_rad = 0.117", "release_tilt_deg = 12")
+    assert refused(folder).where.endswith("run[1], key release_tilt_deg")
