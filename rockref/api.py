@@ -300,5 +300,8 @@ def simulate(
     >>> print(response.t, response.crv[-1].round(3))
     [0.    0.001 0.002] [ 0.064 -0.001 -0.   ]
     """
+    if not isinstance(model, (Model, Problem)):
+        cure = "Give a Model: Model.table_3_1(), or Model.load of a file."
+        raise InputError("E-TYPE", "model", f"is {model!r}"[:80], cure)
     problem = model if isinstance(model, Problem) else model.problem(duration, step, output_rate, **start)
     return run(problem, engine=engine, progress=progress, dtype=dtype)

@@ -124,6 +124,11 @@ class TestRefusals:
 
 
 class TestSimulate:
+    @pytest.mark.parametrize("other", ["model.toml", None, {"mass": 54.0}])
+    def test_what_is_no_model(self, other):
+        found = code_of(lambda: rockref.simulate(other))
+        assert found == ("E-TYPE", "model")
+
     def test_a_model_from_release(self):
         response = rockref.simulate(Model.table_3_1(), duration=0.002, output_rate=1000)
         assert response.t == pytest.approx([0, 0.001, 0.002])
