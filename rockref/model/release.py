@@ -27,6 +27,18 @@ def check_tilt(block: Block, points: ContactPoints, theta_0: float, side: int = 
         )
 
 
+def check_roll(points: ContactPoints, out_of_plane: float) -> None:
+    """Refuse a further roll [rad] about Y with which the centre of mass stands beyond all points (E-TILT)."""
+    limit = float(np.arctan2(np.max(np.abs(points.P[:, 0])), -np.min(points.P[:, 2])))
+    if not abs(out_of_plane) < limit:
+        raise InputError(
+            "E-TILT",
+            "out_of_plane",
+            f"is {out_of_plane!r} rad; the block tips over sideways at {limit:.4g} rad",
+            "Give a small roll in radians.",
+        )
+
+
 def pivot_points(points: ContactPoints, theta_0: float, side: int) -> tuple[int, int]:
     """The two points on which the tilted block rests: the lowest with x > 0 and the lowest with x < 0."""
     P = points.P
@@ -68,12 +80,14 @@ def release_posture(
     Raises
     ------
     InputError
-        E-TILT, where theta_0 is not in (0, tipping angle); E-RELEASE, where there are no two pivot points, or too soft.
+        E-TILT, where theta_0 is not in (0, tipping angle), or the roll beyond it; E-RELEASE, where there are no two
+        pivot points, or too soft ones.
 
     Decided (the excerpt says only "released"): a start that tilts about X only would drop the block onto one corner.
     """
     side = -1 if turned else 1
     check_tilt(block, points, theta_0, side)
+    check_roll(points, out_of_plane)
     i, j = pivot_points(points, theta_0, side)
     dtype = points.P.dtype
     weight = block.mass * block.g

@@ -212,3 +212,14 @@ def test_feet_of_soft_rubber_are_released():
     assert np.all(np.isfinite(release.release_posture(block, points, 0.1170).Lambda))
     with pytest.raises(InputError, match="press"):
         release.release_posture(block, replace(points, K_N=points.K_N / 2), 0.1170)
+
+
+@pytest.mark.parametrize("out_of_plane", [0.1444, -0.1444, 2.0, np.nan])
+def test_a_roll_beyond_the_tipping_angle_is_refused(out_of_plane):
+    """atan(0.05 / 0.344) = 0.14434 rad, as about the main axis: the base is square. 2 rad stood it on its head."""
+    block, points = MODEL.body()
+    assert np.all(np.isfinite(release.release_posture(block, points, 0.1170, out_of_plane=0.1443).x))
+    with pytest.raises(InputError) as refused:
+        release.release_posture(block, points, 0.1170, out_of_plane=out_of_plane)
+    assert (refused.value.code, refused.value.where) == ("E-TILT", "out_of_plane")
+    assert "sideways at 0.1443 rad" in refused.value.what
