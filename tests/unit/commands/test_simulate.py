@@ -110,3 +110,12 @@ def test_lost_numbers_leave_no_file(capsys, tmp_path, monkeypatch):
     code, _, err = run(capsys, "simulate", "-o", tmp_path / "out.csv")
     assert code == 2 and "step 7" in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_few_rows_are_remarked_on(capsys):
+    """The first main impact is at 0.5104 s, which a row a tenth of a second does not show to four digits."""
+    code, out, err = run(capsys, "simulate", "--duration", 0.6, "--rate", 10)
+    assert code == 0 and "0.5104" not in out
+    assert "--rate: 10 rows a second" in err and "[W-ROWS]" in err
+    code, out, err = run(capsys, "simulate", "--duration", 0.6, "--rate", 100)
+    assert "0.5104" in out and err == ""
