@@ -29,8 +29,8 @@ def add(
         Path | None,
         typer.Option("--report", parser=folder_name, metavar="FOLDER", help="Folder for page and figure."),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of the random restarts.")] = 0,
-    workers: Annotated[int | None, typer.Option(help="Threads; default: one per core.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
+    workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
 ) -> None:

@@ -24,13 +24,13 @@ def register(app: typer.Typer) -> None:
 
 def make(
     folder: Annotated[Path, typer.Argument(help="Folder to make; an interrupted one is gone on with.")],
-    seed: Annotated[int, typer.Option(help="Draws the plan and every case.")],
+    seed: Annotated[int, typer.Option(min=0, help="Draws the plan and every case.")],
     cases: Annotated[int, typer.Option(min=1, help="How many cases.")] = 120,
     effects: Annotated[
         str | None,
         typer.Option(help='Cases of your own instead: "none,gyro_scale,rolling_resistance:2,plate_tilt+gyro_drift".'),
     ] = None,
-    workers: Annotated[int | None, typer.Option(help="Processes; one a core by default.")] = None,
+    workers: Annotated[int | None, typer.Option(min=1, help="Processes; one a core by default.")] = None,
     dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the manifest.")] = False,
 ) -> None:
@@ -66,7 +66,7 @@ def make(
 
 def score(
     folder: Annotated[Path, typer.Argument(help="Folder made by `rockref blind make`.")],
-    workers: Annotated[int | None, typer.Option(help="Cases at a time; one a core by default.")] = None,
+    workers: Annotated[int | None, typer.Option(min=1, help="Cases at a time; one a core by default.")] = None,
     dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
     rivals: Annotated[bool, typer.Option("--rivals/--no-rivals", help="Score simpler methods beside it.")] = True,
     check: Annotated[bool, typer.Option("--check", help="End with 1 if a goal is not met.")] = False,

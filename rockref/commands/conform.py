@@ -57,7 +57,7 @@ def conform(
     timeout: Annotated[
         float, typer.Option(help="exe: seconds for a run; a sixtieth of it for a small question.")
     ] = 600.0,
-    examples: Annotated[int, typer.Option(help="Examples drawn for each property of L6.")] = 50,
+    examples: Annotated[int, typer.Option(min=1, help="Examples drawn for each property of L6.")] = 50,
     colour: Annotated[
         bool | None, typer.Option("--colour/--no-colour", help="By default where a terminal reads.")
     ] = None,

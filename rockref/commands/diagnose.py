@@ -34,8 +34,8 @@ def diagnose(
     ] = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
     save_model: Annotated[Path | None, typer.Option("--save-model", help="Write the best model there.")] = None,
-    seed: Annotated[int, typer.Option(help="Seed of the random restarts.")] = 0,
-    workers: Annotated[int | None, typer.Option(help="Threads; default: one per core.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
+    workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
 ) -> None:

@@ -24,7 +24,7 @@ def reproduce(
     data: Annotated[
         Path | None, typer.Option("--data", help="The measured input of the study; by default the shipped one.")
     ] = None,
-    workers: Annotated[int | None, typer.Option(help="Local processes; default: one per core.")] = None,
+    workers: Annotated[int | None, typer.Option(min=1, help="Local processes; default: one per core.")] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Once through with next to nothing.")] = False,
     only: Annotated[
         list[str] | None,

@@ -26,8 +26,8 @@ def sensitivity(
     ] = None,
     duration: Annotated[float, typer.Option(min=1.6, help="Length of the runs in s.")] = 6.0,
     trials: Annotated[int, typer.Option(min=2, help="Chromosomes with changed last digits.")] = 10,
-    seed: Annotated[int, typer.Option(help="Seed of what is drawn.")] = 0,
-    workers: Annotated[int | None, typer.Option(help="Threads; default: one per core.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of what is drawn.")] = 0,
+    workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")] = False,
 ) -> None:
     """Show how far responses agree when the time step, the last digits or the release angle change a little.

@@ -114,3 +114,31 @@ def test_help_loads_nothing_heavy():
     )
     ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert "heavy: []" in ended.stderr
+
+
+def leaves(command, words=()):
+    """Every command that does something, with the words that lead to it."""
+    if hasattr(command, "commands"):
+        return [leaf for name, inner in command.commands.items() for leaf in leaves(inner, (*words, name))]
+    return [(words, command)]
+
+
+LEAST = {"seed": 0, "workers": 1, "examples": 1}
+COUNTS = [
+    (words, option, LEAST[option.name])
+    for words, command in leaves(typer.main.get_command(cli.application()))
+    for option in command.params
+    if option.name in LEAST
+]
+
+
+@pytest.mark.parametrize("words, option, least", COUNTS, ids=lambda x: " ".join(x) if isinstance(x, tuple) else None)
+def test_counts_below_the_least_are_refused_before_the_work(capsys, words, option, least):
+    """A negative seed ended a diagnosis in a traceback, half a minute later."""
+    code, out, err = run(capsys, *words, option.opts[0], str(least - 1))
+    assert (code, out) == (2, "")
+    assert option.opts[0] in err and f"greater than or equal to {least}" in err
+
+
+def test_every_search_has_such_counts():
+    assert {"diagnose", "fit", "add", "identify", "sensitivity", "plan"} <= {words[0] for words, *_ in COUNTS}
