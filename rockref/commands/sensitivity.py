@@ -46,15 +46,16 @@ def sensitivity(
     from rockref.identify.sensitivity_study import record, study
     from rockref.model.storage import write_bytes, write_text
     from rockref.report.figures import rendered
-    from rockref.report.output import made_folder
+    from rockref.report.output import made_folder, usable_folder
     from rockref.report.sensitivity_figures import sensitivity_figures
     from rockref.report.sensitivity_text import print_sensitivity
 
     (base,) = named_models([model], effect)
-    folder = made_folder(output)
+    usable_folder(output)
     with stages("sensitivity", not as_json) as say:
         found = study(base, seed, duration, tuple(step) if step else STEPS, trials, workers, say)
         say("figures")
+        folder = made_folder(output)
         written = []
         for name, figure in sensitivity_figures(found).items():
             for kind in ("png", "svg"):

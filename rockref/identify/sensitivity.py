@@ -18,6 +18,7 @@ from rockref.identify.candidates import OUTPUT_RATE, STEP, rates
 from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError
 from rockref.model.parameters import GENES_12, TABLE_3_1, chromosome_12, from_chromosome_12
+from rockref.model.simulate import check
 
 #: The steps of Fig. 3.5 [s]; the source states that one of three is 3e-6 s. The finest is decided.
 STEPS = (1e-5, 3e-6, 1e-6, 3e-7)
@@ -76,11 +77,17 @@ def varied(model: Model) -> tuple[str, ...]:
 def time_steps(
     model: Model, steps: Sequence[float] = STEPS, duration: float = 6.0, workers: int | None = None
 ) -> Family:
-    """Fig. 3.5: the same release with several time steps [s], the finest first. Raises InputError (E-STEP) for one."""
+    """Fig. 3.5: the same release with several time steps [s], the finest first.
+
+    Raises InputError: E-STEP for one, or for one that is too large; E-RANGE, E-RATE for what is no step.
+    """
     if len(steps) < 2:
         raise InputError("E-STEP", "--step", "is there once: nothing to compare it with", "Give two at least.")
     ordered = sorted(steps)
-    crv = [rates([model.problem(duration, h, OUTPUT_RATE)], workers)[0] for h in ordered]
+    problems = [model.problem(duration, h, OUTPUT_RATE) for h in ordered]
+    for problem in problems:
+        check(problem)
+    crv = [rates([problem], workers)[0] for problem in problems]
     n = min(len(c) for c in crv)
     return family([f"{h:.0e} s" for h in ordered], np.array([c[:n] for c in crv]))
 

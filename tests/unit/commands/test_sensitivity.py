@@ -32,3 +32,14 @@ def test_writes_figures_and_result(capsys, tmp_path):
 def test_a_model_that_is_not_there_is_unusable_input(capsys, tmp_path):
     code, _, err = run(capsys, "sensitivity", "-m", tmp_path / "no.toml", "-o", tmp_path / "s")
     assert code == 2 and "no.toml" in err
+
+
+@pytest.mark.parametrize(
+    "step, code", [("0", "E-RANGE"), ("nan", "E-RANGE"), ("-1e-6", "E-RANGE"), ("2e-4", "E-STEP"), ("1e-3", "E-RATE")]
+)
+def test_a_step_that_is_none_is_refused_and_leaves_nothing(capsys, tmp_path, step, code):
+    """Zero ended in a traceback; at 2e-4 s, beyond the stable 8.4e-5 s, noise was given as a finding."""
+    words = ("--step", "1e-5", "--step", step, "--duration", 1.6, "--trials", 2)
+    ended, out, err = run(capsys, "sensitivity", "-o", tmp_path / "s", *words)
+    assert (ended, out) == (2, "") and f"[{code}]" in err
+    assert not (tmp_path / "s").exists()
