@@ -119,6 +119,20 @@ def say_implausible(effects: Iterable[Effect], where: str) -> None:
             print(f"rockref: {notice}", file=sys.stderr)
 
 
+def check_step(model: Model | None, where: str | None) -> None:
+    """Refuse a model whose releases cannot be computed with the step of the fits. Raises InputError (E-STEP, ...).
+
+    A fit begins with the model, and the engine of the fits computes what it is given.
+    """
+    if model is None or where is None:
+        return
+    from rockref.measure.prediction import STEP
+    from rockref.model.simulate import check
+
+    with of_file(where):
+        check(model.problem(step=STEP))
+
+
 def say_idle(model: Model | None, where: str | None) -> None:
     """Print a remark on standard error where a fit leaves parameters out, since the model states its points itself.
 

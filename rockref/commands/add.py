@@ -54,7 +54,7 @@ def add(
         from rockref.commands._tosses import add_to_model_of_tosses
 
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
-    from rockref.commands._models import known_files, named_models, say_idle
+    from rockref.commands._models import check_step, known_files, named_models, say_idle
     from rockref.commands._results import say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
@@ -63,6 +63,7 @@ def add(
 
     known_files([effect])
     given = next(iter(named_models([model] if model else [], own)), None)
+    check_step(given, model)
     say_idle(given, model)
     folder = usable_folder(report) if report is not None else None
     usable_files(output)

@@ -57,7 +57,7 @@ def diagnose(
         from rockref.commands._tosses import diagnose_tosses
 
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
-    from rockref.commands._models import models_and_others, say_idle
+    from rockref.commands._models import check_step, models_and_others, say_idle
     from rockref.commands._results import keep, say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
@@ -66,6 +66,7 @@ def diagnose(
 
     models, candidates = models_and_others([model] if model else [], effect)
     given = models[0] if models else None
+    check_step(given, model)
     say_idle(given, model)
     folder = usable_folder(report) if report is not None else None
     usable_files(output, save_model)

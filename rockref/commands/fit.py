@@ -47,7 +47,7 @@ def fit(
         from rockref.commands._tosses import fit_to_tosses
 
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
-    from rockref.commands._models import known_files, named_model, say_idle
+    from rockref.commands._models import check_step, known_files, named_model, say_idle
     from rockref.commands._results import usable_files
     from rockref.commands._stages import stages
     from rockref.discover.fitting import fit_experiment
@@ -55,6 +55,7 @@ def fit(
     usable_files(output)
     known_files(effect)
     given = named_model(model) if model is not None else None
+    check_step(given, model)
     say_idle(given, model)
     with stages("fitting", every_line=verbose) as say:
         found = fit_experiment(

@@ -142,3 +142,13 @@ def test_counts_below_the_least_are_refused_before_the_work(capsys, words, optio
 
 def test_every_search_has_such_counts():
     assert {"diagnose", "fit", "add", "identify", "sensitivity", "plan"} <= {words[0] for words, *_ in COUNTS}
+
+
+@pytest.mark.parametrize("words", [("fit",), ("diagnose",), ("add", "quadratic_drag")], ids=lambda words: words[0])
+def test_a_model_too_stiff_for_the_steps_of_a_fit_is_refused_before_the_work(capsys, tmp_path, words):
+    """K_N in the wrong unit: the fit began where nothing can be computed, and went on from there for minutes."""
+    stiff = tmp_path / "stiff.toml"
+    stiff.write_text("[parameters]\nK_N_N_m = 6e11\n", encoding="utf-8")
+    code, out, err = run(capsys, *words, str(tmp_path), "--model", str(stiff))
+    assert (code, out) == (2, "")
+    assert f"{stiff}: step: 1e-05 s is too large for the stiffest contact" in err and "[E-STEP]" in err
