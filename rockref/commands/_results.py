@@ -8,6 +8,7 @@ import typer
 
 if TYPE_CHECKING:
     from rockref.api import Model
+    from rockref.measure.notice import Notice
 
 
 def folder_name(text: str) -> Path:
@@ -48,3 +49,9 @@ def say_written(paths: Iterable[Path]) -> None:
     """A line for every file that was written."""
     for path in paths:
         typer.echo(f"wrote {path}")
+
+
+def say_remarks(notices: "Iterable[Notice]") -> None:
+    """What the reader of the experiment remarked on, on standard error: it went on, and the result may hang on it."""
+    for notice in notices:
+        typer.echo(f"rockref: {notice}", err=True)

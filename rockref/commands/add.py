@@ -55,7 +55,7 @@ def add(
 
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
     from rockref.commands._models import check_step, known_files, named_models, say_idle
-    from rockref.commands._results import say_written, usable_files
+    from rockref.commands._results import say_remarks, say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
     from rockref.discover.diagnosis_record import plain
@@ -69,6 +69,7 @@ def add(
     usable_files(output)
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = run_addition(effect, experiment, given, seed, workers, progress=say)
+    say_remarks(found.experiment.notices)
     found.model.save(output)
     written = [output]
     if folder is not None:

@@ -58,7 +58,7 @@ def compare(
         return compare_tosses(experiment, model, effect, report, as_json)
     from rockref.commands._models import labels, named_models
     from rockref.commands._progress import progress
-    from rockref.commands._results import say_written
+    from rockref.commands._results import say_remarks, say_written
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.measure import load_experiment
@@ -71,8 +71,7 @@ def compare(
     with progress("simulating the runs") as ahead:
         comparison = run_comparison(loaded, models, names, engine=engine, progress=ahead)
     written = write_report(comparison, folder) if folder is not None else []
-    for notice in loaded.notices:
-        typer.echo(f"rockref: {notice}", err=True)
+    say_remarks(loaded.notices)
     if as_json:
         typer.echo(json.dumps(comparison.to_dict() | {"written": [str(path) for path in written]}, indent=1))
     else:

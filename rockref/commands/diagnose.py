@@ -58,7 +58,7 @@ def diagnose(
 
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
     from rockref.commands._models import check_step, models_and_others, say_idle
-    from rockref.commands._results import keep, say_written, usable_files
+    from rockref.commands._results import keep, say_remarks, say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
@@ -79,6 +79,7 @@ def diagnose(
 
             say("the page")
             written.append(write_diagnosis(found, made_folder(folder)))
+    say_remarks(found.experiment.notices)
     text = json.dumps(record, indent=1, allow_nan=False)
     written += keep(text, output, found.model, save_model)
     if as_json:

@@ -48,7 +48,7 @@ def fit(
 
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
     from rockref.commands._models import check_step, known_files, named_model, say_idle
-    from rockref.commands._results import usable_files
+    from rockref.commands._results import say_remarks, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.fitting import fit_experiment
 
@@ -61,6 +61,7 @@ def fit(
         found = fit_experiment(
             experiment, tuple(effect) if effect else None, given, seed, workers, check=gates, progress=say
         )
+    say_remarks(found.experiment.notices)
     found.model.save(output)
     if as_json:
         typer.echo(json.dumps(found.to_dict() | {"written": [str(output)]}, indent=1))

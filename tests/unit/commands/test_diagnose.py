@@ -1,6 +1,7 @@
 """`rockref diagnose`: what it prints and writes, with which exit code; the diagnosis itself is made up."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from rockref import cli
 from rockref.discover import diagnose as engine
 from rockref.discover.diagnosis_record import KEYS, plain, read
+from rockref.measure.notice import Notice
 from rockref.model.errors import InputError
 from tests.unit.discover import fakes
 
@@ -115,3 +117,12 @@ def test_a_record_without_its_keys_is_refused(tmp_path):
     (tmp_path / "no.json").write_text("{}")
     with pytest.raises(InputError, match="E-JSON"):
         read(tmp_path / "no.json")
+
+
+def test_remarks_about_the_records_are_said(capsys, monkeypatch, made):
+    """Who does not compare first must hear, too, that a gyroscope saturates or that a record begins late."""
+    remark = Notice("W-SATURATED", "run01.csv, column wx_deg_s", "12 samples are at the stated range", "Use another.")
+    answer(monkeypatch, fakes.diagnosis("named", replace(made, notices=(remark,))))
+    code, out, err = run(capsys, "anywhere", "--json")
+    assert code == 0 and json.loads(out)
+    assert err == f"rockref: {remark}\n"
