@@ -8,6 +8,7 @@ import pytest
 from rockref.measure.checks import rocking_rate, rocking_time
 from rockref.measure.experiment import load_experiment
 from rockref.model.errors import InputError
+from tests.shipped import CONTROL
 
 HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"
 
@@ -279,3 +280,9 @@ def test_what_lasts_is_not_wild():
     rows = wild_samples(crv, 0.6)
     assert list(np.flatnonzero(rows)) == [100, 101, 102]
     assert np.array_equal(without(crv, rows)[:200], np.full((200, 3), 0.1))
+
+
+@pytest.mark.parametrize("path", sorted(CONTROL.parent.glob("mystery-*")), ids=lambda path: path.name)
+def test_axes_of_shipped_runs_are_in_their_places(path):
+    """Sensors askew, uneven feet and all: the clatter is sharpest about the height."""
+    assert "W-AXES" not in {n.code for n in load_experiment(path).notices}
