@@ -35,9 +35,9 @@ MOVING, BEGINNING = 0.05, 0.05
 # than four samples are no top: a cusp between two of them leaves both there.
 FLAT_TOP, FLAT_SAMPLES = 0.010, 4
 # How much rougher the rates about Z are than those about Y, after the first impact: 1.15 to 2.86 times in all runs of
-# eleven practice experiments and sixty of the blind test, sensors askew included; decided: below 0.9 they are exchanged.
-# It is so where turning about the height is easy: decided, three times as high as wide. A channel of less than five
-# noise widths says nothing.
+# eleven practice experiments and sixty of the blind test, sensors askew included; decided: below 0.9 they are
+# exchanged. It is so where turning about the height is easy: decided, three times as high as wide. A channel of less
+# than five noise widths says nothing.
 ROUGHER, SLENDER, HEARD = 0.9, 3.0, 5.0
 # decided: clatter jumps by 6 deg/s in two samples and back in tens; a quarter of the first swing's rate is 9 deg/s.
 SPIKE = 0.25
