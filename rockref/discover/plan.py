@@ -26,7 +26,7 @@ from rockref.discover.fit.least_squares import Fit
 from rockref.discover.fit.parameter import Parameter
 from rockref.discover.fit.search import MIDDLE
 from rockref.discover.looking.screen import PROBE
-from rockref.discover.windows.series import Cut, Series, series
+from rockref.discover.windows.series import Cut, Series, refinement, series
 from rockref.effects.base import Effect
 from rockref.measure.experiment import Experiment, Gyro, Run
 from rockref.measure.gyroscope import record
@@ -232,9 +232,9 @@ def says(
     experiment = campaign(model, run, gyro, tilt_uncertainty)
     own = baseline_parameters(model, 1, tilt_uncertainty)
     if restarted:
-        windows = series(experiment, (run,), *MIDDLE, duration, workers=workers)
+        windows = series(experiment, (run,), *MIDDLE, duration, refine=refinement(model), workers=workers)
     else:
-        windows = unbroken(experiment, run, workers)
+        windows = unbroken(experiment, run, refinement(model), workers)
         # Over a second and a half a per cent of a stiffness is no small change any more.
         own = tuple(replace(p, step=FINE * p.step) for p in own)
     fit = Fit(windows, model, own)
@@ -245,13 +245,13 @@ def says(
     return Says(release, H)
 
 
-def unbroken(experiment: Experiment, run: Run, workers: int | None) -> Series:
+def unbroken(experiment: Experiment, run: Run, refine: int, workers: int | None) -> Series:
     """One window from the release to shortly before the second main impact: nothing is restarted."""
     assert run.t is not None and run.crv is not None and experiment.gyro is not None
     times = main_impacts(run.t, run.crv).times
     end = float(times[1]) - 0.02 if len(times) > 1 else float(run.t[-1])
     cut = Cut(np.array([0]), np.array([int(end * experiment.gyro.sample_rate)]))
-    return Series(experiment, (run,), (cut,), workers=workers)
+    return Series(experiment, (run,), (cut,), refine, workers)
 
 
 def outlook(

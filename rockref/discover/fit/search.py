@@ -15,7 +15,7 @@ from rockref.discover.fit.candidates import parameters_of
 from rockref.discover.fit.coarse import coarse_to_fine
 from rockref.discover.fit.least_squares import Fit, Point, out_of_step
 from rockref.discover.fit.parameter import Parameter
-from rockref.discover.windows.series import Cut, Series, gyro_of, sensor_of, series
+from rockref.discover.windows.series import Cut, Series, gyro_of, refinement, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
 from rockref.measure.impacts import main_impacts
@@ -78,13 +78,14 @@ def release_windows(setup: Setup) -> Series:
     for run in setup.runs:
         impact = float(main_impacts(run.t, run.crv).times[0])
         cuts.append(Cut(np.array([0]), np.array([int((impact - 0.03) * gyro_of(setup.experiment).sample_rate)])))
-    return Series(setup.experiment, setup.runs, cuts, workers=setup.workers)
+    return Series(setup.experiment, setup.runs, cuts, refinement(setup.base), setup.workers)
 
 
 def windows(setup: Setup, lengths: tuple[float, float], model: Model | None = None) -> Series:
     """Windows of all runs, cut on the records with the sensor of `model` undone."""
     sensor = sensor_of(model) if model is not None else None
-    return series(setup.experiment, setup.runs, *lengths, setup.end, sensor=sensor, workers=setup.workers)
+    parts = refinement(setup.base)
+    return series(setup.experiment, setup.runs, *lengths, setup.end, sensor, refine=parts, workers=setup.workers)
 
 
 def nominal(parameters: tuple[Parameter, ...], z: np.ndarray) -> np.ndarray:

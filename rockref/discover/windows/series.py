@@ -8,6 +8,7 @@ gyroscope implies, with five small corrections of its own; and the pieces, joine
 from __future__ import annotations
 
 import copy
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -37,6 +38,7 @@ from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
 from rockref.model.rotation import exponential
+from rockref.model.simulate import largest_step
 
 #: Step inside windows [s]; decided: 16 steps a millisecond; halving it changes the residual by less than a hundredth
 #: of the noise (the gate measures it again on every experiment).
@@ -53,6 +55,15 @@ def gyro_of(experiment: Experiment) -> Gyro:
         cure = "Windows are restarted from gyroscope records; state [gyro] in experiment.toml."
         raise InputError("E-GYRO", f"{experiment.path}: [gyro]", "is missing", cure)
     return experiment.gyro
+
+
+def refinement(model: Model) -> int:
+    """Into how many parts `STEP` is divided, so that it is stable inside windows with all points on the plate at once.
+
+    One for blocks up to nearly twice as stiff as that of Table 3.1. With twenty times its stiffness and undivided
+    steps, windows that begin at the truth leave 1.24 times the noise, and 0.97 with these.
+    """
+    return math.ceil(STEP / largest_step(model.problem()))
 
 
 @dataclass(frozen=True)
