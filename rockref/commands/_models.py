@@ -32,6 +32,10 @@ def named_model(text: str) -> Model:
 
     if text in NAMED:
         return getattr(Model, text)()
+    if not text.strip():
+        from rockref.model.errors import InputError
+
+        raise InputError("E-FILE", "the name of the model", "is empty", f"Use {', '.join(NAMED)} or a model.toml.")
     near = difflib.get_close_matches(text.lower(), NAMED, 1)
     if near and not Path(text).exists():
         from rockref.model.errors import InputError

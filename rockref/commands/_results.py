@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,11 +11,20 @@ if TYPE_CHECKING:
     from rockref.measure.notice import Notice
 
 
-def folder_name(text: str) -> Path:
-    """The folder that an option names; an empty word, which would be the current folder, is refused."""
-    if not text.strip():
+def folder_name(text: str | Path) -> Path:
+    """The folder that an argument names; an empty word, which would be the current folder, is refused."""
+    if not str(text).strip():
         raise typer.BadParameter("is empty; name a folder, or . for the current one.")
     return Path(text)
+
+
+#: What every command on an experiment takes.
+ExperimentFolder = Annotated[
+    Path,
+    typer.Argument(
+        parser=folder_name, metavar="EXPERIMENT", help="Folder with experiment.toml and the tables of the runs."
+    ),
+]
 
 
 def usable_files(*paths: Path | None) -> None:

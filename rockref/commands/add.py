@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import folder_name
+from rockref.commands._results import ExperimentFolder, folder_name
 
 
 def register(app: typer.Typer) -> None:
@@ -17,7 +17,7 @@ def register(app: typer.Typer) -> None:
 
 def add(
     effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`, or file.py:Class.")],
-    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    experiment: ExperimentFolder,
     model: Annotated[
         str | None, typer.Option("--model", "-m", help="What it is added to, a model.toml. Default: the baseline.")
     ] = None,

@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._results import folder_name
+
 HELP = """Test the discoverer on sealed hidden effects.
 
 Example:
@@ -23,7 +25,12 @@ def register(app: typer.Typer) -> None:
 
 
 def make(
-    folder: Annotated[Path, typer.Argument(help="Folder to make; an interrupted one is gone on with.")],
+    folder: Annotated[
+        Path,
+        typer.Argument(
+            parser=folder_name, metavar="FOLDER", help="Folder to make; an interrupted one is gone on with."
+        ),
+    ],
     seed: Annotated[int, typer.Option(min=0, help="Draws the plan and every case.")],
     cases: Annotated[int, typer.Option(min=1, help="How many cases.")] = 120,
     effects: Annotated[
@@ -65,7 +72,9 @@ def make(
 
 
 def score(
-    folder: Annotated[Path, typer.Argument(help="Folder made by `rockref blind make`.")],
+    folder: Annotated[
+        Path, typer.Argument(parser=folder_name, metavar="FOLDER", help="Folder made by `rockref blind make`.")
+    ],
     workers: Annotated[int | None, typer.Option(min=1, help="Cases at a time; one a core by default.")] = None,
     dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
     rivals: Annotated[bool, typer.Option("--rivals/--no-rivals", help="Score simpler methods beside it.")] = True,

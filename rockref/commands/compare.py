@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import folder_name
+from rockref.commands._results import ExperimentFolder, folder_name
 
 
 def register(app: typer.Typer) -> None:
@@ -16,7 +16,7 @@ def register(app: typer.Typer) -> None:
 
 
 def compare(
-    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    experiment: ExperimentFolder,
     model: Annotated[
         list[str] | None,
         typer.Option(

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_name
+from rockref.commands._results import ExperimentFolder, folder_name
 
 
 def register(app: typer.Typer) -> None:
@@ -15,7 +15,7 @@ def register(app: typer.Typer) -> None:
 
 
 def diagnose(
-    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    experiment: ExperimentFolder,
     model: Annotated[
         str | None, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml to start from.")
     ] = None,

@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._results import ExperimentFolder
+
 
 def register(app: typer.Typer) -> None:
     """Add ``fit`` to `app`."""
@@ -13,7 +15,7 @@ def register(app: typer.Typer) -> None:
 
 
 def fit(
-    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    experiment: ExperimentFolder,
     output: Annotated[Path, typer.Option("--output", "-o", help="Where the model goes, a .toml.")] = Path("model.toml"),
     effect: Annotated[
         list[str] | None,

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
+from rockref.commands._results import ExperimentFolder, folder_name
 
 
 def register(app: typer.Typer) -> None:
@@ -15,9 +16,16 @@ def register(app: typer.Typer) -> None:
 
 
 def identify(
-    experiment: Annotated[Path, typer.Argument(help="Folder with experiment.toml and the tables of the runs.")],
+    experiment: ExperimentFolder,
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for the result, the model and the checkpoints.")
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            parser=folder_name,
+            metavar="FOLDER",
+            help="Folder for the result, the model and the checkpoints.",
+        ),
     ] = Path("identified"),
     model: Annotated[
         str, typer.Option("--model", "-m", help="table_3_1 or a model.toml: block and what is not searched.")

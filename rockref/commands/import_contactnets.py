@@ -15,7 +15,14 @@ def register(app: typer.Typer) -> None:
 
 def import_(
     kind: Annotated[str, typer.Argument(help="What is imported: contactnets.")],
-    source: Annotated[Path, typer.Argument(help="A clone of github.com/DAIRLab/contact-nets, or its .pt files.")],
+    source: Annotated[
+        Path,
+        typer.Argument(
+            parser=folder_name,
+            metavar="SOURCE",
+            help="A clone of github.com/DAIRLab/contact-nets, or its .pt files.",
+        ),
+    ],
     output: Annotated[
         Path,
         typer.Option(

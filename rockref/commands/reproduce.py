@@ -12,6 +12,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._results import folder_name
+
 
 def register(app: typer.Typer) -> None:
     """Add ``reproduce`` to `app`."""
@@ -20,7 +22,9 @@ def register(app: typer.Typer) -> None:
 
 def reproduce(
     what: Annotated[str, typer.Argument(metavar="[STUDY] FOLDER", help="The study (default: source) ...")],
-    folder: Annotated[Path | None, typer.Argument(metavar="", help="... and the folder that it is made in.")] = None,
+    folder: Annotated[
+        Path | None, typer.Argument(parser=folder_name, metavar="", help="... and the folder that it is made in.")
+    ] = None,
     data: Annotated[
         Path | None, typer.Option("--data", help="The measured input of the study; by default the shipped one.")
     ] = None,
@@ -50,7 +54,7 @@ def reproduce(
     from rockref.commands._stages import stages
     from rockref.model.errors import InputError
 
-    name, into = (what, folder) if folder is not None else ("source", Path(what))
+    name, into = (what, folder) if folder is not None else ("source", folder_name(what))
     if folder is None and what in STUDIES:
         raise InputError("E-KEY", "FOLDER", "is missing", f"rockref reproduce {what} FOLDER")
     if name not in STUDIES:

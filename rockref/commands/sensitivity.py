@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
+from rockref.commands._results import folder_name
 
 
 def register(app: typer.Typer) -> None:
@@ -16,7 +17,14 @@ def register(app: typer.Typer) -> None:
 
 def sensitivity(
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for the figures and the result; made if it is not there.")
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            parser=folder_name,
+            metavar="FOLDER",
+            help="Folder for the figures and the result; made if it is not there.",
+        ),
     ] = Path("sensitivity"),
     model: Annotated[str, typer.Option("--model", "-m", help="table_3_1 or a model.toml.")] = "table_3_1",
     effect: OwnEffects = None,

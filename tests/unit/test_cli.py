@@ -152,3 +152,32 @@ def test_a_model_too_stiff_for_the_steps_of_a_fit_is_refused_before_the_work(cap
     code, out, err = run(capsys, *words, str(tmp_path), "--model", str(stiff))
     assert (code, out) == (2, "")
     assert f"{stiff}: step: 1e-05 s is too large for the stiffest contact" in err and "[E-STEP]" in err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("compare", ""),
+        ("fit", ""),
+        ("diagnose", " "),
+        ("add", "gyro_scale", ""),
+        ("identify", ""),
+        ("identify", "experiment", "-o", ""),
+        ("sensitivity", "-o", ""),
+        ("demo", "--out", ""),
+        ("blind", "make", "", "--seed", "1"),
+        ("blind", "score", ""),
+        ("reproduce", ""),
+        ("reproduce", "source", ""),
+        ("import", "contactnets", "", "-o", "tosses"),
+        ("simulate", ""),
+        ("plan", "--model", " "),
+    ],
+    ids=" ".join,
+)
+def test_an_empty_name_is_not_the_current_folder(capsys, tmp_path, monkeypatch, words):
+    """A variable that a script did not set would put its files, or look for them, wherever it runs."""
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(capsys, *words)
+    assert (code, out) == (2, "") and "is empty" in err
+    assert not list(tmp_path.iterdir())
