@@ -297,8 +297,8 @@ def _flat_tops(t: np.ndarray, crv: np.ndarray, names: list[str], width: float, w
         for side, word in ((1.0, "top"), (-1.0, "bottom")):
             x = side * crv[:, axis]
             limit = float(x.max())
-            # Near the noise everything is flat.
-            if limit < 20.0 * width:
+            # Near the noise everything is flat, also about an offset.
+            if limit - float(np.median(x)) < 20.0 * width:
                 continue
             samples = _longest(x >= limit - 4.0 * width)
             longest = samples * sample_step(t)

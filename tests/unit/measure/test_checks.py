@@ -107,6 +107,19 @@ def test_a_cusp_of_few_samples_is_no_flat_top(folder, as_table, rocking):
     assert "W-FLAT-TOP" not in codes
 
 
+@pytest.mark.parametrize("offset", [3.0, -3.0])
+def test_a_quiet_axis_off_zero_has_no_flat_top(folder, as_table, good_signal, offset):
+    """All its samples are near its largest one, however far that is from zero."""
+
+    def quiet(t, w):
+        w = w.copy()
+        w[:, 2] = offset + 0.05 * np.random.default_rng(1).normal(size=len(w))
+        return t, w
+
+    notices = load_experiment(edited(folder, as_table, good_signal, quiet)).notices
+    assert "W-FLAT-TOP" not in [n.code for n in notices]
+
+
 def test_a_rate_of_another_size_need_not_be_its_unit(folder):
     """Width and height exchanged: another block swings thirty times faster, and the column is named rightly."""
     path = folder / "experiment.toml"
