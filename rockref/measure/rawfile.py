@@ -30,8 +30,14 @@ def shown(text: str, width: int = 40) -> str:
     return repr(text if len(text) <= width else text[: width - 3] + "...")
 
 
-def read_text(path: Path, *, max_packed: int = MAX_PACKED_BYTES, max_text: int = MAX_TEXT_BYTES) -> RawText:
-    """Read a UTF-8 text file, packed with gzip or not.
+def read_text(
+    path: Path,
+    *,
+    max_packed: int = MAX_PACKED_BYTES,
+    max_text: int = MAX_TEXT_BYTES,
+    if_empty: str = "Export the run again.",
+) -> RawText:
+    """Read a UTF-8 text file, packed with gzip or not; `if_empty` is what to do where there is nothing in it.
 
     Line ends become ``\\n``, a byte order mark is dropped; both are said in the notices.
     Raises InputError: E-FILE (missing, not a regular file, unreadable), E-SIZE, E-GZIP, E-ENCODING, E-EMPTY.
@@ -44,7 +50,7 @@ def read_text(path: Path, *, max_packed: int = MAX_PACKED_BYTES, max_text: int =
         raise too_large(path, max_text)
     text, notices = _decode(data, path)
     if not text.strip():
-        raise InputError("E-EMPTY", str(path), "the file is empty", "Export the run again.")
+        raise InputError("E-EMPTY", str(path), "the file is empty", if_empty)
     return RawText(text, hashlib.sha256(packed).hexdigest(), notices)
 
 

@@ -71,8 +71,8 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
 
     Raises InputError: E-FILE, E-SIZE, E-GZIP, E-ENCODING, E-EMPTY, E-TOML.
     """
-    raw = read_text(path, max_packed=MAX_TOML_BYTES, max_text=MAX_TOML_BYTES)
     cure = "Compare it with the example in the documentation."
+    raw = read_text(path, max_packed=MAX_TOML_BYTES, max_text=MAX_TOML_BYTES, if_empty=cure)
     for number, line in enumerate(raw.text.split("\n"), start=1):
         if len(line) > MAX_TOML_LINE:
             raise InputError("E-TOML", f"{path}, line {number}", f"{len(line)} characters in one line", cure)

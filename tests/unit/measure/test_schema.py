@@ -86,7 +86,7 @@ HOSTILE = {
     "huge file": (b"# x\n" * 100_000, "E-SIZE", "262144 bytes"),
     "not UTF-8": (b"a = 'caf\xe9'\n", "E-ENCODING", "line 1"),
     "zero byte": (b"a = 1\0\n", "E-ENCODING", "line 1"),
-    "empty": (b"\n\n", "E-EMPTY", "empty"),
+    "empty": (b"\n\n", "E-EMPTY", "Compare it with the example"),
     "control character": (b"a = '\x07'\n", "E-TOML", "line 1"),
     "unclosed string": (b'a = "b\n', "E-TOML", "line 1"),
 }
