@@ -338,6 +338,10 @@ def _load_run(run: Run, experiment: Experiment, notices: list[Notice]) -> Run:
     else:
         check_forward(table)
     crv = _stack(columns, RATES)
+    absent = [name for name in POSE if name not in columns]
+    if 0 < len(absent) < len(POSE):
+        what = f"there is a part of a pose, without {', '.join(absent)}"
+        notices.append(Notice("W-POSE", str(table.path), what, "What is there of it is left out; give all seven."))
     if release and crv is not None:
         notices.extend(check_faults(t, crv, table, run, experiment))
         stands = samples_before_a_fall(t, crv, run, experiment)

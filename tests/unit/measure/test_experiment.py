@@ -202,6 +202,17 @@ def test_copies_and_missing_holdout_are_said(folder):
     assert {n.code for n in load_experiment(folder).notices} == {"W-NO-HOLDOUT", "W-SAME-DATA"}
 
 
+def test_a_pose_that_is_half_there_is_said(folder):
+    path = folder / "run01.csv"
+    head, *rows = path.read_text().splitlines()
+    path.write_text("\n".join([f"{head},x_m,qw", *(f"{row},0.1,1" for row in rows)]) + "\n")
+    experiment = load_experiment(folder)
+    assert experiment.run("01").pose is None
+    (said,) = experiment.notices
+    assert (said.code, said.where) == ("W-POSE", str(path))
+    assert "without y, z, qx, qy, qz" in said.what
+
+
 def test_toss_has_poses_instead_of_a_release(folder):
     text = 'name = "toss"\nkind = "toss"\nbaseline = "eight_points"\n'
     text += "[block]\nmass_kg = 0.37\nwidth_mm = 104.8\nheight_mm = 104.8\n"
