@@ -188,13 +188,14 @@ def with_effects(model: Model, texts: Sequence[str]) -> Model:
 
     A user's own that it has and that is named without parameters stays as it is.
     """
-    from rockref.effects.catalogue import in_step_order, parse
+    from rockref.effects.catalogue import in_step_order, of_releases, parse
 
     texts = [text for text in texts if not (text.strip() == spec_of(text) and has(model, text))]
 
     if not texts:
         return model
     added = [parse(text) for text in texts]
+    of_releases([effect.id for effect in added])
     for text, effect in zip(texts, added, strict=True):
         say_implausible([effect], f"--effect {text}")
     kept = [effect for effect in model.effects if effect.id not in {new.id for new in added}]

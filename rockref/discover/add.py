@@ -136,7 +136,7 @@ def add(
     """
     begun = time.perf_counter()
     say = progress or (lambda line: None)
-    effect = catalogue.named(effect).id
+    (effect,) = (kind.id for kind in catalogue.of_releases([effect], "argument effect"))
     experiment = usable(load_experiment(path, uses=(FIT,)))
     base = baseline_model(experiment, model)
     own = tuple(e.id for e in base.active_effects())

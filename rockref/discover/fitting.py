@@ -77,12 +77,9 @@ class Fitted:
 def known_effects(effects: tuple[str, ...]) -> tuple[str, ...]:
     """The ids of effects that are named by id or, a user's own, by path/to/file.py:Class.
 
-    Raises InputError (E-EFFECT, E-FILE) for one that nobody knows, cannot be used, or is given twice.
+    Raises InputError (E-EFFECT, E-FILE) for one that nobody knows, cannot be used, is twice, or is of tosses only.
     """
-    ids = tuple(catalogue.named(name).id for name in effects)
-    if len(set(ids)) != len(ids):
-        raise InputError("E-EFFECT", "--effect", f"{', '.join(ids)}: one is given twice", "Give each once.")
-    return ids
+    return tuple(kind.id for kind in catalogue.of_releases(effects))
 
 
 def fit_experiment(

@@ -344,7 +344,7 @@ def plan(
         raise InputError("E-RUNS", "argument runs", "is empty", "Plan one release at least.")
     baseline = "four_points" if model.points == "four_points" else "eight_points"
     has = {e.id for e in model.effects}
-    chosen = kinds(baseline, (*LEFT_OUT, *has)) if effects is None else tuple(catalogue.named(id) for id in effects)
+    chosen = kinds(baseline, (*LEFT_OUT, *has)) if effects is None else catalogue.of_releases(effects)
     wanted = alternatives(runs)
     every = sorted({*runs, *wanted})
     known, whole = {}, {}

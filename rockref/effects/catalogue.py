@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import os
 import shlex
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -160,6 +160,22 @@ def named(words: str, where: str = "effect") -> type[Effect]:
     kind = own_effect(words.strip())
     NAMED.add(os.path.realpath(file_and_class(words.strip())[0]))
     return kind
+
+
+def of_releases(words: Sequence[str], where: str = "--effect") -> tuple[type[Effect], ...]:
+    """The effects that a user names for records of a gyroscope, each as in `named`.
+
+    Raises InputError (E-EFFECT) for one that is given twice, or that only tracked poses of tosses show.
+    """
+    kinds = tuple(named(text) for text in words)
+    ids = [kind.id for kind in kinds]
+    if len(set(ids)) != len(ids):
+        raise InputError("E-EFFECT", where, f"{', '.join(ids)}: one is given twice", "Give each once.")
+    for id in ids:
+        if id in OF_TOSSES:
+            what = f"{id} is how the poses of tosses are read, and no gyroscope shows it"
+            raise InputError("E-EFFECT", where, what, "Leave it out; `rockref effects` says which are of tosses only.")
+    return kinds
 
 
 def own_effect(spec: str) -> type[Effect]:

@@ -181,3 +181,20 @@ def test_an_empty_name_is_not_the_current_folder(capsys, tmp_path, monkeypatch, 
     code, out, err = run(capsys, *words)
     assert (code, out) == (2, "") and "is empty" in err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "words, what",
+    [
+        (("simulate", "--effect", "plate_pose"), "poses of tosses"),
+        (("plan", "--effect", "tag_frame"), "poses of tosses"),
+        (("plan", "--effect", "gyro_scale", "--effect", "gyro_scale"), "given twice"),
+        (("add", "plate_pose", "data/experiments/mystery-08"), "poses of tosses"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else value,
+)
+def test_an_effect_that_records_of_a_gyroscope_cannot_show_is_refused(capsys, monkeypatch, words, what):
+    """It would have been fitted, or planned for, and have done nothing."""
+    monkeypatch.chdir(Path(__file__).resolve().parents[2])
+    code, out, err = run(capsys, *words)
+    assert (code, out) == (2, "") and what in err and "[E-EFFECT]" in err

@@ -129,6 +129,8 @@ def test_a_users_own_effect_is_a_candidate_like_any_other():
     assert start_from((p,), put(kind, 0.5)) == pytest.approx([0.5])
     with pytest.raises(InputError, match="given twice"):
         known_effects((id, f"{EXAMPLE}:EddyBrake"))
+    with pytest.raises(InputError, match="poses of tosses"):
+        known_effects(("tag_frame",))
 
 
 def test_numbers_of_a_users_own_that_are_infinite_none_or_only_shape(tmp_path):
