@@ -28,7 +28,10 @@ ExperimentFolder = Annotated[
 
 
 def usable_files(*paths: Path | None) -> None:
-    """Refuse files that could not be written at the end of long work, before it. Raises InputError E-WRITE."""
+    """Refuse files that could not be written at the end of long work, before it, or would be written over each other.
+
+    Raises InputError E-WRITE.
+    """
     import os
 
     from rockref.model.errors import InputError
@@ -41,6 +44,10 @@ def usable_files(*paths: Path | None) -> None:
             raise InputError("E-WRITE", str(path), "is a folder", "Name a file.")
         if not into.is_dir() or not os.access(into, os.W_OK | os.X_OK):
             raise InputError("E-WRITE", str(path), f"{into} is no folder that can be written to", "Name another place.")
+    places = [path.resolve() for path in paths if path is not None]
+    for k, place in enumerate(places):
+        if place in places[:k]:
+            raise InputError("E-WRITE", str(place), "is named for two results", "Name a file for each.")
 
 
 def keep(text: str, output: Path | None, model: "Model", save_model: Path | None) -> list[Path]:

@@ -83,6 +83,7 @@ def conform(
       rockref conform example c --output mine.c
       rockref conform zoo --json
     """
+    from rockref.commands._results import usable_files
     from rockref.conformance.judge import LAYERS
     from rockref.model.errors import InputError
 
@@ -94,6 +95,10 @@ def conform(
             f"is followed by {rest[0]!r}",
             "Only exe, judge, answer, serve, example take more arguments.",
         )
+    # A bare "not timeout > 0" lets infinity pass, which is no limit and may be wanted, and not nan.
+    if not timeout > 0.0:
+        raise InputError("E-RANGE", "--timeout", f"is {timeout:g} s", "Give a positive number of seconds.")
+    usable_files(junit, badge, html, output)
     chosen = _layers(layers, quick, LAYERS)
     if target == "zoo":
         _zoo(as_json, quick, output)
@@ -108,8 +113,13 @@ def conform(
 
 
 def _layers(layers: str | None, quick: bool, every: tuple[str, ...]) -> list[str]:
+    from rockref.model.errors import InputError
+
     if layers is not None:
-        return [name.strip() for name in layers.split(",") if name.strip()]
+        names = [name.strip() for name in layers.split(",") if name.strip()]
+        if not names:
+            raise InputError("E-LAYER", "--layers", "is empty", f"Use some of {', '.join(every)}, or leave it out.")
+        return names
     return [n for n in every if not (quick and n in ("L5", "L6"))]
 
 

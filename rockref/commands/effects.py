@@ -35,6 +35,7 @@ def effects(
       rockref effects examples/my_effect.py:EddyBrake
     """
     from rockref.commands._models import say_implausible
+    from rockref.commands._results import usable_files
     from rockref.effects.catalogue import OF_TOSSES, QUESTIONS, parse
     from rockref.effects.tracking.none import TrackedAsDrawn
     from rockref.model.errors import InputError
@@ -58,6 +59,7 @@ def effects(
         return
     if picture is not None and picture.suffix.lower() not in (".png", ".svg"):
         raise InputError("E-SUFFIX", str(picture), "is no kind of picture", "End its name in .png or .svg.")
+    usable_files(picture)
     effect = parse(name, "effects")
     say_implausible([effect], f"effects {name}")
     typer.echo(json.dumps(gallery.card(type(effect)), indent=2) if as_json else text(effect))

@@ -198,3 +198,27 @@ def test_an_effect_that_records_of_a_gyroscope_cannot_show_is_refused(capsys, mo
     monkeypatch.chdir(Path(__file__).resolve().parents[2])
     code, out, err = run(capsys, *words)
     assert (code, out) == (2, "") and what in err and "[E-EFFECT]" in err
+
+
+@pytest.mark.parametrize(
+    "words, code",
+    [
+        (("conform", "numpy", "--layers", "L0", "--timeout", "-5"), "E-RANGE"),
+        (("conform", "numpy", "--layers", "L0", "--timeout", "nan"), "E-RANGE"),
+        (("conform", "numpy", "--layers", " , "), "E-LAYER"),
+        (("conform", "numpy", "--layers", "L0", "--junit", "folder"), "E-WRITE"),
+        (("conform", "numpy", "--layers", "L0", "--html", "nowhere/page.html"), "E-WRITE"),
+        (("conform", "zoo", "--quick", "--output", "nowhere/zoo.md"), "E-WRITE"),
+        (("effects", "gyro_scale", "--picture", "nowhere/scale.png"), "E-WRITE"),
+        (("diagnose", "nowhere", "-o", "a.toml", "--save-model", "folder/../a.toml"), "E-WRITE"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, tuple) else value,
+)
+def test_what_cannot_end_well_is_refused_before_the_work(capsys, tmp_path, monkeypatch, words, code):
+    """A link to a folder in the place of a file was replaced, and what was printed before an error looked like a result."""
+    (tmp_path / "real").mkdir()
+    (tmp_path / "folder").symlink_to("real")
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run(capsys, *words)
+    assert (status, out) == (2, "") and f"[{code}]" in err
+    assert (tmp_path / "folder").is_symlink() and sorted(p.name for p in tmp_path.iterdir()) == ["folder", "real"]
