@@ -55,6 +55,7 @@ def make(
     from rockref.commands._progress import progress
     from rockref.discover.blind import making, plan
     from rockref.model.errors import InputError
+    from rockref.report.output import usable_folder
 
     chosen = None
     if effects is not None:
@@ -62,7 +63,13 @@ def make(
             chosen = plan.listed(seed, [word.strip() for word in effects.split(",") if word.strip()])
         except ValueError as error:
             known = ", ".join(["none", *plan.EFFECTS, *plan.OUTSIDERS])
-            raise InputError("E-EFFECT", "--effects", f"does not understand {error}", f"Known are {known}.") from None
+            cure = f"Write id or id:size, a size of 2 being twice the typical one. Known are {known}."
+            raise InputError("E-EFFECT", "--effects", f"does not understand {error}", cure) from None
+        if not chosen:
+            raise InputError(
+                "E-EFFECT", "--effects", "names no case", "Name some, or leave it out for those of a plan."
+            )
+    usable_folder(folder)
     with progress("making cases") as ahead:
         manifest = making.make(folder, seed, cases, cases=chosen, workers=workers, dask=dask, progress=ahead)
     if as_json:

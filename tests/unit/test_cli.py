@@ -215,7 +215,7 @@ def test_an_effect_that_records_of_a_gyroscope_cannot_show_is_refused(capsys, mo
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else value,
 )
 def test_what_cannot_end_well_is_refused_before_the_work(capsys, tmp_path, monkeypatch, words, code):
-    """A link to a folder in the place of a file was replaced, and what was printed before an error looked like a result."""
+    """A link to a folder in the place of a file was replaced, and words before an error looked like a result."""
     (tmp_path / "real").mkdir()
     (tmp_path / "folder").symlink_to("real")
     monkeypatch.chdir(tmp_path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -90,7 +91,10 @@ def plan(seed: int, n: int) -> list[Case]:
 
 
 def listed(seed: int, words: Sequence[str]) -> list[Case]:
-    """Cases from words: "none", "gyro_scale", "gyro_scale:2", "plate_tilt+gyro_drift". Raises ValueError for others."""
+    """Cases from words: "none", "gyro_scale", "gyro_scale:2", "plate_tilt+gyro_drift".
+
+    Raises ValueError with the word for others: an id that nobody knows, no positive size, an effect twice in a case.
+    """
     rng = np.random.default_rng([int(seed), 0])
     cases = []
     for word in words:
@@ -99,12 +103,25 @@ def listed(seed: int, words: Sequence[str]) -> list[Case]:
             id, _, size = part.partition(":")
             if id not in EFFECTS and id not in OUTSIDERS:
                 raise ValueError(id)
-            effects.append((id, float(size or 1.0)))
+            effects.append((id, _size(part, size)))
+        if len({id for id, _ in effects}) < len(effects):
+            raise ValueError(word)
         kind = CONTROL if not effects else PAIR if len(effects) > 1 else SINGLE
         if any(id in OUTSIDERS for id, _ in effects):
             kind = OUTSIDER
         cases.append(Case(kind, tuple(effects), _seed(rng)))
     return cases
+
+
+def _size(part: str, size: str) -> float:
+    """How many typical sizes; one without a number. Raises ValueError with the part for what is no positive number."""
+    try:
+        found = float(size or 1.0)
+    except ValueError:
+        raise ValueError(part) from None
+    if not 0.0 < found < math.inf:
+        raise ValueError(part)
+    return found
 
 
 def _seed(rng: np.random.Generator) -> int:

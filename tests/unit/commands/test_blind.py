@@ -19,6 +19,18 @@ def test_an_effect_that_does_not_exist_is_refused(capsys, tmp_path):
     assert code == 2 and "gyro_scal" in printed.err and not (tmp_path / "b").exists()
 
 
+@pytest.mark.parametrize("effects", ["", " , "])
+def test_no_cases_are_no_blind_test(capsys, tmp_path, effects):
+    code, printed = run(capsys, "make", tmp_path / "b", "--seed", 1, "--effects", effects)
+    assert code == 2 and "[E-EFFECT]" in printed.err and not (tmp_path / "b").exists()
+
+
+def test_a_file_in_the_place_of_the_folder_is_refused_with_what_to_do(capsys, tmp_path):
+    (tmp_path / "file").write_text("mine")
+    code, printed = run(capsys, "make", tmp_path / "file", "--seed", 1, "--cases", 1)
+    assert code == 2 and "Name another folder. [E-WRITE]" in " ".join(printed.err.split())
+
+
 def test_a_folder_that_is_no_blind_test_is_refused(capsys, tmp_path):
     code, printed = run(capsys, "score", tmp_path)
     assert code == 2 and "rockref blind make" in printed.err

@@ -48,3 +48,15 @@ def test_cases_of_ones_own():
     assert cases[2].effects == (("gyro_scale", 2.0),)
     with pytest.raises(ValueError, match="gyro_scal"):
         listed(1, ["gyro_scal"])
+
+
+@pytest.mark.parametrize("word", ["gyro_scale:nan", "gyro_scale:0", "gyro_scale:-1", "gyro_scale:inf", "gyro_scale:x"])
+def test_a_size_that_is_none_is_refused(word):
+    """Nothing, or what is no number, would be hidden, and be sealed as an effect."""
+    with pytest.raises(ValueError, match=f"^{word}$"):
+        listed(1, ["none", word])
+
+
+def test_an_effect_twice_in_a_case_is_refused():
+    with pytest.raises(ValueError, match="gyro_scale"):
+        listed(1, ["gyro_scale+gyro_scale:2"])
