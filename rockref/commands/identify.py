@@ -56,7 +56,7 @@ def identify(
       rockref identify data/experiments/mystery-08 --dask tcp://127.0.0.1:8786
     """
     from rockref.commands._models import named_models, say_left_out, say_other_points
-    from rockref.commands._results import say_written
+    from rockref.commands._results import say_remarks, say_written
     from rockref.commands._searching import searching
     from rockref.identify.alone import alone_in
     from rockref.identify.campaign import campaign
@@ -70,6 +70,7 @@ def identify(
     say_left_out(base, model)
     asked = question(experiment, base, genes, search_runs)
     say_other_points(asked.stated, experiment)
+    say_remarks(asked.notices)
     folder = made_folder(output)
     with alone_in(folder), searching(verbose) as say, campaign(workers, dask) as work:
         settings = Settings(population, generations, seed)

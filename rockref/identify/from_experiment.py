@@ -18,6 +18,7 @@ from rockref.identify.runs import run_errors
 from rockref.identify.search import Progress, Settings
 from rockref.identify.target import Target, chosen_runs, targets_of
 from rockref.measure.experiment import load_experiment
+from rockref.measure.notice import Notice
 from rockref.model.errors import InputError
 
 
@@ -26,7 +27,7 @@ class Question:
     """What is to be identified, checked: nothing was written for it, and no holdout run was opened.
 
     targets : the fit runs;  chosen : those of the evolutionary search;  space : the genes;  stated : the baseline that
-    the experiment states.
+    the experiment states;  notices : what the reader remarked on.
     """
 
     experiment: Path
@@ -34,6 +35,7 @@ class Question:
     chosen: tuple[Target, ...]
     space: Space
     stated: str
+    notices: tuple[Notice, ...] = ()
 
 
 def question(experiment: Path, base: Model | None = None, genes: int = 12, search_runs: str | None = None) -> Question:
@@ -53,7 +55,7 @@ def question(experiment: Path, base: Model | None = None, genes: int = 12, searc
     )
     chosen = chosen_runs(targets, search_runs)
     space = (space_12 if genes == 12 else space_54)(model, chosen[0].tilt)
-    return Question(experiment, targets, chosen, space, data.baseline)
+    return Question(experiment, targets, chosen, space, data.baseline, data.notices)
 
 
 def answered(

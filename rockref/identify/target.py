@@ -93,12 +93,15 @@ def chosen_runs(targets: tuple[Target, ...], names: str | None) -> tuple[Target,
     if names is None:
         return targets[:1]
     known = {t.name: t for t in targets}
-    for name in names.split(","):
-        if name.strip() not in known:
+    wanted = [name.strip() for name in names.split(",")]
+    for name in wanted:
+        if name not in known:
             raise InputError(
                 "E-RUN", "--search-runs", f"there is no fit run {name!r}", f"There are {', '.join(known)}."
             )
-    return tuple(known[name.strip()] for name in names.split(","))
+        if wanted.count(name) > 1:
+            raise InputError("E-RUN", "--search-runs", f"names run {name} twice", "Name each once.")
+    return tuple(known[name] for name in wanted)
 
 
 def twin(model: Model, step: float, seed: int | None, gyro: Gyro = GYRO, duration: float = 1.6) -> Target:

@@ -32,6 +32,7 @@ def refused(capsys, *words):
         (("EIGHT", "--genes", "13"), "E-KEY"),
         (("EIGHT", "--model", "four_points"), "E-MOOT"),
         (("EIGHT", "--search-runs", "07"), "E-RUN"),
+        (("EIGHT", "--search-runs", "01, 01"), "E-RUN"),
     ],
 )
 def test_what_is_refused_leaves_no_folder(capsys, here, words, code):
@@ -48,3 +49,14 @@ def test_an_experiment_that_states_other_points_is_told_what_is_searched(capsys,
     told = refused(capsys, folder)
     assert "[E-STOP]" in told and told.count("[W-MOOT]") == remarks
     assert told.count("FOUR: states four_points as its baseline, and eight points are searched") == remarks
+
+
+def test_remarks_of_the_reader_are_said_before_the_work(capsys, here, monkeypatch):
+    def work(*given, **named):
+        raise InputError("E-STOP", "here", "stop", "")
+
+    monkeypatch.setattr("rockref.identify.from_experiment.answered", work)
+    path = here / "EIGHT/experiment.toml"
+    path.write_text(path.read_text(encoding="utf-8").replace('"holdout"', '"fit"'), encoding="utf-8")
+    told = refused(capsys, "EIGHT")
+    assert "[W-NO-HOLDOUT]" in told and told.index("[W-NO-HOLDOUT]") < told.index("[E-STOP]")
