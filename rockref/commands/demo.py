@@ -33,11 +33,14 @@ def demo(
       rockref demo
       rockref demo --out somewhere
     """
+    from rockref.api import Model
     from rockref.commands._stages import stages
+    from rockref.engines import chosen
     from rockref.report.demo import find_experiments, tell
     from rockref.report.output import made_folder
 
     began = time.monotonic()
+    chosen(Model.table_3_1().problem(), engine)  # refused before the folder is made
     folder = find_experiments(data)
     made_folder(out)
     with stages("the demonstration") as show:

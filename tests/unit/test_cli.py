@@ -210,6 +210,7 @@ def test_an_effect_that_records_of_a_gyroscope_cannot_show_is_refused(capsys, mo
         (("conform", "numpy", "--layers", "L0", "--html", "nowhere/page.html"), "E-WRITE"),
         (("conform", "zoo", "--quick", "--output", "nowhere/zoo.md"), "E-WRITE"),
         (("effects", "gyro_scale", "--picture", "nowhere/scale.png"), "E-WRITE"),
+        (("demo", "--engine", "gpu"), "E-ENGINE"),
         (("diagnose", "nowhere", "-o", "a.toml", "--save-model", "folder/../a.toml"), "E-WRITE"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else value,
