@@ -343,7 +343,10 @@ def to_be_sure(setup: Setup, null: Family, final: Family, decision: rules.Decisi
 
 
 def held_gains(plain: HeldOut, other: HeldOut) -> list[float]:
-    """Gain on each held-out run, per thousand samples of one axis; the windows may be cut differently."""
+    """By how much the loss falls on each held-out run (1 is noise, 3 the most that a window counts).
+
+    The windows of the two fits may be cut differently.
+    """
     found = []
     for i in np.unique(plain.run_of):
         a, b = plain.run_of == i, other.run_of == i

@@ -1,4 +1,4 @@
-"""What the misfit of the baseline looks like: on which axis, when, odd or even, locked to what."""
+"""What the misfit of the baseline looks like: on which axis, when, and with which frequency."""
 
 from __future__ import annotations
 

@@ -202,8 +202,8 @@ def add_sure(page: Page, record: dict[str, Any]) -> None:
         page.add_table(diagnosis_text.limits_table(record))
     if record.get("confusion"):
         page.add_table(diagnosis_text.confusion_table(record))
-    rows = [[k.replace("_", " "), diagnosis_text.in_words(v)] for k, v in record["gates"].items()]
-    page.add_table(Table("Checks before the verdict", ("check", "found"), rows, prose=True))
+    rows = diagnosis_text.gates_rows(record)
+    page.add_table(Table("Checks of the verdict and of the fit behind it", ("check", "found"), rows, prose=True))
 
 
 def add_falling_error(page: Page, record: dict[str, Any]) -> None:

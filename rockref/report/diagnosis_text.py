@@ -50,7 +50,27 @@ def print_diagnosis(console: Console, d: dict[str, Any]) -> None:
     print_table(console, signature_table(d))
     if d["separating_experiment"]:
         say(console, f"To be sure: {d['separating_experiment']}")
+    for sentence in careful(d):
+        say(console, f"With care: {sentence}")
     say(console, f"{d['seconds']:.0f} s.", "dim")
+
+
+def careful(d: dict[str, Any]) -> list[str]:
+    """What the gates say that the fit did not pass; that of the bounds stands with the sizes, where there are any."""
+    missed = {
+        name: gate["sentence"]
+        for name, gate in d["gates"].items()
+        if isinstance(gate, dict) and not gate.get("passed", True)
+    }
+    if d["amplitudes"]:
+        missed.pop("off_bounds", None)
+    return list(missed.values())
+
+
+def gates_rows(d: dict[str, Any]) -> list[list[str]]:
+    """The checks before the verdict and those of the fit behind it, each with what was found, in words."""
+    words = {"passed": "a verdict is given"}
+    return [[words.get(key, key.replace("_", " ")), in_words(value)] for key, value in d["gates"].items()]
 
 
 def say(console: Console, text: str, style: str | None = None) -> None:

@@ -63,6 +63,26 @@ def test_verdict_comes_first_and_errors_before_and_after(capsys, monkeypatch, ma
     assert "Turn the block <by half a turn> & repeat." in out
 
 
+def test_a_check_that_the_fit_did_not_pass_is_said_with_the_verdict(capsys, monkeypatch, tmp_path, made):
+    """A fit that had not come to rest was "passed: yes", and on the terminal nothing was said of it."""
+    found = fakes.diagnosis("named", made)
+    sentence = "One more step promises 2.45 units."
+    gate = {"name": "gradient_small", "passed": False, "value": 2.45, "limit": 2.0, "sentence": sentence}
+    found.gates["gradient_small"] = gate
+    answer(monkeypatch, found)
+    code, out, _ = run(capsys, "anywhere", "--report", tmp_path)
+    assert code == 0 and f"With care: {sentence}" in out
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "a verdict is given" in page and f"Not passed. {sentence}" in page and ">passed<" not in page
+
+
+def test_the_page_of_the_record_has_every_key(made):
+    """`docs/reference/diagnose.md` has a row for each key, and no other row."""
+    text = (ROOT / "docs/reference/diagnose.md").read_text(encoding="utf-8")
+    keys = [line.split("`")[1] for line in text.split("## Gates")[0].splitlines() if line.startswith("| `")]
+    assert sorted(keys) == sorted(fakes.diagnosis("named", made).to_dict())
+
+
 def test_sizes_come_with_a_caution_where_a_number_is_at_its_bound(capsys, monkeypatch, made):
     found = fakes.diagnosis("named", made)
     answer(monkeypatch, found)
