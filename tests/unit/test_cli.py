@@ -157,6 +157,21 @@ def test_a_model_too_stiff_for_the_steps_of_a_fit_is_refused_before_the_work(cap
 @pytest.mark.parametrize(
     "words",
     [
+        ("identify", "nowhere", "--population", "99999999999"),
+        ("sensitivity", "-o", "nowhere", "--trials", "99999999999"),
+    ],
+    ids=" ".join,
+)
+def test_counts_that_fill_the_memory_are_refused(capsys, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(capsys, *words)
+    assert (code, out) == (2, "") and words[-2] in err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
         ("compare", ""),
         ("fit", ""),
         ("diagnose", " "),
