@@ -145,6 +145,13 @@ def add_tried(page: Page, record: dict[str, Any]) -> None:
     if not ranking:
         page.add_text("No candidate was refitted.")
         return
+    if len(ranking) > 1:
+        add_gains(page, ranking)
+    page.add_table(diagnosis_text.ranking_table(record))
+
+
+def add_gains(page: Page, ranking: list[dict[str, Any]]) -> None:
+    """Add the figure of the gains, where there are some to be compared."""
     gains = np.array([max(r["gain"], 1.0) for r in ranking])
     lines = [Line("gain", np.arange(float(len(gains))), gains, style.colour(0), dots=True)]
     svg = chart(
@@ -160,7 +167,6 @@ def add_tried(page: Page, record: dict[str, Any]) -> None:
         None,
         "Gain of the candidates",
     )
-    page.add_table(diagnosis_text.ranking_table(record))
 
 
 def add_explanation(page: Page, record: dict[str, Any]) -> None:

@@ -139,9 +139,10 @@ def ranking_table(d: dict[str, Any]) -> Table:
     ]
     note = (
         "Gain: log-likelihood gained over a baseline that was given as many iterations, windows clipped. z: the same "
-        "as a number of standard deviations. Weight: share among the candidates."
+        "as a number of standard deviations. Weight: share among the candidates. "
+        "The rest of the catalogue was tried and not led on."
     )
-    return Table("What was tried", ("effect", "gain", "z", "weight"), rows, note)
+    return Table("Fitted in full", ("effect", "gain", "z", "weight"), rows, note)
 
 
 def limits_table(d: dict[str, Any]) -> Table:

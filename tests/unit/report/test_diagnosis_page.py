@@ -1,5 +1,7 @@
 """The page of a diagnosis: every part of the story, in its order, whole, escaped and small."""
 
+from dataclasses import replace
+
 import pytest
 
 from rockref.discover.compare.models import compare
@@ -59,3 +61,13 @@ def test_without_an_effect_there_is_one_model_and_no_amplitude(named, plain_comp
     d = fakes.diagnosis(verdict, named[0].experiment)
     text = diagnosis_page(d, plain_comparison).html()
     assert "How large" not in text and "Nothing of the catalogue." in text
+
+
+@pytest.mark.parametrize("number, drawn", [(1, False), (2, True)])
+def test_gains_are_drawn_where_there_are_some_to_compare(named, number, drawn):
+    """One dot on an axis of its own says nothing."""
+    d, c = named
+    page = diagnosis_page(replace(d, ranking=d.ranking[:number]), c)
+    (tried,) = [s for s in page.sections if s.title == "What was tried"]
+    assert [kind for kind, _ in tried.blocks].count("figure") == drawn
+    assert "Fitted in full" in page.html()
