@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -48,6 +48,15 @@ def usable_files(*paths: Path | None) -> None:
     for k, place in enumerate(places):
         if place in places[:k]:
             raise InputError("E-WRITE", str(place), "is named for two results", "Name a file for each.")
+
+
+def in_json(record: Any) -> str:
+    """A record as strict JSON: numbers that are not finite are null, which JSON has no word for."""
+    import json
+
+    from rockref.discover.diagnosis_record import plain
+
+    return json.dumps(plain(record), indent=1, allow_nan=False)
 
 
 def keep(text: str, output: Path | None, model: "Model", save_model: Path | None) -> list[Path]:

@@ -1,12 +1,11 @@
 """What `compare`, `diagnose`, `fit` and `add` do with a folder of tosses."""
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 import typer
 
-from rockref.commands._results import keep, say_written, usable_files
+from rockref.commands._results import in_json, keep, say_written, usable_files
 
 
 def usable(report: Path | None) -> Path | None:
@@ -40,7 +39,7 @@ def compare_tosses(
 
         written.append(write_toss_comparison(record, made_folder(folder)))
     if as_json:
-        typer.echo(json.dumps(record | {"written": [str(p) for p in written]}, indent=1))
+        typer.echo(in_json(record | {"written": [str(p) for p in written]}))
         return
     print_toss_comparison(console(), record)
     say_written(written)
@@ -68,7 +67,7 @@ def diagnose_tosses(
     with stages(f"diagnosing {path}", every_line=verbose) as say:
         found = diagnose(tosses, given, progress=say)
     record = found.to_dict()
-    text = json.dumps(record, indent=1)
+    text = in_json(record)
     written = []
     if folder is not None:
         from rockref.report.output import made_folder
@@ -103,7 +102,7 @@ def fit_to_tosses(
         found = fit_tosses(tosses, tuple(more), given, progress=say)
     found.model.save(output)
     if as_json:
-        typer.echo(json.dumps(found.to_dict() | {"written": [str(output)]}, indent=1))
+        typer.echo(in_json(found.to_dict() | {"written": [str(output)]}))
     else:
         print_toss_fit(console(), found.to_dict())
         typer.echo(f"wrote {output}")
@@ -145,7 +144,7 @@ def add_to_model_of_tosses(
         models, names = [found.before.model, found.after.model], [f"without {effect}", f"with {effect}"]
         written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(folder)))
     if as_json:
-        typer.echo(json.dumps(record | {"written": [str(p) for p in written]}, indent=1))
+        typer.echo(in_json(record | {"written": [str(p) for p in written]}))
         return
     print_toss_addition(console(), record)
     say_written(written)

@@ -1,13 +1,12 @@
 """`rockref compare`: models beside measured runs."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_name
+from rockref.commands._results import ExperimentFolder, folder_name, in_json
 
 
 def register(app: typer.Typer) -> None:
@@ -73,7 +72,7 @@ def compare(
     written = write_report(comparison, folder) if folder is not None else []
     say_remarks(loaded.notices)
     if as_json:
-        typer.echo(json.dumps(comparison.to_dict() | {"written": [str(path) for path in written]}, indent=1))
+        typer.echo(in_json(comparison.to_dict() | {"written": [str(path) for path in written]}))
     else:
         from rockref.commands._stages import console
         from rockref.report.text import print_comparison

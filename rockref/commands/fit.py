@@ -1,12 +1,11 @@
 """`rockref fit`: the parameters of the baseline from measured runs."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from rockref.commands._results import ExperimentFolder
+from rockref.commands._results import ExperimentFolder, in_json
 
 
 def register(app: typer.Typer) -> None:
@@ -66,7 +65,7 @@ def fit(
     say_remarks(found.experiment.notices)
     found.model.save(output)
     if as_json:
-        typer.echo(json.dumps(found.to_dict() | {"written": [str(output)]}, indent=1))
+        typer.echo(in_json(found.to_dict() | {"written": [str(output)]}))
     else:
         from rockref.commands._stages import console
         from rockref.report.fit_text import print_fit

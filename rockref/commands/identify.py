@@ -1,13 +1,12 @@
 """`rockref identify`: the parameters of the model from measured runs."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_name
+from rockref.commands._results import ExperimentFolder, folder_name, in_json
 
 # decided: of a hundred thousand runs of 3e5 steps, at 27 million steps a second, a generation takes twenty minutes.
 MOST = 100_000
@@ -79,7 +78,7 @@ def identify(
         settings = Settings(population, generations, seed)
         result, found = answered(asked, settings, work, folder, resume=resume, report=say)
         files = files_in(folder)
-        text = json.dumps(result, indent=1)
+        text = in_json(result)
         write_text(files["result"], text + "\n")
         found.save(files["model"])
     if as_json:

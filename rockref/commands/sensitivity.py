@@ -1,13 +1,12 @@
 """`rockref sensitivity`: how the response depends on time step, last digits and release angle."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import folder_name
+from rockref.commands._results import folder_name, in_json
 
 # decided: the rates of a thousand runs of 6 s at 2 kHz fill 0.3 GB, and a standard deviation is known to 2 %.
 MOST = 1_000
@@ -73,7 +72,7 @@ def sensitivity(
                 written.append(folder / f"{name}.{kind}")
                 write_bytes(written[-1], rendered(figure, kind))
     result = record(found) | {"model": model}
-    text = json.dumps(result, indent=1)
+    text = in_json(result)
     written.append(folder / "sensitivity.json")
     write_text(written[-1], text + "\n")
     if as_json:

@@ -1,10 +1,11 @@
 """`rockref simulate`: the block, released and computed, as a table."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+
+from rockref.commands._results import in_json
 
 # decided: with 50 rows a second the main impacts of the block of Table 3.1 are off by 1e-4 s, with 20 by 7e-4 s, and
 # with one they are others.
@@ -74,7 +75,7 @@ def simulate(
         "output": written,
     }
     if as_json:
-        typer.echo(json.dumps(facts, indent=2))
+        typer.echo(in_json(facts))
         return
     impacts = ", ".join(f"{t:.4f}" for t in facts["main_impacts_s"]) or "none"
     largest = ", ".join(f"{axis} {v:.2f}" for axis, v in zip("XYZ", facts["largest_rates_deg_s"], strict=True))

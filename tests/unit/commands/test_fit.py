@@ -1,6 +1,7 @@
 """`rockref fit`: exit code by the gates, the model written; the fit itself is made up."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -32,6 +33,14 @@ def test_json_has_parameters_and_gates(capsys, monkeypatch, tmp_path):
     record = json.loads(out)
     assert record["parameters"]["quadratic_drag.c"]["low"] == 0.38
     assert record["gates"]["passed"] is True and record["gates"]["checks"][0]["name"] == "starts_agree"
+
+
+def test_json_has_no_number_that_json_has_not(capsys, monkeypatch, tmp_path):
+    """An interval may have no upper end, as that of a bandwidth."""
+    found = fakes.fitted()
+    monkeypatch.setattr(fitting, "fit_experiment", lambda *a, **k: replace(found, mean_loss=float("inf")))
+    _, out, _ = run(capsys, "anywhere", "-o", tmp_path / "m.toml", "--json")
+    assert json.loads(out, parse_constant=pytest.fail)["mean_loss"] is None
 
 
 def test_unknown_effect_is_named(capsys, tmp_path):

@@ -38,6 +38,13 @@ def test_json_says_everything(capsys, tmp_path):
     assert path.is_file()
 
 
+def test_json_has_no_number_that_json_has_not(capsys):
+    """A delay alone leaves the bandwidth where it is absent, at infinity."""
+    code, out, _ = run(capsys, "simulate", "--duration", 0.05, "--effect", "gyro_bandwidth:delay=0.001", "--json")
+    facts = json.loads(out, parse_constant=pytest.fail)
+    assert code == 0 and facts["effects"]["gyro_bandwidth"]["frequency"] is None
+
+
 def test_model_file_and_effects(capsys, tmp_path):
     file = tmp_path / "model.toml"
     Model.table_3_1().replace(mass=27.0).save(file)
