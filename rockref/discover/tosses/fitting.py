@@ -124,8 +124,13 @@ def fit_tosses(
 def add_to_tosses(
     effect: str, tosses: Tosses, model: Model | None = None, progress: Callable[[str], None] | None = None
 ) -> TossAddition:
-    """Fit with and without an effect, from the same model with the same iterations, and compare on both uses."""
+    """Fit with and without an effect, from the same model with the same iterations, and compare on both uses.
+
+    Raises InputError (E-EFFECT, ...) for one that is not asked of tosses, or that the model has.
+    """
     check_served(effect)
+    if model is not None and effect in {e.id for e in model.active_effects()}:
+        raise InputError("E-EFFECT", f"argument {effect}", "is in the model already", "Add another one.")
     before = fit_tosses(tosses, (), model, progress=progress)
     after = fit_tosses(tosses, (effect,), before.model, progress=progress)
     found: dict[tuple[str, str], tuple[Errors, Errors]] = {}

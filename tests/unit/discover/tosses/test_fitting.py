@@ -7,10 +7,11 @@ import pytest
 
 from rockref import cli
 from rockref.api import Model
-from rockref.discover.tosses.fitting import at_values, fit_tosses, unfitted
+from rockref.discover.tosses.fitting import add_to_tosses, at_values, fit_tosses, unfitted
 from rockref.discover.tosses.parameters import effect_parameters
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.measure.tosses import load_tosses
+from rockref.model.errors import InputError
 from tests.tosses import made, stated, write_tosses
 
 pytest.importorskip("numba")
@@ -83,6 +84,13 @@ def test_what_is_not_served_is_said(capsys, folder, tmp_path, words, code, said)
     assert ended == 2
     assert code in error and said in " ".join(error.split())
     assert not (tmp_path / "out").is_file()
+
+
+def test_what_the_model_has_is_not_added_again(folder):
+    """Before and after would be the same fit."""
+    model = stated().replace(effects=(MassEccentricity(0, 0, CENTRE),))
+    with pytest.raises(InputError, match="is in the model already"):
+        add_to_tosses("mass_eccentricity", load_tosses(folder), model)
 
 
 @pytest.mark.parametrize(
