@@ -20,8 +20,9 @@ PAGES = [
     *sorted(p for p in (ROOT / "docs").rglob("*.md") if "_build" not in p.parts and p.name not in ("errors.md",)),
 ]
 #: Examples that a test of this file runs, and where the others are run.
-ALONE = ("compare_models", "find_a_missing_effect", "judge_a_backend", "overview_picture")
+ALONE = ("compare_models", "judge_a_backend", "overview_picture")
 ELSEWHERE = {
+    "find_a_missing_effect": "docs/tutorial/find_a_missing_effect.md",
     "backend_numpy": "tests/unit/conformance/test_judge.py",
     "my_effect": "docs/howto/own_effect.md",
     "own_experiment": "docs/howto/own_experiment.md",
