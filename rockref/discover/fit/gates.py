@@ -50,10 +50,10 @@ class Gate:
         }  # fmt: skip
 
 
-def gates(fit: Fit, point: Point, found: Information, other: tuple[Fit, Point]) -> list[Gate]:
-    """All gates of a fit; `found` is its information, `other` the same fit begun elsewhere."""
+def gates(fit: Fit, point: Point, found: Information, other: Point) -> list[Gate]:
+    """All gates of a fit; `found` is its information, `other` where the same fit ends that began elsewhere."""
     return [
-        starts_agree(fit, point, other[1], found),
+        starts_agree(fit, point, other, found),
         gradient_small(fit, point, found),
         step_small(fit, point),
         off_bounds(fit, point),
