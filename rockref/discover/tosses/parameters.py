@@ -15,9 +15,7 @@ from rockref.effects.base import Effect
 #: The law's own: name -> spread of the logarithm; decided: nothing but the order of magnitude of the contact is stated.
 LAW = {"K_N": 0.5, "K_T": 1.0, "C_N": 0.5, "C_T": 1.0, "mu": 0.2}
 #: Candidates and the spread of each of their parameters: what a careful person would not be surprised to find on a
-#: light body of ten centimetres with tags (decided). In the order in which they are shown. A contact that loses energy
-#: by hysteresis alone rebounds with e = (1 + kappa)^(-1/2) (Walton and Braun 1986): the corners of the public tosses,
-#: with 0.27, ask for kappa = 13 less what the damper takes, so that a fit, which goes to six spreads, must reach 12.
+#: light body of ten centimetres with tags (decided). In the order in which they are shown.
 CANDIDATES: dict[str, dict[str, float]] = {
     "mass_eccentricity": {"x": 2e-3, "y": 2e-3, "z": 2e-3},
     "inertia_deviation": {"xx": 0.15, "yy": 0.15, "zz": 0.15},
@@ -29,7 +27,7 @@ CANDIDATES: dict[str, dict[str, float]] = {
     "gravity_deviation": {"scale": 0.01},
     "hertzian_contact": {"exponent": 0.2},
     "hunt_crossley_contact": {"a": 0.3},
-    "hysteretic_contact": {"kappa": 2.0},
+    "hysteretic_contact": {"kappa": 0.3},
     "adhesion": {"force": 0.3},
     "stribeck_friction": {"ratio": 0.3},
     "load_dependent_friction": {"exponent": 0.1},
