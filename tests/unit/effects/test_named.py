@@ -218,3 +218,28 @@ def test_a_file_on_another_drive_is_written_with_its_whole_path(folder, monkeypa
         windows.setattr(os.path, "relpath", no_way)
         found = file_beside("mine.py:Mine", Path("models"))
     assert found == f"{os.path.realpath(folder)}/mine.py:Mine"
+
+
+class TestOfReleases:
+    """What a user may ask of records of a gyroscope."""
+
+    def test_ids_and_own_files_in_their_order(self):
+        kinds = catalogue.of_releases(("quadratic_drag", "mine.py:Mine"))
+        assert [kind.id for kind in kinds] == ["quadratic_drag", "mine"]
+        assert catalogue.of_releases(()) == ()
+
+    def test_one_that_is_given_twice(self):
+        code, where, what, cure = refusal(catalogue.of_releases, ("gyro_scale", "quadratic_drag", "gyro_scale"))
+        assert (code, where) == ("E-EFFECT", "--effect")
+        assert what == "gyro_scale, quadratic_drag, gyro_scale: one is given twice"
+        assert cure == "Give each once."
+
+    @pytest.mark.parametrize("id", sorted(OF_TOSSES))
+    def test_one_that_only_tosses_show(self, id):
+        code, where, what, cure = refusal(catalogue.of_releases, ("gyro_scale", id), "--candidates")
+        assert (code, where) == ("E-EFFECT", "--candidates")
+        assert what == f"{id} is how the poses of tosses are read, and no gyroscope shows it"
+        assert cure == "Leave it out; `rockref effects` says which are of tosses only."
+
+    def test_one_that_nobody_knows_is_told_from_there(self):
+        assert refusal(catalogue.of_releases, ("no_such",))[0] == "E-EFFECT"

@@ -223,3 +223,26 @@ def test_a_roll_beyond_the_tipping_angle_is_refused(out_of_plane):
         release.release_posture(block, points, 0.1170, out_of_plane=out_of_plane)
     assert (refused.value.code, refused.value.where) == ("E-TILT", "out_of_plane")
     assert "sideways at 0.1443 rad" in refused.value.what
+
+
+def test_a_roll_is_held_against_the_points_on_either_side():
+    """A base of 0.1 m in X and 0.06 m in Y under a centre 0.344 m up: sideways it is X that counts. At the limit itself
+    the block would not come back."""
+    points = MODEL.body()[1]
+    narrow = replace(points, P=points.P * [1.0, 0.6, 1.0])
+    limit = float(np.arctan2(0.05, -np.min(points.P[:, 2])))
+    release.check_roll(narrow, np.nextafter(limit, 0))
+    with pytest.raises(InputError) as refused:
+        release.check_roll(narrow, limit)
+    assert (refused.value.code, refused.value.where) == ("E-TILT", "out_of_plane")
+    assert refused.value.cure == "Give a small roll in radians."
+
+
+def test_half_of_the_base_is_too_deep():
+    points = MODEL.body()[1]
+    depth = np.full(points.n, release.SOFTEST * abs(points.P[0, 0] - points.P[1, 0]))
+    release.check_depth(points, np.nextafter(depth, 0), 0, 1)
+    with pytest.raises(InputError) as refused:
+        release.check_depth(points, depth, 0, 1)
+    assert (refused.value.code, refused.value.where) == ("E-RELEASE", f"K_N of point {points.names[0]}")
+    assert refused.value.cure == "No foot gives way that far: give the stiffness in N/m."
