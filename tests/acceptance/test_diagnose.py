@@ -1,4 +1,4 @@
-"""The diagnosis of two shipped experiments, from the folder to the verdict: nothing hidden, and one effect."""
+"""The diagnosis of the shipped experiments, from the folder to the verdict: right, or a class that holds the truth."""
 
 import json
 from pathlib import Path
@@ -7,23 +7,31 @@ import pytest
 
 from rockref.discover.diagnose import diagnose
 from rockref.discover.diagnosis_record import KEYS, plain
+from rockref.effects.catalogue import EFFECTS
 
 EXPERIMENTS = Path(__file__).resolve().parents[2] / "data/experiments"
 ANSWERS = {a["name"]: a for a in json.loads((EXPERIMENTS / "answers.json").read_text(encoding="utf-8"))}
+#: Error over the noise from which on a gap is there to be closed; decided: a tenth, as the blind test counts.
+GAP = 1.1
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["mystery-08", "mystery-04"])
+@pytest.mark.parametrize("name", sorted(ANSWERS))
 def test_verdict_is_right_or_a_class_that_holds_the_truth(name):
+    """The control is none, the loose mass something else, and the defects of feet are found from four points."""
     truth = ANSWERS[name]["effects"]
     found = plain(diagnose(EXPERIMENTS / name).to_dict())
     assert set(KEYS) <= set(found)
-    error = found["error"]
     if not truth:
         assert found["verdict"] == "none" and found["effects"] == []
         return
-    assert found["verdict"] in ("named", "indicated", "class") and set(truth) <= set(found["effects"])
-    assert len(found["effects"]) <= 3
-    # The gap to the noise closes on runs that were never fitted.
+    if not set(truth) <= set(EFFECTS):
+        assert found["verdict"] == "something_else" and found["effects"] == []
+        return
+    assert found["verdict"] in (("pair",) if len(truth) > 1 else ("named", "indicated", "class"))
+    assert set(truth) <= set(found["effects"]) and len(found["effects"]) <= 3
+    # The gap to the noise closes by half at least, on runs that were never fitted as on those that were.
+    error, noise = found["error"], found["error"]["noise_floor"]
     for use in ("fit", "holdout"):
-        assert error["with_effect"][use] < 0.5 * error["baseline"][use]
+        before, after = error["baseline"][use], error["with_effect"][use]
+        assert before < GAP * noise or before - after > 0.5 * (before - noise)
