@@ -89,8 +89,8 @@ def simulate(
 
 def say_sparse(rate: float) -> None:
     """Print a remark on standard error where main impacts and largest rates are taken from few rows a second."""
+    from rockref.commands._results import say_remarks
     from rockref.measure.notice import Notice
 
     what = f"{rate:g} rows a second: main impacts and largest rates are taken from the rows, and may be off or missing"
-    notice = Notice("W-ROWS", "--rate", what, f"Ask for {LEAST_RATE:g} or more.")
-    typer.echo(f"rockref: {notice}", err=True)
+    say_remarks([Notice("W-ROWS", "--rate", what, f"Ask for {LEAST_RATE:g} or more.")])
