@@ -68,18 +68,20 @@ def diagnose_tosses(
         found = diagnose(tosses, given, progress=say)
     record = found.to_dict()
     text = in_json(record)
-    written = []
-    if folder is not None:
-        from rockref.report.output import made_folder
-        from rockref.report.toss_page import write_toss_diagnosis
+    written: list[Path] = []
+    try:
+        written += keep(text, output, found.model, save_model)
+        if folder is not None:
+            from rockref.report.output import made_folder
+            from rockref.report.toss_page import write_toss_diagnosis
 
-        written.append(write_toss_diagnosis(record, made_folder(folder)))
-    written += keep(text, output, found.model, save_model)
-    if as_json:
-        typer.echo(text)
-    else:
-        print_toss_diagnosis(console(), record)
-        say_written(written)
+            written.append(write_toss_diagnosis(record, made_folder(folder)))
+    finally:  # minutes of work are told even where they cannot be written
+        if as_json:
+            typer.echo(text)
+        else:
+            print_toss_diagnosis(console(), record)
+            say_written(written)
     if record["verdict"] == "not_trustworthy":
         raise typer.Exit(1)
 
@@ -100,12 +102,16 @@ def fit_to_tosses(
     given = models[0] if models else None
     with stages(f"fitting {path}", every_line=verbose) as say:
         found = fit_tosses(tosses, tuple(more), given, progress=say)
-    found.model.save(output)
-    if as_json:
-        typer.echo(in_json(found.to_dict() | {"written": [str(output)]}))
-    else:
-        print_toss_fit(console(), found.to_dict())
-        typer.echo(f"wrote {output}")
+    written: list[Path] = []
+    try:
+        found.model.save(output)
+        written.append(output)
+    finally:  # minutes of work are told even where they cannot be written
+        if as_json:
+            typer.echo(in_json(found.to_dict() | {"written": [str(path) for path in written]}))
+        else:
+            print_toss_fit(console(), found.to_dict())
+            say_written(written)
     if not found.passed:
         raise typer.Exit(1)
 
@@ -134,17 +140,20 @@ def add_to_model_of_tosses(
     given = next(iter(named_models([model] if model else [], own)), None)
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = add_to_tosses(effect, tosses, given, progress=say)
-    found.after.model.save(output)
-    record, written = found.to_dict(), [output]
-    if folder is not None:
-        from rockref.discover.tosses.compare import compare
-        from rockref.report.output import made_folder
-        from rockref.report.toss_page import write_toss_comparison
+    record, written = found.to_dict(), list[Path]()
+    try:
+        found.after.model.save(output)
+        written.append(output)
+        if folder is not None:
+            from rockref.discover.tosses.compare import compare
+            from rockref.report.output import made_folder
+            from rockref.report.toss_page import write_toss_comparison
 
-        models, names = [found.before.model, found.after.model], [f"without {effect}", f"with {effect}"]
-        written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(folder)))
-    if as_json:
-        typer.echo(in_json(record | {"written": [str(p) for p in written]}))
-        return
-    print_toss_addition(console(), record)
-    say_written(written)
+            models, names = [found.before.model, found.after.model], [f"without {effect}", f"with {effect}"]
+            written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(folder)))
+    finally:  # minutes of work are told even where they cannot be written
+        if as_json:
+            typer.echo(in_json(record | {"written": [str(p) for p in written]}))
+        else:
+            print_toss_addition(console(), record)
+            say_written(written)

@@ -1,13 +1,12 @@
 """`rockref add`: one more effect in a model, and the error before and after."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_name
+from rockref.commands._results import ExperimentFolder, folder_name, in_json
 
 
 def register(app: typer.Typer) -> None:
@@ -58,7 +57,6 @@ def add(
     from rockref.commands._results import say_remarks, say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
-    from rockref.discover.diagnosis_record import plain
     from rockref.report.output import made_folder, usable_folder
 
     known_files([effect])
@@ -70,18 +68,20 @@ def add(
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = run_addition(effect, experiment, given, seed, workers, progress=say)
     say_remarks(found.experiment.notices)
-    found.model.save(output)
-    written = [output]
-    if folder is not None:
-        from rockref.report.addition_page import write_addition
+    written: list[Path] = []
+    try:
+        found.model.save(output)
+        written.append(output)
+        if folder is not None:
+            from rockref.report.addition_page import write_addition
 
-        written.append(write_addition(found, made_folder(folder)))
-    if as_json:
-        record = found.to_dict() | {"written": [str(path) for path in written]}
-        typer.echo(json.dumps(plain(record), indent=1, allow_nan=False))
-    else:
-        from rockref.commands._stages import console
-        from rockref.report.addition_text import print_addition
+            written.append(write_addition(found, made_folder(folder)))
+    finally:  # minutes of work are told even where they cannot be written
+        if as_json:
+            typer.echo(in_json(found.to_dict() | {"written": [str(path) for path in written]}))
+        else:
+            from rockref.commands._stages import console
+            from rockref.report.addition_text import print_addition
 
-        print_addition(console(), found)
-        say_written(written)
+            print_addition(console(), found)
+            say_written(written)

@@ -72,23 +72,25 @@ def diagnose(
     usable_files(output, save_model)
     with stages(f"diagnosing {experiment}", every_line=verbose) as say:
         found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates)
-        record = plain(found.to_dict())
-        written = []
+    record = plain(found.to_dict())
+    text = json.dumps(record, indent=1, allow_nan=False)
+    written: list[Path] = []
+    say_remarks(found.experiment.notices)
+    try:
+        written += keep(text, output, found.model, save_model)
         if folder is not None:
             from rockref.report.diagnosis_page import write_diagnosis
 
-            say("the page")
-            written.append(write_diagnosis(found, made_folder(folder)))
-    say_remarks(found.experiment.notices)
-    text = json.dumps(record, indent=1, allow_nan=False)
-    written += keep(text, output, found.model, save_model)
-    if as_json:
-        typer.echo(text)
-    else:
-        from rockref.commands._stages import console
-        from rockref.report.diagnosis_text import print_diagnosis
+            with stages("the page"):
+                written.append(write_diagnosis(found, made_folder(folder)))
+    finally:  # minutes of work are told even where they cannot be written
+        if as_json:
+            typer.echo(text)
+        else:
+            from rockref.commands._stages import console
+            from rockref.report.diagnosis_text import print_diagnosis
 
-        print_diagnosis(console(), record)
-        say_written(written)
+            print_diagnosis(console(), record)
+            say_written(written)
     if record["verdict"] == "not_trustworthy":
         raise typer.Exit(1)

@@ -49,7 +49,7 @@ def fit(
 
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
     from rockref.commands._models import check_step, known_files, named_model, say_idle
-    from rockref.commands._results import say_remarks, usable_files
+    from rockref.commands._results import say_remarks, say_written, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.fitting import fit_experiment
 
@@ -63,14 +63,18 @@ def fit(
             experiment, tuple(effect) if effect else None, given, seed, workers, check=gates, progress=say
         )
     say_remarks(found.experiment.notices)
-    found.model.save(output)
-    if as_json:
-        typer.echo(in_json(found.to_dict() | {"written": [str(output)]}))
-    else:
-        from rockref.commands._stages import console
-        from rockref.report.fit_text import print_fit
+    written: list[Path] = []
+    try:
+        found.model.save(output)
+        written.append(output)
+    finally:  # minutes of work are told even where they cannot be written
+        if as_json:
+            typer.echo(in_json(found.to_dict() | {"written": [str(path) for path in written]}))
+        else:
+            from rockref.commands._stages import console
+            from rockref.report.fit_text import print_fit
 
-        print_fit(console(), found)
-        typer.echo(f"wrote {output}")
+            print_fit(console(), found)
+            say_written(written)
     if not found.passed:
         raise typer.Exit(1)

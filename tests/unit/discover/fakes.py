@@ -9,11 +9,13 @@ import numpy as np
 from rockref import Model
 from rockref.discover.add import Addition, State
 from rockref.discover.diagnose import Diagnosis
+from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.fit.errors import Errors
 from rockref.discover.fit.fitted import Estimate
 from rockref.discover.fit.gates import Gate
 from rockref.discover.fitting import Fitted
-from rockref.effects.catalogue import parse
+from rockref.discover.plan import Plan, Release, Says, further, outlook
+from rockref.effects.catalogue import find, parse
 from tests.unit.discover.synthetic import experiment
 
 DRAG = Model.table_3_1().replace(effects=(parse("quadratic_drag:c=0.4"),))
@@ -108,3 +110,23 @@ def fitted(passed: bool = True, made=None) -> Fitted:
         setup=SimpleNamespace(end=3.0),
         family=None,
     )
+
+
+def planned() -> Plan:
+    """A plan of one release, about two effects that it does not tell apart."""
+    table = Model.table_3_1()
+    effects = tuple(find(id) for id in ("viscous_friction", "rolling_resistance"))
+    once, other, turned = Release(0.117), Release(0.098), Release(0.117, True)
+
+    def says(release: Release, film: float, rolling: float, together: float) -> Says:
+        """A run with this information about two effects, and about their difference."""
+        n = len(baseline_parameters(table, 0, 0.0014))
+        H = np.diag([0.0] * n + [film, rolling])
+        H[n:, n:] += together * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        return Says(release, H)
+
+    known = {once: says(once, 1e-4, 4e3, 1e6), other: says(other, 9.0, 9.0, 0.0), turned: says(turned, 1.0, 1.0, 0.0)}
+    now, repeats = (outlook(table, known, [once] * n, effects) for n in (1, 3))
+    varied = outlook(table, known, [once, other, turned], effects)
+    more = further(table, known, [once], [once, other, turned], effects, now)
+    return Plan(table, now, repeats, varied, repeats, varied, more, 1.0)

@@ -2,36 +2,16 @@
 
 import io
 
-import numpy as np
 import pytest
 from rich.console import Console
 
-from rockref import Model
-from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.plan import Plan, Release, Says, further, outlook
-from rockref.effects import catalogue
 from rockref.report.plan_text import print_plan
-
-TABLE = Model.table_3_1()
-EFFECTS = tuple(catalogue.find(id) for id in ("viscous_friction", "rolling_resistance"))
-ONCE, OTHER, TURNED = Release(0.117), Release(0.098), Release(0.117, True)
-
-
-def says(release, film, rolling, together):
-    """A run with this information about two effects, and about their difference."""
-    n = len(baseline_parameters(TABLE, 0, 0.0014))
-    H = np.diag([0.0] * n + [film, rolling])
-    H[n:, n:] += together * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    return Says(release, H)
+from tests.unit.discover import fakes
 
 
 @pytest.fixture(scope="module")
 def plan():
-    known = {ONCE: says(ONCE, 1e-4, 4e3, 1e6), OTHER: says(OTHER, 9.0, 9.0, 0.0), TURNED: says(TURNED, 1.0, 1.0, 0.0)}
-    now, repeats = (outlook(TABLE, known, [ONCE] * n, EFFECTS) for n in (1, 3))
-    varied = outlook(TABLE, known, [ONCE, OTHER, TURNED], EFFECTS)
-    more = further(TABLE, known, [ONCE], [ONCE, OTHER, TURNED], EFFECTS, now)
-    return Plan(TABLE, now, repeats, varied, repeats, varied, more, 1.0)
+    return fakes.planned()
 
 
 @pytest.fixture(scope="module")
