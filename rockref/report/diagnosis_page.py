@@ -175,22 +175,19 @@ def add_explanation(page: Page, record: dict[str, Any]) -> None:
         page.add_text("Nothing of the catalogue. " + diagnosis_text.MEANINGS.get(record["verdict"], ""))
     for id in record["effects"]:
         page.add_heading(id)
-        page.add_text(*physics(id))
+        add_physics(page, id)
     if record["amplitudes"]:
         page.add_table(diagnosis_text.amplitudes_table(record))
 
 
-def physics(id: str) -> list[str]:
-    """An effect in words: what it is, its equation, where it is from."""
-    kind = catalogue.EFFECTS.get(id)
-    if kind is None:
-        return ["An effect of the user's own."]
-    words = [kind.sentence]
+def add_physics(page: Page, id: str) -> None:
+    """Add an effect: what it is, its equation, where it is from."""
+    kind = catalogue.find(id)
+    page.add_text(kind.sentence or "An effect of the user's own.")
     if kind.equation:
-        words.append(f"Equation (TeX): {kind.equation}")
+        page.add_equation(kind.equation)
     if kind.source:
-        words.append(f"Source: {kind.source}")
-    return words
+        page.add_text(f"Source: {kind.source}")
 
 
 def add_sure(page: Page, record: dict[str, Any]) -> None:

@@ -1,7 +1,7 @@
 """One self-contained HTML page, built piece by piece: sections, sentences, tables, figures, curves, players.
 
 Nothing is fetched: style, scripts and data are inside. Everything can be read without scripts; with them curves can be
-zoomed and blocks move. Texts are escaped; only SVG made by :mod:`rockref.report.drawing` is taken as it is.
+zoomed and blocks move. Texts are escaped; only SVG made in this folder is taken as it is.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from typing import Any
 from rockref.model.errors import InputError
 from rockref.model.storage import write_bytes
 from rockref.report.curves import Curves
+from rockref.report.equation import equation_svg
 from rockref.report.player import Player
 
 #: decided: what every browser opens at once and every mailbox takes.
@@ -72,6 +73,11 @@ class Page:
         """Add paragraphs."""
         for paragraph in paragraphs:
             self._add("text", paragraph)
+
+    def add_equation(self, tex: str) -> None:
+        """Add an equation, as a picture of itself; as its TeX where that cannot be drawn."""
+        svg = equation_svg(tex)
+        self._add("equation", svg) if svg else self.add_text(f"In TeX: {tex}")
 
     def add_heading(self, title: str) -> None:
         """Add a heading inside the section."""

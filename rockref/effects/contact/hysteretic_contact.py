@@ -27,7 +27,7 @@ class HystereticContact(Effect):
     sentence = "Asperities yield: the contact unloads along a steeper line and leaves a dent, a loss without any rate."
     equation = (
         r"F_{el} = \max(\min(K^{(N)}\xi,\ K^{(N)}\xi_{max}(1 - \eta + \eta\sqrt{\zeta})\,\zeta),\,0),\quad "
-        r"\zeta = \frac{\xi-\xi_p}{\xi_{max}-\xi_p},\quad \xi_p = \tfrac{\kappa}{1+\kappa}\,\xi_{max}"
+        r"\zeta = \frac{\xi-\xi_p}{\xi_{max}-\xi_p},\quad \xi_p = \frac{\kappa}{1+\kappa}\,\xi_{max}"
     )
     source = (
         "O. R. Walton, R. L. Braun (1986), J. Rheol. 30:949-980, doi:10.1122/1.549893; C. Thornton (1997), Coefficient "

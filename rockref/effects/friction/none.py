@@ -13,5 +13,5 @@ class NoFrictionEffect(Effect):
     sentence = (
         "Coulomb's cone with a stick spring and damper, radial return, no resistance to turning (rules T1 to T6)."
     )
-    equation = r"\|F^{(T)}\| \le \mu F^{(N)}"
+    equation = r"\|F^{(T)}\| \leq \mu F^{(N)}"
     source = "The model's source, (3.6)"

@@ -30,8 +30,8 @@ class SpinFriction(Effect):
     switches = ("radius",)
     sentence = "A contact has a face, not a point: its rim rubs when the block turns on it about the vertical."
     equation = (
-        r"M_z = -\,r\,\mu F^{(N)}\,\mathrm{sign}(\omega_z)\,\Big(1 - \eta + \eta\,"
-        r"\frac{r|\omega_z|}{\sqrt{r^2\omega_z^2 + v^2}}\Big) \quad\text{(spring and return)}"
+        r"M_z = -\,r\,\mu F^{(N)}\,\mathrm{sign}(\omega_z)\,\left(1 - \eta + \eta\,"
+        r"\frac{r|\omega_z|}{\sqrt{r^2\omega_z^2 + v^2}}\right) \quad\text{(spring and return)}"
     )
     source = (
         "R. I. Leine, C. Glocker (2003), A set-valued force law for spatial Coulomb-Contensou friction, "

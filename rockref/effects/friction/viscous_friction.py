@@ -16,7 +16,7 @@ class ViscousFriction(Effect):
     question = "friction"
     quantities = {"c": Quantity("N s/m", 0.0, 50.0, 5000.0, 1000.0, "+", "force over sliding speed, each point", 0.0)}
     sentence = "A lubricating film between foot and plate shears, with a force in proportion to the sliding speed."
-    equation = r"F^{(T)} \to F^{(T)} - c\,v_s \quad (\xi \ge 0)"
+    equation = r"F^{(T)} \to F^{(T)} - c\,v_s \quad (\xi \geq 0)"
     source = (
         "B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit (1994), Automatica 30:1083-1138, "
         "doi:10.1016/0005-1098(94)90209-7"

@@ -22,7 +22,7 @@ class PlateTilt(Effect):
         for axis in ("x", "y")
     }
     sentence = "On a plate that is not level gravity helps the block to one side and hinders it to the other."
-    equation = r"F = m g\,(x,\ y,\ \tfrac12(x^2 + y^2))"
+    equation = r"F = m g\,(x,\ y,\ \frac{1}{2}\,(x^2 + y^2))"
     source = "Gravity in turned axes, statics: no DOI"
     confounder = "mass_eccentricity"
     experiment = "Turn the block by 180 degrees on the same plate: a tilt stays, an eccentricity flips. Read a level."

@@ -27,7 +27,7 @@ class QuadraticDrag(Effect):
         "c_v": Quantity("N s2/m2", 0.0, 0.02, 80.0, 1.0, "+", "force over speed of the centre squared", 0.0),
     }
     sentence = "Air in front of the moving faces is pushed aside; bare the block hardly feels it, with a sail it does."
-    equation = r"M = -c\,\|\omega\|\,\omega,\quad F = -c_v\,\|v\|\,v,\quad c_v = \tfrac12\rho\,C_d A"
+    equation = r"M = -c\,\|\omega\|\,\omega,\quad F = -c_v\,\|v\|\,v,\quad c_v = \frac{1}{2}\,\rho\,C_d A"
     source = (
         "T. I. Fossen (2011), Handbook of Marine Craft Hydrodynamics and Motion Control, doi:10.1002/9781119994138 "
         "(quadratic damping); G. K. Batchelor (1967), An Introduction to Fluid Dynamics, doi:10.1017/CBO9780511800955"

@@ -37,7 +37,7 @@ class UnevenContactNormals(Effect):
     sentence = "Scratches and chamfers turn the plate's push a little sideways, differently at each foot."
     equation = (
         r"F_i \to F_i + F_i^{(N)}\,(a_i + \eta\,(\Lambda_2 a_i - a_i),\ 0),\quad a_i = (x_i,\ y_i),\quad "
-        r"\Lambda_2 = (\Lambda_{jk}),\ j, k \le 2"
+        r"\Lambda_2 = (\Lambda_{jk}),\ j, k \leq 2"
     )
     source = 'The model\'s source, "Defects"; a force along another normal, statics: no DOI'
     confounder = "uneven_foot_friction"
