@@ -122,13 +122,15 @@ def run_curves(c: Comparison, k: int, end: float | None = None) -> Curves:
         label = name if 1 < len(c.names) and len(name) <= 16 else "contacts"
         panels.append(Panel(label, strips=contact_strips(c.results[i][k]), height=110.0, colour=style.colour(i)))
     impacts = m.features.impacts
+    of_each = f" (from above: {', then '.join(c.names)})" if len(c.names) > 1 else ""
     return curves(
         t,
         panels,
         title=f"Run {tables.run_name(c, k)}",
         sentence=(
             f"Body rates about the three axes in run {tables.run_name(c, k)}; models are aligned with its first main "
-            "impact. Below, a line for every contact point of the model while it touches. Red: main impacts of the run."
+            f"impact. Below, a line for every contact point of the model{of_each} while it touches. "
+            "Red: main impacts of the run."
         ),
         marks=[float(v) for v in impacts.times],
         views=named_views(impacts, float(t[-1])),

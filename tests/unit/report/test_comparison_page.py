@@ -45,6 +45,11 @@ def test_page_names_models_runs_and_digests(c, text):
     assert c.experiment.digest in text
 
 
+def test_whose_contacts_stand_where_is_said_in_words(text):
+    """Beside the rows there is no room for a long name."""
+    assert "every contact point of the model (from above: plain, then &lt;scaled&gt;) while it touches" in text
+
+
 def test_same_comparison_gives_the_same_page(c, text):
     assert comparison_page(c).html() == text
 
