@@ -34,6 +34,15 @@ from rockref.model.simulate import check_names, check_points
 POINT_SETS = ("eight_points", "four_points", "custom")
 
 
+def _same(a: Any, b: Any) -> bool:
+    """Whether two values of a model are equal, of arrays every number."""
+    if isinstance(a, ContactPoints) and isinstance(b, ContactPoints):
+        a, b = vars(a), vars(b)
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(_same(a[key], b[key]) for key in a)
+    return np.array_equal(a, b) if isinstance(a, np.ndarray) or isinstance(b, np.ndarray) else bool(a == b)
+
+
 @dataclass(frozen=True)
 class Model:
     """A block, its contact points, their parameters and the effects added to the law.
@@ -71,6 +80,10 @@ class Model:
     effects: tuple[Effect, ...] = ()
     uncertainty: dict[str, Any] = field(default_factory=dict)
     origin: dict[str, Any] = field(default_factory=dict)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether two models have the same values, arrays and notes included."""
+        return _same(vars(self), vars(other)) if isinstance(other, Model) else NotImplemented
 
     @classmethod
     def table_3_1(cls) -> Model:

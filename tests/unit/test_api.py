@@ -1,5 +1,7 @@
 """The public face: what a user types, and what he is told when it cannot be."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,17 @@ def code_of(call):
     with pytest.raises(InputError) as refused:
         call()
     return refused.value.code, refused.value.where
+
+
+#: One model for every kind of array that a model may have.
+MODELS = {
+    "plain": Model.table_3_1(),
+    "inertia": Model(inertia=np.diag([2.0, 2.1, 0.1])),
+    "properties": Model(properties={k: np.full(8, 1e3 if k[0] in "KC" else 0.2) for k in PROPERTIES}),
+    "custom": Model(
+        points="custom", custom_points=physics.points([[0, 0.05, -0.3], [0.04, -0.05, -0.3], [-0.04, 0, -0.3]])
+    ),
+}
 
 
 class TestModel:
@@ -32,6 +45,25 @@ class TestModel:
     def test_custom_points(self):
         own = physics.points([[0, 0.05, -0.3], [0.04, -0.05, -0.3], [-0.04, -0.05, -0.3]])
         assert Model(points="custom", custom_points=own).body()[1] is own
+
+    @pytest.mark.parametrize("kind", MODELS)
+    def test_what_is_read_back_is_equal_and_another_one_is_not(self, kind, tmp_path):
+        model = MODELS[kind]
+        model.save(tmp_path / "m.toml")
+        again = Model.load(tmp_path / "m.toml")
+        assert again == model and not again != model
+        assert again != model.replace(mass=55.0) and again != model.replace(origin={"source": "another"})
+        assert again != "a model"
+
+    @pytest.mark.parametrize("name", ["P", "mu", "names", "radius"])
+    def test_one_number_of_a_point_makes_another_model(self, name):
+        own = physics.points([[0, 0.05, -0.3], [0.04, -0.05, -0.3], [-0.04, -0.05, -0.3]])
+        value = getattr(own, name)
+        other = {"names": ("a", "b", "c"), "radius": np.full(3, 1e-3)}.get(name)
+        changed = replace(own, **{name: np.nextafter(value, 1.0) if other is None else other})
+        model = Model(points="custom", custom_points=own)
+        assert model != model.replace(custom_points=changed) and model.replace(custom_points=changed) != model
+        assert model != Model(points="custom", custom_points=None)
 
     def test_replace_finds_fields_and_parameters(self):
         changed = Model.table_3_1().replace(mass=60.0, K_N=7e7, delta_long=(0, 0, 0, 0), effects=())
