@@ -209,7 +209,8 @@ def coherence(s: Series, r: np.ndarray) -> float:
     """How well one tone keeps its phase through the windows of a run, 0 to 1, at the frequency where it does best.
 
     A tone that goes on by the clock does; what begins anew with every impact does not. Lines are taken off the windows
-    first: their starts are corrected, which does the same to a slow tone. The first swing, one long window, is left out.
+    first: their starts are corrected, which does the same to a slow tone. The first swing, one long window, is left
+    out.
     """
     tones = np.arange(*TONES)
     t, share = times(s), np.zeros(len(tones))

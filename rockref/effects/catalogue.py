@@ -17,6 +17,7 @@ from rockref.effects.contact.hertzian_contact import HertzianContact
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
 from rockref.effects.contact.hysteretic_contact import HystereticContact
 from rockref.effects.contact.none import NoContactEffect
+from rockref.effects.contact.orientation_dependent_damping import OrientationDependentDamping
 from rockref.effects.contact.uneven_foot_damping import UnevenFootDamping
 from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
 from rockref.effects.friction.load_dependent_friction import LoadDependentFriction
@@ -78,10 +79,10 @@ EFFECTS: dict[str, type[Effect]] = {effect.id: effect for effect in IN_STEP_ORDE
 #: A clock that came after the stops would interpolate across their corners, and show more than the range.
 MOUNTING, CLOCK, OF_SAMPLES = ("gyro_misalignment", "gyro_scale"), ("clock_error",), ("gyro_saturation",)
 
-#: Effects that only tosses know: a released block stands on its feet, and a gyroscope sees no pose. They are read and
-#: written like all others and act after them; what looks for effects in releases does not try them.
+#: Effects that only tosses know: a released block stands on its feet all the while, and a gyroscope sees no pose. They
+#: are read and written like all others and act after them; what looks for effects in releases does not try them.
 OF_TOSSES: dict[str, type[Effect]] = {
-    effect.id: effect for effect in (RoundedCorners, GravityDeviation, TagFrame, PlatePose)
+    effect.id: effect for effect in (RoundedCorners, GravityDeviation, TagFrame, PlatePose, OrientationDependentDamping)
 }
 
 #: Effects of the user's own that this process was told of, by id; the file that was read last holds.

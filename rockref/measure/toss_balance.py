@@ -15,6 +15,8 @@ ARC, BETWEEN = 8, 4
 #: Residuals beyond so many robust standard deviations are left out, in so many rounds. Decided: gross errors only; at
 #: four deviations the fast spins go first, and with them what is measured (of the public tosses' centre a tenth).
 OUTLIER, ROUNDS = 12.0, 4
+#: Least range of P_2 over the impacts from which its slope is read (decided).
+LEAST_TURN = 0.3
 #: Frames at either side of a contact that are not used, since the tracker's median filter smears them.
 GUARD = 1
 
@@ -214,7 +216,11 @@ def corner_shape(k: Impacts, rest: float) -> Measured:
 
 
 def corner_ratios(k: Impacts) -> Measured:
-    """Tangential over normal impulse where the corner keeps sliding, and restitution of the corner's normal speed."""
+    """Tangential over normal impulse where the corner keeps sliding, and restitution of the corner's normal speed.
+
+    The restitution is that of the drawn corner: the median, and, where they differ, that of a corner of a face and that
+    of a tip, linear in P_2 of the angle between the vertical and the corner's diagonal (0 and 1 on a cube).
+    """
     dv = k.v_after - k.v_before
     u1 = k.v_before + np.cross((k.L_before @ k.W_before[..., None])[..., 0], k.r)
     u2 = k.v_after + np.cross((k.L_after @ k.W_after[..., None])[..., 0], k.r)
@@ -229,6 +235,11 @@ def corner_ratios(k: Impacts) -> Measured:
         if len(a) > 4:
             spread = 1.4826 * np.median(np.abs(a - np.median(a)))
             values[name] = (float(np.median(a)), float(1.2533 * spread / np.sqrt(len(a))), "1")
+    tip = np.maximum(1.5 * k.r[:, 2] ** 2 / np.sum(k.r**2, axis=1) - 0.5, 0.0)
+    if len(tip) > 4 and np.ptp(tip) > LEAST_TURN:
+        p, se, _, _ = robust(np.stack([1 - tip, tip], axis=1), restitution, np.arange(len(tip)))
+        for name, v, s in zip(("restitution_on_a_face", "restitution_on_a_tip"), p, se, strict=True):
+            values[name] = (float(v), float(s), "1")
     return Measured(values, int(slid.sum()), float(np.std(ratio[slid])) if slid.any() else math.nan)
 
 

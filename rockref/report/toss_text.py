@@ -20,6 +20,13 @@ HEAD = ("", "start", "tosses", "position %", "median (quartiles)", "rotation deg
 #: What flight arcs give: words, and the scale to a unit in which it can be read.
 ARCS = {f"g_{a}": (f"gravity, {a} (x against the throw)" if a == "x" else f"gravity, {a}", 1.0, "m/s2") for a in "xyz"}
 ARCS |= {f"centre_{a}": (f"centre of mass, {a}", 1e3, "mm") for a in "xyz"}
+#: What impacts on one corner give.
+CORNER = {
+    "friction": "friction of the corner",
+    "restitution": "restitution of the corner",
+    "restitution_on_a_face": "restitution of the corner of a face that comes down flat",
+    "restitution_on_a_tip": "restitution of a tip",
+}
 
 
 def error_cells(summary: dict[str, Any]) -> tuple[str, ...]:
@@ -88,7 +95,7 @@ def measured_table(found: dict[str, Any]) -> Table:
                      f"{part['impulse_balance']['scatter']:.4g}", "m2/s"))  # fmt: skip
         rows += [(f"{words}: inertia {a}", f"{1e3 * v:.2f}", "g m2") for a, v in part["inertia_kg_m2"].items()]
         for key, v in part["corner"]["values"].items():
-            rows.append((f"{words}: {key} of the corner", with_error(v["value"], v["se"]), "1"))
+            rows.append((f"{words}: {CORNER.get(key, key)}", with_error(v["value"], v["se"]), "1"))
         e = part["energy_change"]
         rows.append((f"{words}: impacts that gain kinetic energy", f"{e['gains']} of {e['tosses']}", ""))
     e = found.get("energy_of_stated_velocities")

@@ -28,6 +28,7 @@ CANDIDATES: dict[str, dict[str, float]] = {
     "hertzian_contact": {"exponent": 0.2},
     "hunt_crossley_contact": {"a": 0.3},
     "hysteretic_contact": {"kappa": 0.3},
+    "orientation_dependent_damping": {"a": 1.0},
     "adhesion": {"force": 0.3},
     "stribeck_friction": {"ratio": 0.3},
     "load_dependent_friction": {"exponent": 0.1},

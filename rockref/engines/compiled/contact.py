@@ -54,6 +54,15 @@ def altered(on, e, force, xi, xi_rate, props, i, memory):
 
 
 @inlined
+def oriented(e, force, xi_rate, props, i, rx, ry, rz):
+    """The force with the damper that depends on how its corner is turned, which comes after all of `altered`."""
+    z = rz + props[i, col.RADIUS]
+    squares = rx * rx + ry * ry + z * z
+    tip = max(1.5 * (z * z / (squares if squares > 0.0 else 1.0)) - 0.5, 0.0)
+    return force + e[slots.ORIENTATION + 1] * tip * props[i, col.C_N] * xi_rate
+
+
+@inlined
 def altered_friction(on, e, mu_0, mu, v_x, v_y, F_N):
     """Both friction coefficients with the effects on them, in the order of the step."""
     if on.stribeck:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
-from rockref.engines.compiled.contact import altered, altered_friction, returned, surely_held, trial
+from rockref.engines.compiled.contact import altered, altered_friction, oriented, returned, surely_held, trial
 from rockref.engines.compiled.jit import inlined
 from rockref.engines.compiled.loads import add_loads, resistance
 from rockref.engines.compiled.points import pulled, pushed, roll_moment, spin_moment
@@ -65,6 +65,8 @@ def make_evaluation(groups: int):
             fz = props[i, col.K_N] * -height + props[i, col.C_N] * -vz  # (3.5a)
             if contact:
                 fz = altered(on, e, fz, -height, -vz, props, i, memory)
+                if on.orientation:
+                    fz = oriented(e, fz, -vz, props, i, rx, ry, rz)
             fz = 0.0 if fz <= 0.0 else fz  # N1
             ux, uy = x0 + rx, x1 + ry
             sx, sy, tx, ty, size = trial(ux, uy, vx, vy, props, memory, i, turn0, turn1)

@@ -68,10 +68,11 @@ def _turned(m0, m1, m2, E0, E1, E2, E3, E4, E5, E6, E7, E8):
 def switches(e):
     """Which effects are on, from their numbers (SLOTS,)."""
     return slots.Switches(
-        e[slots.HERTZ] != 0.0, e[slots.HYSTERESIS] != 0.0, e[slots.HUNT] != 0.0, e[slots.STRIBECK] != 0.0,
-        e[slots.LOAD] != 0.0, e[slots.ADHESION] != 0.0, e[slots.VISCOUS] != 0.0, e[slots.NORMALS] != 0.0,
-        e[slots.SPIN] != 0.0, e[slots.ROLLING] != 0.0, e[slots.DRAG] != 0.0, e[slots.CABLE] != 0.0,
-        e[slots.WIRE] != 0.0, e[slots.VIBRATION] != 0.0, e[slots.TILT] != 0.0, e[slots.SUPPORT] != 0.0,
+        e[slots.HERTZ] != 0.0, e[slots.HYSTERESIS] != 0.0, e[slots.HUNT] != 0.0, e[slots.ORIENTATION] != 0.0,
+        e[slots.STRIBECK] != 0.0, e[slots.LOAD] != 0.0, e[slots.ADHESION] != 0.0, e[slots.VISCOUS] != 0.0,
+        e[slots.NORMALS] != 0.0, e[slots.SPIN] != 0.0, e[slots.ROLLING] != 0.0, e[slots.DRAG] != 0.0,
+        e[slots.CABLE] != 0.0, e[slots.WIRE] != 0.0, e[slots.VIBRATION] != 0.0, e[slots.TILT] != 0.0,
+        e[slots.SUPPORT] != 0.0,
     )  # fmt: skip
 
 

@@ -179,6 +179,7 @@ FILL = {
     "base_vibration": _vibration,
     "plate_tilt": lambda r, e, p: _put(r, slots.TILT, e.x, e.y),
     "compliant_support": _support,
+    "orientation_dependent_damping": lambda r, e, p: _put(r, slots.ORIENTATION, e.a),
 }
 
 

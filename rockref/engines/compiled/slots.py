@@ -19,6 +19,7 @@ def _block(n: int) -> int:
 HERTZ = _block(3)  # on, exponent, reference
 HYSTERESIS = _block(3)  # on, kappa, share of the power 3/2 in the unloading
 HUNT = _block(2)  # on, a
+ORIENTATION = _block(2)  # on, a
 STRIBECK = _block(3)  # on, ratio, velocity
 LOAD = _block(3)  # on, exponent, reference
 ADHESION = _block(3)  # on, force, range
@@ -37,7 +38,8 @@ SLOTS = _next
 #: Which effects are on, read once per run.
 Switches = namedtuple(
     "Switches",
-    "hertz hysteresis hunt stribeck load adhesion viscous normals spin rolling drag cable wire vibration tilt support",
+    "hertz hysteresis hunt orientation stribeck load adhesion viscous normals spin rolling drag cable wire vibration "
+    "tilt support",
 )
 
 #: The groups of effects that a variant of the compiled step has or has not, with the slots of their numbers.
@@ -59,7 +61,7 @@ VARIANTS = (0, *GROUPS, ALL)
 IN_THE_STEP = tuple(
     "hertzian_contact hysteretic_contact hunt_crossley_contact stribeck_friction load_dependent_friction adhesion "
     "viscous_friction uneven_contact_normals spin_friction rolling_resistance quadratic_drag cable_restraint "
-    "lingering_wire_pull base_vibration plate_tilt compliant_support".split()
+    "lingering_wire_pull base_vibration plate_tilt compliant_support orientation_dependent_damping".split()
 )
 
 #: Effects that act before the run (on points, mass, release) or after it (sensor).

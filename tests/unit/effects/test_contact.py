@@ -9,6 +9,7 @@ from rockref.effects.contact.adhesion import Adhesion
 from rockref.effects.contact.hertzian_contact import HertzianContact
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
 from rockref.effects.contact.hysteretic_contact import HystereticContact
+from rockref.effects.contact.orientation_dependent_damping import OrientationDependentDamping
 from rockref.effects.contact.uneven_foot_damping import UnevenFootDamping
 from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
 from rockref.model.contact import Kinematics
@@ -63,6 +64,16 @@ def test_hunt_crossley_restitution():
     # The way of the last step above the plate is not part of the bounce: 1e-6 m of 1e-4 m.
     assert rebound == pytest.approx(-low, rel=1e-4)
     assert rebound < speed
+
+
+def test_a_tip_rebounds_as_with_a_damper_that_is_larger():
+    """The mass stands on its point: P_2 is one all the while, and C (1 + a) is the law's own damper."""
+    C, a, speed = 20.0, 1.5, 0.1
+    with_effect = bounce(OrientationDependentDamping(a), speed, C_N=C)
+    plain = bounce(OrientationDependentDamping(0.0), speed, C_N=C * (1 + a))
+    # Forces of 100 N that are summed in another order, over a thousand steps.
+    assert with_effect == pytest.approx(plain, rel=1e-12)
+    assert with_effect[0] < 0.99 * bounce(OrientationDependentDamping(0.0), speed, C_N=C)[0]
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])

@@ -10,6 +10,7 @@ from rockref.effects.contact.adhesion import Adhesion
 from rockref.effects.contact.hertzian_contact import HertzianContact
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
 from rockref.effects.contact.hysteretic_contact import HystereticContact
+from rockref.effects.contact.orientation_dependent_damping import OrientationDependentDamping
 from rockref.effects.friction.load_dependent_friction import LoadDependentFriction
 from rockref.effects.friction.rolling_resistance import ARM, RollingResistance
 from rockref.effects.friction.spin_friction import SpinFriction
@@ -109,9 +110,9 @@ def test_dampers_take_power_from_every_motion(name):
         assert np.dot(load[0], s.v) + np.dot(load[1], s.W) < 0
 
 
-def drop(effects, K_N=1e6, h=5e-6, **kwargs):
+def drop(effects, K_N=1e6, h=5e-6, C_N=0.0, **kwargs):
     """Energy of a ball that falls onto the plate from a fifth of a millimetre [J], and its height; two bounces."""
-    problem = body(points_at([(0, 0, -1e-3)], K_N=K_N), effects, x=(0, 0, 1.2e-3), h=h, **kwargs)
+    problem = body(points_at([(0, 0, -1e-3)], K_N=K_N, C_N=C_N), effects, x=(0, 0, 1.2e-3), h=h, **kwargs)
     return np.array([(s.v @ s.v / 2 + 9.81 * s.x[2], s.x[2]) for s in walk(problem, 3600)])
 
 
@@ -126,9 +127,12 @@ def test_conservative_contacts_give_everything_back(effect):
     assert np.ptp(energies) < 5e-3 * (energies[0] - 9.81e-3)
 
 
-@pytest.mark.parametrize("effect", [HystereticContact(0.3), HuntCrossleyContact(2.0)])
-def test_dissipative_contacts_only_take(effect):
-    energies = in_the_air(drop([effect]))
+@pytest.mark.parametrize(
+    "effect, damper",
+    [(HystereticContact(0.3), 0.0), (HuntCrossleyContact(2.0), 0.0), (OrientationDependentDamping(2.0), 5.0)],
+)
+def test_dissipative_contacts_only_take(effect, damper):
+    energies = in_the_air(drop([effect], C_N=damper))
     # In the air nothing changes but by rounding; each contact takes.
     assert np.all(np.diff(energies) < 1e-12)
     assert energies[-1] - 9.81e-3 < 0.95 * (energies[0] - 9.81e-3)

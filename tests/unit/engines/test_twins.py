@@ -19,6 +19,8 @@ from rockref.model.simulate import simulate as law
 #: Their text calls `power` or `exp`, whose last bit NumPy and the C library need not share.
 TRANSCENDENTAL = {"hertzian_contact", "load_dependent_friction", "stribeck_friction"}
 EXACT = [id for id in slots.IN_THE_STEP if id not in TRANSCENDENTAL]
+#: Every effect in the order in which it acts.
+ALL = {**EFFECTS, **OF_TOSSES}
 
 
 def kicked(effects, duration: float = 4e-3):
@@ -40,7 +42,8 @@ def assert_same_bits(a, b):
 def test_every_effect_is_known():
     known = set(slots.IN_THE_STEP) | (set(slots.OUTSIDE_THE_STEP) - {"none"})
     assert known == set(EFFECTS) | set(OF_TOSSES)
-    assert [e.id for e in IN_STEP_ORDER if e.id in slots.IN_THE_STEP] == list(slots.IN_THE_STEP)
+    assert [id for id in ALL if id in slots.IN_THE_STEP] == list(slots.IN_THE_STEP)
+    assert list(EFFECTS) == [e.id for e in IN_STEP_ORDER]
     assert set(pack.FILL) == set(slots.IN_THE_STEP)
 
 
@@ -52,7 +55,7 @@ def test_constants_are_those_of_the_text():
 
 @pytest.mark.parametrize("id", EXACT)
 def test_alone_bit_for_bit(id):
-    problem = kicked([EFFECTS[id].typical()])
+    problem = kicked([ALL[id].typical()])
     a = law(problem)
     assert_same_bits(a, engine.simulate(problem))
     assert not np.array_equal(a.W, law(kicked([])).W), "the run must show the effect"
@@ -60,13 +63,13 @@ def test_alone_bit_for_bit(id):
 
 @pytest.mark.parametrize("leave_out", [None, *EXACT])
 def test_together_bit_for_bit(leave_out):
-    problem = kicked([EFFECTS[id].typical() for id in EXACT if id != leave_out], 1e-3)
+    problem = kicked([ALL[id].typical() for id in EXACT if id != leave_out], 1e-3)
     assert_same_bits(law(problem), engine.simulate(problem))
 
 
 @pytest.mark.parametrize(
     "effect",
-    [EFFECTS[id].typical() for id in sorted(TRANSCENDENTAL)]
+    [ALL[id].typical() for id in sorted(TRANSCENDENTAL)]
     # Other powers than 3/2, which is taken by a root; friction that falls at speed and rises with the load.
     + [EFFECTS["hertzian_contact"](exponent=1.3), EFFECTS["stribeck_friction"](ratio=0.6)]
     + [EFFECTS["load_dependent_friction"](exponent=-0.3)]
@@ -142,7 +145,7 @@ def test_every_variant_gives_the_law_where_nothing_is_on(groups):
 
 @pytest.mark.parametrize("id", slots.IN_THE_STEP)
 def test_an_effect_is_the_same_on_its_own_variant_and_on_that_of_all(id):
-    problem = kicked([EFFECTS[id].typical()])
+    problem = kicked([ALL[id].typical()])
     own = kernel.loop_for(pack.effects_row(problem))
     groups = next(g for g, loop in kernel.LOOPS.items() if loop is own)
     assert groups not in (0, slots.ALL)
@@ -151,7 +154,7 @@ def test_an_effect_is_the_same_on_its_own_variant_and_on_that_of_all(id):
 
 
 def test_effects_of_several_groups_run_on_the_variant_of_all():
-    effects = [EFFECTS[id].typical() for id in ("hunt_crossley_contact", "quadratic_drag")]
+    effects = [ALL[id].typical() for id in ("hunt_crossley_contact", "quadratic_drag")]
     assert kernel.loop_for(pack.effects_row(kicked(effects))) is kernel.LOOPS[slots.ALL]
     assert kernel.loop_for(pack.effects_row(kicked([]))) is kernel.LOOPS[0]
 

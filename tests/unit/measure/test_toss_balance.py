@@ -1,16 +1,19 @@
 """What tosses say without a contact model, on tosses with known truth."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from rockref.discover.tosses.body import frames_of, throw_frame
 from rockref.discover.tosses.compare import measured, nominal_corners
 from rockref.discover.tosses.parameters import apply, law_parameters
+from rockref.effects.contact.orientation_dependent_damping import OrientationDependentDamping
 from rockref.effects.shape.inertia_deviation import InertiaDeviation
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.shape.rounded_corners import RoundedCorners
 from rockref.measure.flight import flight_frames, side_by_side
-from rockref.measure.toss_balance import first_impacts, flight_arcs
+from rockref.measure.toss_balance import corner_ratios, first_impacts, flight_arcs
 from rockref.measure.tosses import CUBE_INERTIA, CUBE_MU, load_tosses
 from rockref.model.errors import InputError
 from tests.tosses import made, stated, write_tosses
@@ -62,6 +65,36 @@ def test_round_corners_and_a_long_contact_are_seen_as_depth_of_the_drawn_corner(
     # the tosses struck with their drawn corner near enough differ.
     assert round_ - sharp == pytest.approx(2.8e-3, rel=0.35)
     assert soft / sharp == pytest.approx(2.0, rel=0.35)
+
+
+def test_a_tip_that_loses_more_rebounds_less(tmp_path):
+    """The restitution of made tosses, read from their poses alone, by how the corner is turned."""
+
+    def restitution(a):
+        start = stated().custom_points
+        points = replace(start, K_N=np.full(start.n, 3e4), C_N=np.full(start.n, 30.0))
+        model = stated().replace(custom_points=points, effects=(OrientationDependentDamping(a),))
+        x, Lambda, _ = made(model, 80, frames=60, seed=2, noise=2e-5)
+        tosses = load_tosses(write_tosses(tmp_path / f"a{a}", x, Lambda))
+        corner = measured(tosses.tosses, tosses, stated())["measured_centre"]["corner"]["values"]
+        return [corner[f"restitution_on_a_{place}"] for place in ("face", "tip")]
+
+    (face, tip), (other_face, other_tip) = restitution(0.0), restitution(3.0)
+    # A plain damper loses less the more mass is above it, and above a tip it is all.
+    assert tip["value"] > face["value"]
+    # exp(-pi zeta/sqrt(1 - zeta^2)) at 0.37 kg: 0.62 with 30 N s/m; with 120, four times as much, below 0.1, and few
+    # corners strike with their very tip, from which the line is drawn on.
+    assert other_tip["value"] < tip["value"] - 0.3 and other_tip["value"] < other_face["value"] - 0.15
+    assert other_face["value"] == pytest.approx(face["value"], abs=3 * np.hypot(face["se"], other_face["se"]))
+
+
+def test_where_all_corners_are_turned_alike_no_slope_is_read(tosses):
+    poses = side_by_side(tosses.tosses, tosses.rate)
+    k = first_impacts(poses, nominal_corners(stated()), np.eye(3), np.array([0, 0, -9.81]), 2e-3)
+    same = replace(k, r=np.tile(k.r[:1], (len(k.r), 1)))
+    assert set(corner_ratios(same).values) == set(corner_ratios(k).values) - {
+        "restitution_on_a_face", "restitution_on_a_tip"
+    }  # fmt: skip
 
 
 def test_the_deceleration_of_a_flat_face_is_its_friction(tmp_path):

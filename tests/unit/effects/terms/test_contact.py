@@ -9,6 +9,7 @@ from rockref.effects.contact.adhesion import Adhesion
 from rockref.effects.contact.hertzian_contact import HertzianContact
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
 from rockref.effects.contact.hysteretic_contact import HystereticContact
+from rockref.effects.contact.orientation_dependent_damping import OrientationDependentDamping
 from rockref.effects.contact.uneven_foot_damping import UnevenFootDamping
 from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
 from rockref.model.problem import State
@@ -99,6 +100,35 @@ def test_hunt_and_crossleys_damper_grows_with_depth():
     points = replace(points_at([(0, 0, 0)] * 2, C_N=C), K_N=K_N)
     F = HuntCrossleyContact(a).normal_force(K_N * xi + C * rate, contact(xi, xi_rate=rate).k, points, {})
     assert F == pytest.approx([10 * 1.6 + 10, 40 * 0.7 - 5], rel=ROUNDED)
+
+
+#: Lines from the centre of mass to a corner: of a tip, of an edge, of a face, of a flat block, of none; and P_2 >= 0.
+DIRECTIONS = {
+    "tip": ((0.0, 0.0, -0.7), 1.0),
+    "edge": ((0.3, 0.4, -np.sqrt(0.5)), 0.5),
+    "face": ((0.5, -0.5, -0.5), 0.0),
+    "flat": ((0.5, 0.5, -0.1), 0.0),
+    "halfway": ((0.6, 0.0, -0.8), 0.46),
+    "none": ((0.0, 0.0, 0.0), 0.0),
+}
+
+
+@pytest.mark.parametrize("radius", [None, 0.05])
+@pytest.mark.parametrize("name", DIRECTIONS)
+def test_a_damper_that_knows_how_its_corner_is_turned(name, radius):
+    """C xi_rate (1 + a P_2), going in and coming out; of a round corner the centre says how it is turned."""
+    (x, y, z), tip = DIRECTIONS[name]
+    C, a, F, rate = 50.0, 3.0, np.array([7.0, 7.0]), np.array([0.2, -0.1])
+    points = points_at([(0, 0, 0)] * 2, C_N=C, radius=radius)
+    k = contact([1e-5, 1e-5], r=[(x, y, z - (radius or 0.0))] * 2, xi_rate=rate).k
+    found = OrientationDependentDamping(a).normal_force(F, k, points, {})
+    # A cosine whose square is 1/3 or 2/3 to rounding, times 30 N.
+    assert found == pytest.approx(7.0 + a * tip * C * rate, abs=1e-13)
+
+
+def test_without_an_orientation_the_damper_is_the_law_s():
+    F = np.array([1.0])
+    assert OrientationDependentDamping(0.0).normal_force(F, None, None, {}) is F
 
 
 def dented(xi, largest, rate=0.0, kappa=0.5, share=0.0):
