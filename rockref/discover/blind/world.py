@@ -84,20 +84,16 @@ def draw_parameters(rng: np.random.Generator, spread: float = 0.10) -> dict[str,
     return {name: value * float(np.exp(own.get(name, spread) * rng.normal())) for name, value in TABLE.items()}
 
 
-def build(p: dict[str, float], points: str = "eight") -> World:
-    """The block with these parameters on eight points, or on its four corners ("four")."""
+def build(p: dict[str, float]) -> World:
+    """The block with these parameters, on eight points."""
     half_w, half_h = WIDTH / 2, HEIGHT / 2
     J = MASS / 12 * np.diag([WIDTH**2 + HEIGHT**2, WIDTH**2 + HEIGHT**2, 2 * WIDTH**2])
     outer = np.column_stack([CORNERS * half_w, np.full(4, -half_h)])
-    if points == "eight":
-        inner = outer.copy()
-        inner[:, :2] -= CORNERS * p["delta_diag"] / np.sqrt(2)
-        outer[:, 2] += [p[f"delta_long_{i}"] for i in (1, 2, 3, 4)]
-        all_points, foot, external = np.vstack([outer, inner]), np.tile(np.arange(4), 2), np.arange(8) < 4
-    else:
-        all_points, foot, external = outer, np.arange(4), np.ones(4, bool)
-    n = len(foot)
-    props = np.zeros((n, len(POINT)))
+    inner = outer.copy()
+    inner[:, :2] -= CORNERS * p["delta_diag"] / np.sqrt(2)
+    outer[:, 2] += [p[f"delta_long_{i}"] for i in (1, 2, 3, 4)]
+    all_points, foot, external = np.vstack([outer, inner]), np.tile(np.arange(4), 2), np.arange(8) < 4
+    props = np.zeros((8, len(POINT)))
     beta = np.where(external, p["beta_ext"], p["beta_int"])
     props[:, P["K_N"]], props[:, P["K_T"]] = p["K_N"], p["K_T"]
     props[:, P["C_N"]] = 2 * beta * np.sqrt(p["K_N"] * MASS)
