@@ -128,3 +128,43 @@ def test_the_inner_points_stand_on_the_diagonals():
     assert np.hypot(*way.T) == pytest.approx(6e-3, rel=1e-12)
     assert np.all(np.sign(way) == CORNERS)
     assert world.points[:4, 2] - world.points[4:, 2] == pytest.approx([1e-5, 4e-5, 9.2e-5, 5.8e-5], rel=1e-9)
+
+
+def test_a_push_is_the_rate_at_release_and_lets_the_block_leave_with_it():
+    world = build(NOMINAL)
+    plain = generator.simulate(world, 0.117, seconds=0.01)
+    world.kick = np.array([0.02, 0.0, 0.0])
+    pushed = generator.simulate(world, 0.117, seconds=0.01)
+    assert pushed[0] == pytest.approx([0.02, 0.0, 0.0])
+    # The edge stays where it is: after ten milliseconds the block still turns faster by as much. Its weight turns it
+    # at 1.7 rad/s2, which the lean of 0.2 mrad more changes by less than a hundredth.
+    assert pushed[-1, 0] - plain[-1, 0] == pytest.approx(0.02, rel=0.02)
+
+
+def test_a_block_that_leaves_for_infinity_is_an_error():
+    world = build(NOMINAL)
+    world.kick = np.array([1e200, 0.0, 0.0])
+    with pytest.raises(FloatingPointError, match="draw a smaller effect"):
+        generator.simulate(world, 0.117, seconds=0.01)
+
+
+def test_each_run_meets_a_shaking_floor_at_a_phase_of_its_own(tmp_path):
+    truth = generator.make_case(tmp_path / "s", ["base_vibration"], 3, runs=generator.RUNS[:2], seconds=0.2)
+    first, second = (run["phase"] for run in truth["runs"])
+    assert first != second and "phase" not in truth["effects"][0]["parameters"]
+
+
+def test_the_range_of_all_runs_is_a_share_of_the_largest_rate_of_the_first(tmp_path):
+    runs = (generator.RUNS[3], generator.RUNS[0])
+    both = ["plate_tilt", "gyro_saturation"]
+    truth = generator.make_case(tmp_path / "r", both, 5, runs=runs, seconds=0.75, other_form=False)
+    top = truth["effects"][1]["parameters"]["range"]
+    assert "range" not in truth["effects"][0]["parameters"]
+    first, second = (np.abs(run.crv).max() for run in load_experiment(tmp_path / "r").runs)
+    # The second is released higher and falls faster; both are cut at one rate, to half a resolution.
+    assert first == pytest.approx(top, abs=0.51 * recorder.RESOLUTION) and second == pytest.approx(first, abs=1e-12)
+
+
+def test_feet_that_the_experimenter_does_not_know_of_are_four_corners_to_him(tmp_path):
+    generator.make_case(tmp_path / "f", ["foot_defects"], 6, runs=generator.RUNS[:1], seconds=0.75)
+    assert load_experiment(tmp_path / "f").baseline == "four_points"

@@ -91,3 +91,30 @@ def test_a_soft_plate_lets_the_block_down_gently_and_a_stiff_one_is_none():
     soft = generator.simulate(drawn("compliant_support")[0], 0.117, seconds=0.6)
     # 7e11 N/m under contacts of 6e7: a ten-thousandth of their depth.
     assert np.abs(stiff - plain).max() < 0.05 * np.abs(soft - plain).max()
+
+
+def test_factors_that_are_drawn_alike_are_drawn_again():
+    """Four equal numbers have no spread that could be made the wanted one."""
+
+    class Alike:
+        def __init__(self):
+            self.left = [np.full(4, 0.7), np.array([1.0, 2.0, 3.0, 4.0])]
+
+        def normal(self, size):
+            return self.left.pop(0)
+
+    assert np.log(uneven(Alike(), 0.2)).std() == pytest.approx(0.2)
+
+
+def test_a_push_may_turn_the_block_about_a_line_above_its_feet():
+    plain, other = drawn("release_velocity")[0], drawn("release_velocity", other=True)[0]
+    np.testing.assert_array_equal(plain.kick, other.kick)
+    assert (plain.kick_at, other.kick_at) == (0.0, 5e-3) and "above the feet" in drawn("release_velocity", other=True)[
+        1
+    ]["form"]
+
+
+def test_a_range_is_a_share_of_the_largest_rate_unless_it_is_set():
+    assert -0.95 <= drawn("gyro_saturation")[0].sensor.range <= -0.4
+    world, truth = drawn("gyro_saturation", given={"range": 1.75})
+    assert world.sensor.range == 1.75 and truth["parameters"] == {"range": 1.75}

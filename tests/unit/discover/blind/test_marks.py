@@ -5,8 +5,8 @@ import math
 import pytest
 
 from rockref.discover.blind.marks import gap_closed, mark
-from rockref.discover.blind.sizes import covered, size_error
-from rockref.discover.blind.table import as_text, failures, scores
+from rockref.discover.blind.sizes import covered, size_error, stated
+from rockref.discover.blind.table import as_text, beside, failures, scores
 
 
 def truth(kind, *effects, form="catalogue", twins=(), parameters=None, card=None):
@@ -158,3 +158,32 @@ def test_the_best_possible_answers_meet_every_goal():
     ]
     assert all(row["met"] is not False for row in scores(cable + rest))
     assert sum(row["met"] is True for row in scores(cable + rest)) == sum(bool(row["goal"]) for row in scores([]))
+
+
+def test_what_is_no_size_is_not_compared():
+    feet = {f"foot{i}": f for i, f in enumerate((0.5, 2.0, 1.0, 1.0), 1)}
+    assert size_error("cable_restraint", {"k": 5.0}, {"k": entry(math.nan)}) is None
+    # A factor below zero has no logarithm.
+    assert size_error("uneven_foot_damping", feet, {k: entry(-1.0) for k in feet}) is None
+
+
+def test_what_a_verdict_says_of_other_effects_or_without_a_number_is_left_out():
+    amplitudes = {
+        "cable_restraint.k": entry(5.0), "cable_restraint.c": {"value": "unknown"}, "cable_restraint": entry(1.0),
+        "plate_tilt.x": entry(2.0), "cable_restraint.d": 3.0,
+    }  # fmt: skip
+    assert stated(amplitudes, "cable_restraint") == {"k": entry(5.0)}
+    assert stated(None, "cable_restraint") == {}
+
+
+def test_methods_stand_side_by_side_where_there_is_a_goal_and_a_case():
+    good = scores([mark(truth("control"), said("none"))])
+    bad = scores([mark(truth("control"), said("named", "adhesion"))])
+    head, _, *lines = beside({"ours": good, "rival": bad}).splitlines()
+    assert head == "| score | ours | rival | n |"
+    # No single effects, no pairs, no goal for what is only told; seconds are of one method alone.
+    assert lines == [
+        "| controls: false alarms | 0.0 % | 100.0 % | 1 |",
+        "| controls: an effect named | 0.0 % | 100.0 % | 1 |",
+        "| all: wrong name | 0.0 % | 100.0 % | 1 |",
+    ]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rockref.discover.blind import rivals
+from tests.unit.discover.synthetic import GYRO
 
 BLOCK = SimpleNamespace(mass=54.0, width=0.100, height=0.688)
 RADIUS = 0.5 * np.hypot(BLOCK.width, BLOCK.height)
@@ -74,3 +75,49 @@ def test_a_ranking_is_taken_at_its_word():
     assert rivals.first_of_ranking({"verdict": "none", "ranking": ranking})["effects"] == ["adhesion"]
     assert rivals.first_of_ranking({"ranking": [{"effect": "adhesion", "z": 2.0}]})["verdict"] == "none"
     assert rivals.first_of_ranking({})["verdict"] == "none"
+
+
+def experiment_of(*runs):
+    return SimpleNamespace(fit_runs=lambda: runs, **vars(BLOCK), baseline="eight_points", gyro=GYRO)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_sparse_regression_names_the_torque_that_a_case_has(monkeypatch, tmp_path, turned):
+    t, crv = housner(lambda t, lean, w: -0.8 * np.sign(w))
+    turn = np.pi if turned else 0.0
+    run = SimpleNamespace(t=t, crv=-crv if turned else crv, release_tilt=0.117, block_turned=turn)
+    unread = SimpleNamespace(t=None, crv=None, release_tilt=0.117, block_turned=0.0)
+    monkeypatch.setattr("rockref.measure.experiment.load_experiment", lambda *a, **k: experiment_of(unread, run))
+    found = rivals.sparse_regression(tmp_path)
+    assert found["effects"] == ["rolling_resistance"] and 0.5 < found["explained"] <= 1.0
+
+
+def test_sparse_regression_says_nothing_where_nothing_is_left(monkeypatch, tmp_path):
+    run = SimpleNamespace(t=np.arange(3), crv=np.zeros((3, 3)), release_tilt=0.117, block_turned=0.0)
+    rows = {"baseline": np.ones(9), "plate_tilt": np.arange(9.0)}
+    monkeypatch.setattr("rockref.measure.experiment.load_experiment", lambda *a, **k: experiment_of(run))
+    monkeypatch.setattr(rivals, "weak_rows", lambda *a: (rows, np.zeros(9)))
+    assert rivals.sparse_regression(tmp_path) == {"verdict": "none", "effects": [], "explained": 0.0}
+
+
+@pytest.mark.parametrize("baseline, known", [("eight_points", False), ("four_points", True)])
+def test_traces_are_what_an_effect_changes_in_the_record(monkeypatch, baseline, known):
+    from rockref.effects import catalogue
+
+    pytest.importorskip("numba")
+    kinds = {id: catalogue.EFFECTS[id] for id in ("gyro_scale", "foot_defects")}
+    monkeypatch.setattr(catalogue, "EFFECTS", kinds)
+    monkeypatch.setattr(rivals, "STRETCH", 0.4)
+    rivals._traces.cache_clear()
+    releases = ((0.117, False), (0.117, True))
+    found = rivals._traces((BLOCK.mass, BLOCK.width, BLOCK.height, baseline), releases, GYRO)
+    rivals._traces.cache_clear()
+    # Where the eight points are known, defects of the feet are no effect but the baseline.
+    assert ("foot_defects" in found) is known
+    scale = kinds["gyro_scale"].typical().values()
+    for release in releases:
+        wanted = found["none"][release] * (np.array([scale[a] for a in "xyz"]) - 1)
+        np.testing.assert_allclose(found["gyro_scale"][release], wanted, atol=1e-12)
+    # Turned, the block swings the other way.
+    upright, turned = (found["none"][r][-1, 0] for r in releases)
+    assert upright > 0.1 and turned < -0.1

@@ -93,3 +93,32 @@ def test_a_finished_test_is_not_made_again_and_another_plan_is_not_mixed_in(fold
 def test_what_is_no_blind_test_is_refused(tmp_path):
     with pytest.raises(InputError, match="no blind test"):
         scoring.score(tmp_path, workers=1)
+
+
+def test_rivals_are_asked_once_and_marked_as_the_discoverer_is(folder, monkeypatch):
+    asked = []
+
+    def always(case):
+        asked.append(case.name)
+        return {"verdict": "named", "effects": ["cable_restraint"]}
+
+    def broken(case):
+        raise ZeroDivisionError("no")
+
+    monkeypatch.setattr(scoring.rivals, "METHODS", {"always": always, "broken": broken})
+    monkeypatch.setattr(scoring, "_diagnose", lambda *a: {"verdict": "none", "effects": []})
+    found = scoring.score(folder, workers=1)["rivals"]
+    rows = {id: {row["score"]: row["value"] for row in table} for id, table in found.items()}
+    assert set(rows) == {"always", "broken", "ranking without holdout"}
+    assert rows["always"]["single: truth first"] == 1 and rows["always"]["controls: false alarms"] == 1
+    assert rows["broken"]["single: truth first"] == 0 and rows["broken"]["controls: false alarms"] == 0
+    assert scoring.score(folder, workers=1)["rivals"] == found and asked == ["case-001", "case-002"]
+    assert "ZeroDivisionError" in (folder / "case-001" / scoring.RIVALS).read_text()
+
+
+def test_a_verdict_that_is_there_is_left_alone(folder, monkeypatch):
+    monkeypatch.setattr(scoring, "_diagnose", lambda *a: pytest.fail("diagnosed again"))
+    recorded(folder, "case-001", "none")
+    before = (folder / "case-001" / scoring.VERDICT).read_bytes()
+    assert scoring.judge_case(str(folder), "case-001", None) == "case-001"
+    assert (folder / "case-001" / scoring.VERDICT).read_bytes() == before
