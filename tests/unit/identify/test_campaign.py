@@ -4,8 +4,10 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -171,3 +173,24 @@ def test_a_search_on_a_cluster_ends_as_one_here(table_3_1, twin):
                 os.kill(pids[0], signal.SIGKILL)
 
         assert end(work, lose_a_worker) == wanted
+
+
+def test_an_address_is_asked_of_the_cluster_and_nothing_is_started_here(monkeypatch):
+    made = campaigns.Campaign(lambda: None, 7)
+
+    @contextmanager
+    def cluster(address):
+        assert address == "tcp://far:8786"
+        yield made
+
+    monkeypatch.setattr(campaigns, "_cluster", cluster)
+    monkeypatch.setattr(campaigns, "_processes", lambda n: pytest.fail("processes of this machine"))
+    with campaign(2, dask="tcp://far:8786") as work:
+        assert work is made
+
+
+def test_what_no_process_made_waits_for_no_end_of_one():
+    """Threads of an executor of the caller's are in a process that has no parent among ours."""
+    before = threading.active_count()
+    campaigns._end_with_parent()
+    assert threading.active_count() == before

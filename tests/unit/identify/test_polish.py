@@ -190,3 +190,72 @@ def test_narrowed_ranges_keep_the_middle(space, truth):
     assert all(a.low <= b.low < b.high <= a.high for a, b in zip(space.genes, smaller.genes, strict=True))
     middle = model_of(smaller, smaller.units(space.values(truth)))
     np.testing.assert_allclose(middle.parameters.K_N, 6e7, rtol=1e-12)
+
+
+class Dents(Descent):
+    """One unknown in a valley about 0.2 with a dent every fifth of the range, and one that is only a valley."""
+
+    def __init__(self, noise=1.0):
+        super().__init__(None)
+        self.noise = noise
+
+    def residuals(self, zs):
+        off = zs - 0.2
+        parts = 4.0 * off[:, :1], 5.0 * (1.0 - np.cos(10.0 * np.pi * off[:, :1])), 9.0 * off[:, 1:]
+        alike = self.noise * np.tile([1.0, -1.0], 3)
+        return np.repeat(np.concatenate(parts, axis=1), 2, axis=1) + alike
+
+
+def test_long_moves_leave_a_dent_in_the_windows_where_they_are_cheap():
+    start = np.array([0.58, 0.5])
+    stuck = polishing._in_window(Dents(), start, polishing.CHEAP_WINDOW)
+    assert abs(stuck.z[0] - 0.2) > 0.3 and stuck.z[1] == pytest.approx(0.2, abs=1e-3) and stuck.chi2 > 1.5
+    free = polishing._in_window(Dents(), start, 0.0)
+    assert free.z == pytest.approx([0.2, 0.2], abs=0.02) and free.chi2 < NEARLY
+
+
+@pytest.mark.parametrize("share, wanted", [(0.9, polishing.WINDOW_MOVES), (0.99, 1)])
+def test_moves_in_a_window_end_where_a_round_brings_next_to_nothing(monkeypatch, share, wanted):
+    asked = []
+
+    def moves(descent, at):
+        asked.append(at)
+        return Place(at.z, at.r, share * at.chi2)
+
+    monkeypatch.setattr(polishing, "_long_moves", moves)
+    monkeypatch.setattr(Dents, "descend", lambda self, at, change: at)
+    end = polishing._in_window(Dents(noise=2.0), np.full(2, 0.2), 0.0)
+    assert len(asked) == wanted and end.chi2 == pytest.approx(4.0 * share**wanted)
+
+
+@pytest.mark.parametrize("first, share, wanted", [(4.0, 0.9, 3), (4.0, 0.999, 1), (1.02, 0.9, 0)])
+def test_moves_go_on_while_they_gain_and_the_residual_is_not_the_noise(
+    space, truth, noisy_twin, monkeypatch, first, share, wanted
+):
+    asked = []
+
+    def moves(descent, at):
+        asked.append(at)
+        return Place(at.z, at.r, share * at.chi2)
+
+    monkeypatch.setattr(polishing, "_long_moves", moves)
+    place = Descent.place
+    monkeypatch.setattr(Descent, "place", lambda self, z: replace(place(self, z), chi2=first))
+    end = polish(space, [noisy_twin], truth, effort=Effort(windows=(), steps=0, moves=3, walks=0))
+    assert len(asked) == wanted and end.chi2 == pytest.approx(first * share**wanted)
+
+
+def test_after_the_windows_the_valley_is_walked_from_where_the_last_one_ended(space, truth, noisy_twin, monkeypatch):
+    begun = []
+
+    def along(short, whole, z, rounds):
+        begun.append((z, short.unknowns.targets[0].until, whole.unknowns.targets[0].until, rounds))
+        return whole.place(z)
+
+    monkeypatch.setattr(polishing, "_in_window", lambda descent, z, after: Place(z + 1e-4, np.zeros(3), 1.0))
+    monkeypatch.setattr(polishing, "along", along)
+    polish(space, [noisy_twin], truth, effort=Effort(windows=(0.0, 0.06), steps=0, moves=0, walks=2))
+    ((z, short, whole, rounds),) = begun
+    np.testing.assert_allclose(z, truth + 2e-4)
+    first = noisy_twin.features.impacts[0]
+    assert short == pytest.approx(first + 0.06) and whole == noisy_twin.until and rounds == 2
