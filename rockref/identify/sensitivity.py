@@ -150,15 +150,15 @@ def significant_digits(
         g[i] += sign * 0.5 * unit_of_digit(genes[i], d)
         try:
             problems.append(model.replace(parameters=from_chromosome_12(g)).problem(until + 0.01, step, OUTPUT_RATE))
-            possible.append((i, d))
+            possible.append((i, d, sign))
         except InputError:  # a tilt beyond the tipping angle: that digit is needed
             continue
     crv = rates(problems, workers)
     t, base = t[: crv.shape[1]], base_run[: crv.shape[1]]
     changes = np.zeros((len(genes), most))
-    for i, d, _ in set(trials) - {(i, d, s) for i, d in set(possible) for s in (-1, 1)}:
+    for i, d, _ in set(trials) - set(possible):
         changes[i, d - 1] = np.inf
-    for (i, d), run in zip(possible, crv, strict=True):
+    for (i, d, _), run in zip(possible, crv, strict=True):
         changes[i, d - 1] = max(changes[i, d - 1], float(difference(t, base, run, until)[1:].max()))
     table = []
     for i in acting:

@@ -5,8 +5,9 @@ import json
 import numpy as np
 import pytest
 
+from rockref import Model
 from rockref.identify.agreement import difference, horizon
-from rockref.identify.predictability import growth
+from rockref.identify.predictability import growth, slope
 from rockref.identify.sensitivity import (
     RELEASE_ERROR,
     family,
@@ -144,3 +145,18 @@ def test_a_block_in_its_plane_until_a_foot_is_off_is_written_as_json(table_3_1):
     assert "∞" in [row[3] for row in table.rows] and "∞: " in table.note and "in its plane" not in said
     low = significant_digits(table_3_1.replace(delta_long=(9e-4, 8e-4, 0.0, 4e-4)), workers=1, most=4)
     assert "delta_long_3" not in [d.name for d in low] and len(low) == 11
+
+
+def test_a_digit_that_tips_the_block_over_is_needed():
+    """0.117 rad less half of its first digit is a release, and more is beyond the balance: neither sign may fail."""
+    pytest.importorskip("numba")
+    model = Model.four_points()
+    (tilt,) = [d for d in significant_digits(model, step=4e-5, workers=1, most=4) if d.name == "theta_0"]
+    assert tilt.value + 0.05 > np.arctan2(model.width, model.height) > tilt.value + 0.005
+    # Four even feet stay in their plane, where no digit of a tilt that is one changes anything.
+    assert (tilt.found, tilt.change) == (2, 0.0)
+
+
+def test_a_single_number_has_no_slope():
+    assert np.isnan(slope(np.array([1.0]))) and np.isnan(slope(np.array([])))
+    assert slope(np.array([5.0, 7.0, 9.0])) == pytest.approx(2.0)
