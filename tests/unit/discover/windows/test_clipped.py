@@ -1,11 +1,13 @@
 """Records that are cut flat are seen, and what was cut off is put back well enough to know the attitude."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.discover.windows import clipped as windows_clipped
 from rockref.discover.windows.clipped import TOLD, flat_tops, let_go, unclipped
 from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from tests.unit.discover.synthetic import experiment
@@ -67,3 +69,52 @@ def test_noise_beyond_soft_stops_is_the_largest_rate_that_they_tell():
 def test_hard_stops_and_none_leave_the_record(limit, softness):
     crv = np.ones((4, 3))
     assert let_go(crv, limit, softness) is crv
+
+
+def swing(t, at=0.6):
+    """Rate about X of a block that is upright at `at` [s]: it falls toward it and slows down behind it."""
+    before, after = np.cosh(4.6 * t), 0.95 * np.cosh(4.6 * (2 * at - t))
+    return np.where(t < at, before, after) / np.cosh(4.6 * at)
+
+
+def made(wx, others=0.0):
+    """A run of a slender block with these rates, cut at 0.6 of the largest, and how it is put back."""
+    t = np.arange(len(wx)) * 1e-3
+    crv = np.stack([wx, np.full(len(wx), others), np.zeros(len(wx))], axis=-1)
+    limit = 0.6
+    gyro = SimpleNamespace(resolution=1e-4)
+    run = SimpleNamespace(t=t, crv=np.clip(crv, -limit, limit), release_tilt=0.117, block_turned=0.0)
+    return run, windows_clipped._whole(SimpleNamespace(gyro=gyro, width=0.1, height=0.688), run, limit)
+
+
+def test_rates_about_the_other_axes_are_bridged_by_a_line():
+    wx = np.zeros(400)
+    run, back = made(wx)
+    np.testing.assert_array_equal(back, run.crv)
+    t = run.t
+    bump = 0.7 - 4.0 * np.abs(t - 0.2)
+    run.crv[:, 1] = np.clip(bump, -0.6, 0.6)
+    gyro = SimpleNamespace(resolution=1e-4)
+    back = windows_clipped._whole(SimpleNamespace(gyro=gyro, width=0.1, height=0.688), run, 0.6)
+    # Between the two ends of the gap, both just below the limit, a line is level.
+    assert np.abs(back[:, 1] - run.crv[:, 1]).max() < 5e-3 and np.array_equal(back[:, 0], run.crv[:, 0])
+
+
+@pytest.mark.parametrize("first", [0, 560])
+def test_a_gap_with_too_little_beside_it_is_left_as_it_is(first):
+    """From the first sample on, and where another gap is near, there is no arc to be continued."""
+    t = np.arange(1200) * 1e-3
+    wx = 0.5 * swing(t)
+    wx[first : first + 20] = 0.7
+    if first:
+        wx[first - 3] = 0.7
+    run, back = made(wx)
+    np.testing.assert_array_equal(back[first : first + 20, 0], run.crv[first : first + 20, 0])
+
+
+def test_an_arc_that_is_cut_at_its_impact_is_put_back():
+    t = np.arange(1200) * 1e-3
+    run, back = made(-swing(t))
+    cut = np.abs(run.crv[:, 0]) >= 0.6
+    assert 0.02 < cut.mean() < 0.5
+    assert np.abs(back[:, 0] + swing(t)).max() < 0.1 < np.abs(run.crv[:, 0] + swing(t)).max()

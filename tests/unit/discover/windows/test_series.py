@@ -1,11 +1,14 @@
 """The step inside windows suits the stiffest contact of the model that a fit begins with."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from rockref import Model
 from rockref.discover.fit.search import MIDDLE, Setup, release_windows, windows
-from rockref.discover.windows.series import STEP, refinement
+from rockref.discover.windows.series import STEP, gyro_of, refinement
+from rockref.model.errors import InputError
 from rockref.model.simulate import largest_step
 from tests.unit.discover.synthetic import experiment
 
@@ -36,3 +39,10 @@ def test_windows_of_a_stiff_block_follow_its_record():
     # At the truth white noise leaves one, and 12 windows of 70 samples scatter by a twentieth; undivided steps leave a
     # fifth more.
     assert left[0] < 1.05 and left[1] > left[0] + 0.15
+
+
+def test_without_a_gyroscope_there_is_nothing_to_restart_from():
+    e = SimpleNamespace(gyro=None, path="folder")
+    with pytest.raises(InputError, match="is missing") as error:
+        gyro_of(e)
+    assert error.value.code == "E-GYRO"
