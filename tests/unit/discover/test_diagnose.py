@@ -8,7 +8,8 @@ import pytest
 from rockref.discover import diagnose
 from rockref.discover.diagnose import beginning, ranked_by, without
 from rockref.discover.looking.look import Look
-from tests.unit.discover.bowls import WINDOWS, Bowl, family
+from rockref.effects import catalogue
+from tests.unit.discover.bowls import WINDOWS, Bowl, family, series
 
 
 @pytest.mark.parametrize("floor, left", [(1.0, ("quadratic_drag",)), (1.2, ("rolling_resistance", "quadratic_drag"))])
@@ -61,3 +62,179 @@ def test_the_first_of_a_pair_is_ranked_by_what_both_gain():
     # What the release named was in no look.
     alone = family(("rolling_resistance",), Bowl(np.array([0.1, 0.5])), [0.1, 0.5])
     assert ranked_by(null, alone, Look(alone, [], {}))["rolling_resistance"] > 100
+
+
+def test_the_flat_top_of_the_records_decides_for_the_stops_of_the_gyroscope(monkeypatch):
+    def baseline(setup, effects=(), z=None, iterations=None):
+        bowl = Bowl(np.zeros(1 + len(effects)), floor=3.0 if effects else 1.0)
+        return bowl, bowl.point(np.zeros(1 + len(effects)), np.zeros((WINDOWS, 5)))[0]
+
+    monkeypatch.setattr(diagnose, "baseline", baseline)
+    setup = SimpleNamespace(workers=1, parameters=lambda effects: [SimpleNamespace(prior=1.0)] * (1 + len(effects)))
+    seen = {"loss": 1.0, "z": np.zeros(1), "flat_top": 0.5}
+    null, start = beginning(setup, [(), ("gyro_saturation",)], seen)
+    assert (null.effects, start.effects) == ((), ("gyro_saturation",)), "though the baseline fits better"
+
+
+@pytest.mark.parametrize("floor, builds_on", [(1.2, ("gyro_scale",)), (1.05, ())])
+def test_a_suspect_with_windows_of_its_own_has_to_fit_clearly_better(monkeypatch, floor, builds_on):
+    """A gain cannot be counted where the windows are cut elsewhere: mean losses are set side by side."""
+
+    def baseline(setup, effects=(), z=None, iterations=None):
+        bowl = Bowl(np.zeros(1 + len(effects)), 1.0 if effects else floor, series=series(7 if effects else 0))
+        return bowl, bowl.point(np.zeros(1 + len(effects)), np.zeros((WINDOWS, 5)))[0]
+
+    monkeypatch.setattr(diagnose, "baseline", baseline)
+    setup = SimpleNamespace(workers=1, parameters=lambda effects: [SimpleNamespace(prior=1.0)] * (1 + len(effects)))
+    seen = {"loss": 1.0, "z": np.zeros(1), "starts": {("gyro_scale",): np.zeros(2)}}
+    assert beginning(setup, [(), ("gyro_scale",)], seen)[1].effects == builds_on
+
+
+def left(effects, share, room=0.0):
+    """A family that leaves this share of its windows structured, and this much to be gained on the others."""
+    z = [0.0, 1.0, 1.0][: len(effects) + 1]
+    found = family(effects, Bowl(np.array(z)), z)
+    found.point.loss[:] *= 1 + room
+    found.point.loss[: round(share * len(found.point.loss))] *= 4.0
+    return found
+
+
+LEVER, BOTH = ("rolling_resistance",), ("rolling_resistance", "quadratic_drag")
+
+
+@pytest.fixture
+def course(monkeypatch):
+    """The looks of a diagnosis as a script: each a family and what it gains; what was asked comes back."""
+    asked = SimpleNamespace(looks=[], duels=0, pair=None)
+
+    def look_further(setup, start, seed, say):
+        found, gain, in_full = asked.looks.pop(0)
+        return Look(start, [found] if found else [], {found.effects[-1]: gain} if found else {}, in_full)
+
+    def duel(setup, look, say):
+        asked.duels += 1
+        return look.order[0]
+
+    # Forty windows have less room than the runs of an experiment.
+    monkeypatch.setattr(diagnose.rules, "SECOND_ROOM", 500.0)
+    monkeypatch.setattr(diagnose, "look_further", look_further)
+    monkeypatch.setattr(diagnose, "duel", duel)
+    monkeypatch.setattr(diagnose, "upheld", lambda look, wider, *a: None if wider.effects == ("adhesion",) else wider)
+    monkeypatch.setattr(diagnose, "two_at_once", lambda setup, look, found, say: asked.pair)
+    monkeypatch.setattr(diagnose, "to_the_end", lambda setup, look, winner, *a: winner)
+    return asked
+
+
+def grow(course, *looks):
+    course.looks = list(looks)
+    start, seen = diagnose.grown(None, left((), 0.9), 0, lambda line: None)
+    return start.effects, len(seen), course.duels
+
+
+def test_where_nothing_gains_nothing_is_added(course):
+    assert grow(course, (None, 0.0, False)) == ((), 1, 0)
+    assert grow(course, (left(LEVER, 0.5), 50.0, False)) == ((), 1, 0)
+
+
+def test_a_winner_of_a_first_step_has_to_stand_in_a_duel_and_one_fitted_in_full_has_stood(course):
+    assert grow(course, (left(LEVER, 0.0), 5000.0, False)) == (LEVER, 1, 1)
+    assert grow(course, (left(LEVER, 0.0), 5000.0, True)) == (LEVER, 1, 1)
+
+
+def test_a_winner_that_is_not_upheld_is_no_effect(course):
+    assert grow(course, (left(("adhesion",), 0.0), 5000.0, True)) == ((), 1, 0)
+
+
+@pytest.mark.parametrize("rest, grown", [(0.0, BOTH), (0.15, LEVER)])
+def test_a_second_effect_has_to_settle_what_the_first_left(course, rest, grown):
+    first = left(LEVER, 0.18, room=0.3)
+    assert grow(course, (first, 5000.0, True), (left(BOTH, rest), 2000.0, True))[:2] == (grown, 2)
+
+
+def test_two_at_once_take_the_place_of_a_first_that_leaves_too_much(course):
+    first, pair = left(LEVER, 0.7, room=0.3), left(BOTH, 0.0)
+    course.pair = Look(left(LEVER, 0.7), [pair], {"quadratic_drag": 3000.0})
+    assert grow(course, (first, 5000.0, True)) == (BOTH, 2, 0)
+
+
+def test_without_such_a_pair_a_first_that_leaves_most_windows_is_the_last(course):
+    assert grow(course, (left(LEVER, 0.7, room=0.3), 5000.0, True)) == (LEVER, 1, 0)
+
+
+@pytest.mark.parametrize("gain, rest, taken", [(3000.0, 0.0, True), (500.0, 0.0, False), (3000.0, 0.6, False)])
+def test_a_pair_has_to_be_there_and_to_settle(course, gain, rest, taken):
+    pair = course.pair = Look(left(LEVER, 0.7), [left(BOTH, rest)], {"quadratic_drag": gain})
+    found = diagnose.settled_by_two(None, None, left(LEVER, 0.7), lambda line: None)
+    assert found is (pair if taken else None)
+
+
+@pytest.fixture
+def whole(monkeypatch):
+    """A diagnosis whose every step is made up; returns the null, the end, and what was done between."""
+
+    def prepare(start, looks, null=None):
+        done = []
+        null = null or left((), 0.9)
+
+        def noted(name, result):
+            return lambda *a, **k: (done.append(name), result(*a))[1]
+
+        monkeypatch.setattr(diagnose, "load_experiment", lambda path, uses: SimpleNamespace(fit_runs=lambda: ()))
+        monkeypatch.setattr(diagnose, "baseline_model", lambda experiment, model: None)
+        monkeypatch.setattr(diagnose, "suspects", lambda setup: (setup, [()], {}))
+        monkeypatch.setattr(diagnose, "beginning", lambda setup, sets, seen: (null, null))
+        monkeypatch.setattr(diagnose, "grown", lambda setup, begun, seed, say: (start or begun, looks))
+        monkeypatch.setattr(diagnose, "finished", noted("finished", lambda setup, f, seed: f))
+        monkeypatch.setattr(diagnose, "without", noted("without", lambda setup, f, effect: left((effect,), 0.1)))
+        monkeypatch.setattr(diagnose, "exchanged", noted("exchanged", lambda setup, look, pair, *a: pair))
+        monkeypatch.setattr(diagnose, "refit", noted("refit", lambda f, iterations, seed: left((), 0.05)))
+        monkeypatch.setattr(diagnose, "conclude", lambda setup, held, null, final, *a: (null, final))
+        return (*diagnose.diagnose("folder"), done)
+
+    return prepare
+
+
+def test_what_the_release_named_and_no_look_was_at_is_fitted_to_its_end(whole):
+    null, final, done = whole(left(LEVER, 0.0), [])
+    assert (null.effects, final.effects, done) == ((), LEVER, ["finished"])
+
+
+def test_of_a_pair_what_came_to_nothing_is_left_out_and_a_rival_of_the_first_is_tried(whole):
+    kept = left((), 0.8)
+    looks = [Look(kept, [], {})]
+    pair = left(BOTH, 0.0)
+    null, final, done = whole(pair, looks)
+    assert null is kept and final is pair and done == ["exchanged"]
+    pair = left(BOTH, 0.0)
+    pair.point.z[2] = 0.01
+    _, final, done = whole(pair, looks)
+    assert final.effects == ("quadratic_drag",) and done == ["without"]
+
+
+def test_before_nothing_is_said_to_be_missing_the_baseline_goes_as_far_as_it_can(whole):
+    null, final, done = whole(None, [Look(left((), 0.9), [], {})])
+    assert null is final and null.effects == () and done == ["refit"]
+
+
+@pytest.mark.parametrize(
+    "verdict, found, asked", [("class", "Turn it.", "Turn it."), ("class", "", None), ("named", "Turn it.", None)]
+)
+def test_a_class_is_told_apart_by_a_run_that_was_simulated_for_it(monkeypatch, verdict, found, asked):
+    monkeypatch.setattr(diagnose, "separating_run", lambda setup, model, effects, size: found)
+    final = left(("quadratic_drag",), 0.0)
+    final.fit.models = lambda z: [["model"]]
+    decision = SimpleNamespace(verdict=verdict, effects=("quadratic_drag", "rolling_resistance"))
+    said = diagnose.to_be_sure(None, final, final, decision)
+    assert said == (asked or catalogue.find("quadratic_drag").experiment)
+
+
+def flat(held):
+    """An experiment whose held-out records are cut at this rate."""
+    return SimpleNamespace(gyro=SimpleNamespace(resolution=0.01), holdout_runs=lambda: held)
+
+
+@pytest.mark.parametrize("held, same", [(0.505, True), (0.55, False), (None, False)])
+def test_held_out_records_cut_at_the_same_rate_are_the_same_gyroscope_s(monkeypatch, held, same):
+    monkeypatch.setattr(diagnose, "flat_tops", lambda experiment, runs: runs)
+    assert diagnose.clipped(flat(held), {"flat_top": 0.5}) is same
+    assert diagnose.clipped(flat(held), {}) is False

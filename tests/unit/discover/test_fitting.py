@@ -1,11 +1,16 @@
 """Of some starts of a fit the nearest to the runs is kept, and stands on another one that ends in the same place."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from rockref.discover import fitting
+from rockref.discover.fit.families import Family
+from rockref.discover.fit.search import SHORT, Setup, windows
+from rockref.model.errors import InputError
+from tests.unit.discover import fakes
 from tests.unit.discover.bowls import ALONE, Bowl, family
 
 
@@ -46,3 +51,78 @@ def ends_at(monkeypatch):
 )
 def test_the_nearest_start_is_kept_and_the_one_that_agrees_confirms_it(ends_at, places, kept, confirmed_by, not_begun):
     assert ends_at(*places) == (kept, confirmed_by, not_begun)
+
+
+@pytest.mark.parametrize(
+    "change, code",
+    [
+        ({"kind": "toss"}, "E-KIND"),
+        ({"gyro": None}, "E-KIND"),
+        ({"runs": ()}, "E-NO-FIT"),
+        ({"tilt_uncertainty": 0.0}, "E-TILT"),
+    ],
+)
+def test_what_cannot_be_fitted_is_refused(change, code):
+    e = fakes.made_experiment(0.1)
+    assert fitting.usable(e) is e
+    with pytest.raises(InputError) as error:
+        fitting.usable(replace(e, **change))
+    assert error.value.code == code
+
+
+@pytest.mark.parametrize(
+    "seen, start",
+    [
+        ({"z": "plain"}, "plain"),
+        ({"z": "plain", "starts": {("gyro_scale",): "scale"}}, "scale"),
+        ({"z": "plain", "starts": {("gyro_drift",): "drift"}}, None),
+    ],
+)
+def test_effects_begin_where_the_release_says_if_it_says_something_of_them(seen, start):
+    assert fitting.start_of(seen, ("gyro_scale",)) == start
+
+
+@pytest.mark.parametrize("floor, kept", [(1.2, ("gyro_scale",)), (1.1, ())])
+def test_a_suspect_is_taken_along_where_it_lowers_the_mean_loss_clearly(monkeypatch, floor, kept):
+    asked = []
+
+    def started_family(setup, effects, seen, iterations):
+        asked.append((effects, iterations))
+        return family(effects, Bowl(np.zeros(1), floor=1.0 if effects else floor), [0.0])
+
+    monkeypatch.setattr(fitting, "suspects", lambda setup: (setup, [(), ("gyro_scale",)], {"z": np.zeros(1)}))
+    monkeypatch.setattr(fitting, "started_family", started_family)
+    assert fitting.chosen_family(ALONE)[1].effects == kept
+    # A baseline that the release refutes gets few iterations.
+    assert asked == [((), fitting.FEW), (("gyro_scale",), fitting.ITERATIONS)]
+
+
+@pytest.fixture(scope="module")
+def true_family():
+    """The truth itself, on the windows of two runs, where each window has been let settle."""
+    e = fakes.made_experiment(1.2)
+    setup = Setup(e, e.fit_runs(), fakes.DRAG, end=1.2, workers=1)
+    fit = setup.fit(windows(setup, SHORT))
+    return e, Family((), fit, fit.relax_states(fit.begin(), 2))
+
+
+@pytest.mark.parametrize("effects, check", [(None, False), ((), True)])
+def test_what_a_fit_says_of_itself(monkeypatch, true_family, effects, check):
+    e, found = true_family
+    asked = []
+    monkeypatch.setattr(fitting, "load_experiment", lambda path, uses: e)
+    monkeypatch.setattr(fitting, "chosen_family", lambda setup: (asked.append("chosen"), (setup, found))[1])
+    monkeypatch.setattr(fitting, "suspects", lambda setup: (setup, [()], {"z": np.zeros(1)}))
+    monkeypatch.setattr(fitting, "started_family", lambda *a: (asked.append("named"), found)[1])
+    monkeypatch.setattr(fitting, "begun_again", lambda *a: (asked.append("again"), (found, found))[1])
+    fitted = fitting.fit_experiment("folder", effects, fakes.DRAG, end=1.2, workers=1, check=check)
+    assert asked == (["chosen"] if effects is None else ["named", "again"])
+    # Where nobody went through the gates the model says so.
+    gates = {g.name: g.passed for g in fitted.gates}
+    assert bool(gates) is check and gates.get("starts_agree", True)
+    assert fitted.model.origin["gates_passed"] == (all(gates.values()) if check else "not checked")
+    assert fitted.passed is all(gates.values())
+    record = fitted.to_dict()
+    assert 0.9 < record["error"]["fit"] / record["error"]["noise_floor"] < 1.5
+    assert {"K_N", "mu_ext", "tilt_offset[0]"} <= set(record["parameters"])
+    assert fitted.model.parameters.K_N == pytest.approx(record["parameters"]["K_N"]["value"])
