@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from rockref.discover.compare.models import compare
-from rockref.report.diagnosis_page import compared, diagnosis_page, write_diagnosis
-from rockref.report.page import MAX_BYTES
+from rockref.report.diagnosis_page import add_physics, compared, diagnosis_page, without_notes, write_diagnosis
+from rockref.report.page import MAX_BYTES, Page
 from tests.unit.discover import fakes
 from tests.unit.report.page_checks import Reader
 
@@ -71,3 +71,46 @@ def test_gains_are_drawn_where_there_are_some_to_compare(named, number, drawn):
     (tried,) = [s for s in page.sections if s.title == "What was tried"]
     assert [kind for kind, _ in tried.blocks].count("figure") == drawn
     assert "Fitted in full" in page.html()
+
+
+def test_candidates_that_nobody_refitted_have_no_table(named):
+    d, c = named
+    text = diagnosis_page(replace(d, ranking=[]), c).html()
+    assert "No candidate was refitted." in text and "Fitted in full" not in text
+
+
+def test_limits_and_confusion_stand_where_they_are_known(named):
+    d, c = named
+    assert "Could have stayed unseen" not in diagnosis_page(d, c).html()
+    limits = {"adhesion.force": {"value": 4.5, "unit": "N"}}
+    confusion = {"adhesion": {"plate_tilt": 0.97}}
+    text = diagnosis_page(replace(d, detection_limits=limits, confusion=confusion), c).html()
+    assert "Could have stayed unseen" in text and "Hardly told apart" in text and "0.970" in text
+
+
+@pytest.mark.parametrize("after, dots", [(None, 1), ({"main": 0.2, "transverse": 0.5, "longitudinal": 0.3}, 2)])
+def test_shares_of_the_axes_are_drawn_before_and_after_the_fit(named, after, dots):
+    d, c = named
+    signature = d.signature | ({"remaining_axis_shares": after} if after else {})
+    text = diagnosis_page(replace(d, signature=signature), c).html()
+    assert "Shares of the axes in the misfit" in text and ("after the best fit" in text) is (dots == 2)
+    bare = diagnosis_page(replace(d, signature={"axis": "main"}), c).html()
+    assert "Shares of the axes in the misfit" not in bare
+
+
+def test_an_effect_of_the_user_s_own_is_told_without_an_equation(monkeypatch):
+    class Mine:
+        sentence, equation, source = "", "", ""
+
+    monkeypatch.setattr("rockref.effects.catalogue.find", lambda id: Mine)
+    page = Page("t")
+    add_physics(page, "mine")
+    assert [b for s in page.sections for b in s.blocks] == [("text", "An effect of the user's own.")]
+
+
+def test_without_an_effect_the_baseline_alone_is_compared(named):
+    d, _ = named
+    alone = compared(replace(fakes.diagnosis("none", d.experiment)))
+    assert alone.names == ("baseline",)
+    noted = d.model.replace(origin={"tilt_offset": 1e-4, "made_by": "x"})
+    assert without_notes(noted).origin == {"made_by": "x"}

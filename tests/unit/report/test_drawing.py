@@ -2,6 +2,7 @@
 
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -113,3 +114,14 @@ def test_models_have_dots_of_their_own_and_the_legend_shows_them():
 
 def test_legend_escapes_names():
     assert re.search(r"<svg[^>]*>.*</svg>a&lt;b", key([("a<b", "#000", (1, 2))]))
+
+
+def test_levels_are_drawn_and_named_at_their_height():
+    panel = Panel("p", [Line("a", X, X)], levels=[("floor", 2.5)], limits=(0.0, 5.0), height=100.0)
+    plain = chart([replace(panel, levels=[])], title="t", x_label="x")
+    svg = chart([panel], title="t", x_label="x")
+    assert ">floor<" in svg and ">floor<" not in plain
+    (level,) = [p.get("d") for p in ET.fromstring(svg).iter("path") if p.get("stroke-dasharray") == "2 3"]
+    frame = next(r for r in ET.fromstring(svg).iter("rect") if r.get("class") == "frame")
+    # Half of the range is the middle of the frame.
+    assert float(level[1:].split()[1].split("h")[0]) == pytest.approx(float(frame.get("y")) + 50.0, abs=0.1)

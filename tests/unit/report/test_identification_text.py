@@ -68,3 +68,10 @@ def test_errors_are_shown_in_last_digits_and_that_of_the_tilt_is_its_largest():
 )
 def test_terms_and_runs_have_a_row_each(start, wanted):
     assert row(said(RECORD), start) == wanted
+
+
+def test_where_all_is_determined_nothing_is_named():
+    record = copy.deepcopy(RECORD)
+    record["least_squares"]["determined"]["K_N"] = True
+    text = said(record)
+    assert "at the noise floor" in text and "determined" not in text

@@ -5,7 +5,7 @@ import io
 import pytest
 from rich.console import Console
 
-from rockref.report.plan_text import print_plan
+from rockref.report.plan_text import print_plan, sentences
 from tests.unit.discover import fakes
 
 
@@ -52,3 +52,12 @@ def test_repeats_are_set_against_varied_releases(plan, printed):
     assert f"lower by a factor of {versus['median_ratio']:.1f} (median)" in printed
     pairs = versus["confused_pairs"]
     assert f"{pairs[1]} against {pairs[0]} pairs stay confused" in printed
+
+
+def test_effects_that_would_not_show_are_named(plan, monkeypatch):
+    monkeypatch.setattr(type(plan.outlook), "undetectable", lambda self: ["rolling_resistance"])
+    first, second, *_ = sentences(plan)
+    assert "1 of 2 effects would show" in first
+    assert second == "Not even so: rolling_resistance."
+    monkeypatch.setattr(type(plan.outlook), "undetectable", lambda self: [])
+    assert "2 of 2 effects would show" in sentences(plan)[0] and "Not even so" not in " ".join(sentences(plan))
