@@ -110,3 +110,34 @@ def test_a_planned_record_is_that_of_a_real_gyroscope():
     flat = np.rint(0.3 / planning.GYRO.resolution) * planning.GYRO.resolution
     assert np.abs(plain).max() > 0.35
     np.testing.assert_array_equal(cut, np.where(np.abs(plain) < 0.3, plain, np.sign(plain) * flat))
+
+
+def test_a_plan_without_a_release_is_refused():
+    with pytest.raises(InputError, match="E-RUNS"):
+        planning.plan(TABLE, [])
+
+
+def test_every_offered_release_is_simulated_once_with_and_once_without_restarts(monkeypatch):
+    asked = []
+
+    def made(model, release, effects, gyro, uncertainty, seed, duration, workers, restarted=True):
+        asked.append((release, restarted))
+        return Says(release, np.diag([1.0] * SHARED + [4.0, 9.0]))
+
+    monkeypatch.setattr(planning, "says", made)
+    lines = []
+    found = planning.plan(TABLE, [A, A, B], ("viscous_friction", "rolling_resistance"), progress=lines.append)
+    every = {A, B, *alternatives([A, B])}
+    assert sorted(asked) == sorted((r, restarted) for r in every for restarted in (True, False))
+    assert len(lines) == len(every) and found.outlook.runs == (A, A, B)
+    assert {row["run"] for row in found.further} == {str(r) for r in alternatives([A, B])}
+
+
+def test_what_a_release_says_is_information_with_and_without_restarts():
+    """Either way it is information: symmetric, and never less than none."""
+    pytest.importorskip("numba")
+    given = (TABLE, A, (FILM,), planning.GYRO, 0.0014, 0, 1.5, 1)
+    cut, whole = planning.says(*given), planning.says(*given, restarted=False)
+    assert cut.H.shape == whole.H.shape == (SHARED + len(planning.switches_of(FILM)),) * 2
+    for says in (cut, whole):
+        assert np.allclose(says.H, says.H.T) and np.linalg.eigvalsh(says.H).min() > -1e-6 * np.abs(says.H).max()

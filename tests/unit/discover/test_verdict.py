@@ -165,3 +165,18 @@ def test_a_rival_that_gained_nothing_is_no_rival():
 def test_records_that_are_cut_flat_are_saturated_whatever_the_windows_say(clipped, word):
     found = decide(replace(facts(("gyro_saturation",), {}, bad=0.7), clipped=clipped))
     assert found.verdict == word
+
+
+@pytest.mark.parametrize(
+    "by_run, named",
+    [
+        ({"01": 0.9}, None),
+        ({"01": 0.0, "02": 0.9}, "02"),
+        ({"01": 0.5, "02": 0.9}, None),
+        ({"01": 0.0, "02": 0.5}, None),
+    ],
+)
+def test_a_run_that_contradicts_all_others_is_named_before_anything_is_said(by_run, named):
+    decision = decide(replace(facts(), by_run=by_run))
+    assert (decision.verdict == "not_trustworthy") is (named is not None)
+    assert named is None or (f"Run {named} contradicts the others: 90%" in decision.sentence and decision.effects == ())

@@ -1,9 +1,11 @@
 """The band and where it is left."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from rockref.discover.compare.band import band, departures, running_error
+from rockref.discover.compare.band import active_points, band, departures, running_error
 from rockref.measure.repeatability import Repeatability
 
 T = np.arange(2000) / 1000.0
@@ -53,3 +55,16 @@ def test_first_sample_outside_axis_by_axis():
     error[700:, 1] = 2.0
     error[900:, 2] = 2.0
     assert departures(error, np.ones_like(error)) == [None, 700, 900]
+
+
+@pytest.mark.parametrize(
+    "time, touching", [(0.5, (("a", 1.0), ("c", 0.5))), (0.0, (("a", 1.0), ("c", 0.5))), (5.0, ()), (1.0005, ())]
+)
+def test_points_that_touch_about_an_instant_are_told_longest_first(time, touching):
+    """Beyond the end of the simulation nothing is known of them."""
+    t = np.arange(1001) * 1e-3
+    anchored = np.stack([np.ones(1001), np.zeros(1001), np.arange(1001) % 2], axis=-1)
+    response = SimpleNamespace(t=t, anchored=anchored, problem=SimpleNamespace(points=SimpleNamespace(names="abc")))
+    found = active_points(response, time, 0.02 if time != 1.0005 else 0.0)
+    assert [name for name, _ in found] == [name for name, _ in touching]
+    assert [share for _, share in found] == pytest.approx([share for _, share in touching], abs=0.05)

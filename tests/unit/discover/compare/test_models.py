@@ -3,11 +3,13 @@
 import json
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.discover.compare import models
 from rockref.discover.compare.models import baseline_model, compare, impact_time_per_tilt
 from rockref.discover.compare.sentences import findings
 from rockref.effects.catalogue import parse
@@ -225,3 +227,30 @@ def test_models_need_names_of_their_own(models, names):
 
 def test_gyroscope_of_the_tests_is_that_of_the_shipped_experiments():
     assert GYRO.sample_rate == 1000.0 and GYRO.range is None
+
+
+def test_a_block_too_slender_for_the_tilt_of_the_table_has_that_of_its_first_run():
+    e = experiment(TABLE, [{"tilt": 0.05}], duration=0.1)
+    assert baseline_model(e).parameters.theta_0 == 0.117
+    slender = replace(e, width=0.06)
+    assert math.atan2(0.06, e.height) < 0.117
+    assert baseline_model(slender).parameters.theta_0 == 0.05
+
+
+@pytest.mark.parametrize(
+    "uncertainty, first, offset", [(0.0, 0.52, 0.0), (0.0014, math.nan, 0.0), (0.0014, 9.0, 0.0014)]
+)
+def test_a_tilt_is_changed_within_its_uncertainty_where_both_first_impacts_are_known(
+    itself, uncertainty, first, offset
+):
+    e = replace(itself.experiment, tilt_uncertainty=uncertainty)
+    m = SimpleNamespace(run=itself.measured[0].run, first_impact=first)
+    found = models.tilt_offset(m, itself.results[0][0].stated, e)
+    assert abs(found) == pytest.approx(offset)
+
+
+@pytest.mark.parametrize("code, cure", [("E-ENGINE", "own"), ("E-STEP", "check the unit"), ("E-RANGE", "own")])
+def test_an_error_of_a_model_names_it_but_for_that_of_the_engine(code, cure):
+    with pytest.raises(InputError) as error, models._named("mine", 1e-5):
+        raise InputError(code, "here", "is wrong", "own")
+    assert cure in error.value.cure and (error.value.where == "here") is (code == "E-ENGINE")

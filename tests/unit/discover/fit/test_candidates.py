@@ -8,7 +8,17 @@ import pytest
 from rockref import InputError, Model
 from rockref.discover import plan as planning
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.candidates import BETWEEN, FACTORS, FIXED, SELDOM, SHAPES, kinds, parameters_of, value_of
+from rockref.discover.fit.candidates import (
+    BETWEEN,
+    FACTORS,
+    FIXED,
+    SELDOM,
+    SHAPES,
+    kinds,
+    parameters_of,
+    value_of,
+    vibration_parameters,
+)
 from rockref.discover.fit.fitted import start_from, z_of
 from rockref.discover.fitting import known_effects
 from rockref.effects import catalogue
@@ -160,3 +170,15 @@ def test_one_who_fits_or_plans_may_name_a_file(monkeypatch):
     with pytest.raises(Enough):
         planning.plan(TABLE, [planning.Release(0.117)], [f"{EXAMPLE}:EddyBrake", "quadratic_drag"])
     assert asked == [["eddy_brake", "quadratic_drag"]]
+
+
+def test_a_shaking_base_that_does_not_shake_is_not_there():
+    frequency, direction, cosine, sine = vibration_parameters(catalogue.find("base_vibration"), 1, 12.0)
+    assert (frequency.centre, direction.run, cosine.run) == (12.0, None, 0)
+    assert cosine.set(TABLE, 0.0) is TABLE
+    model = sine.set(cosine.set(TABLE, 0.03), 0.04)
+    (effect,) = model.active_effects()
+    assert effect.amplitude == pytest.approx(0.05) and effect.phase == pytest.approx(np.arctan2(0.04, 0.03))
+    # One part taken away leaves the other one.
+    (effect,) = cosine.set(model, 0.0).active_effects()
+    assert effect.amplitude == pytest.approx(0.04) and frequency.set(model, 7.0).active_effects()[0].frequency == 7.0

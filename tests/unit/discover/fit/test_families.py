@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from rockref.discover.fit.evidence import CLIP
-from rockref.discover.fit.families import Family, amplitudes, by_sample, far_fetched, gain_between, size_of
+from rockref.discover.fit.families import (
+    Family,
+    amplitudes,
+    by_sample,
+    far_fetched,
+    gain_between,
+    size_of,
+    vibration_amplitude,
+)
 from rockref.discover.fit.fitted import estimates
 from rockref.discover.fit.least_squares import Point
 from rockref.discover.fit.parameter import Parameter
@@ -90,3 +98,13 @@ def test_a_number_in_another_unit_follows_what_its_effect_may_be_wrong_by():
         np.linalg.norm([statistical[1], 0.15 * 1.0, 0.15 * 0.36 / arm]), rel=1e-4
     )
     assert half["quadratic_drag.c"] == pytest.approx(np.hypot(statistical[0], 0.15 * 0.36), rel=1e-4)
+
+
+def test_the_amplitude_of_a_shaking_base_is_that_of_its_two_parts():
+    assert vibration_amplitude({"gyro_scale.x": {"value": 1.0}}) == {}
+    parts = {"cosine[0]": 0.03, "sine[0]": 0.04, "cosine[1]": 0.0, "sine[1]": -0.05}
+    found = vibration_amplitude({f"base_vibration.{k}": {"value": v} for k, v in parts.items()})
+    row = found["base_vibration.amplitude"]
+    # Two runs that agree leave what is systematic alone.
+    assert row["value"] == pytest.approx(0.05) and row["unit"] == "m/s2"
+    assert (row["low"], row["high"]) == pytest.approx((0.05 * 0.85, 0.05 * 1.15))

@@ -5,6 +5,7 @@ import pytest
 
 from rockref.discover.fit.parameter import Parameter
 from rockref.discover.tosses import descent
+from rockref.model.errors import InputError
 
 
 def slopes_of(A, b, z):
@@ -81,3 +82,34 @@ def test_differences_look_inside_at_a_limit():
         lambda z: np.array([z @ z]), np.array([1.0, 2.0]), np.array([5.0]), np.array([1.0, 9.0]), 1
     )
     assert only.shape == (1, 1) and only[0, 0] == J[0, 1]
+
+
+def test_where_every_parameter_would_leave_its_range_there_is_no_step():
+    z = np.array([0.0, 1.0])
+    g = np.array([1.0, -1.0])  # downhill is below the first limit and above the second
+    assert np.array_equal(descent.step_of(np.eye(2), g, 0.1, z, np.zeros(2), np.ones(2)), np.zeros(2))
+    assert descent.step_of(np.eye(2), -g, 0.0, z, np.zeros(2), np.ones(2)) == pytest.approx([1.0, -1.0])
+
+
+def test_out_of_a_kink_the_best_single_parameter_leads():
+    """Along both together, as the slopes have it, nothing is gained; the second one alone gains most."""
+    wide, z = np.full(2, 10.0), np.zeros(2)
+
+    def value(t):
+        return 1.0 + 10 * abs(t[0] + t[1]) * (t[0] != 0) * (t[1] != 0) - 0.1 * t[0] - 0.3 * t[1]
+
+    found, least = descent.along_one(z, value, 1.0, -wide, wide)
+    assert found == pytest.approx([0.0, descent.PROBE]) and least == pytest.approx(1 - 0.3 * descent.PROBE)
+    # At the ends of its range it cannot be moved, and the other one is.
+    found, _ = descent.along_one(z, value, 1.0, -wide, np.array([10.0, 0.0]))
+    assert found == pytest.approx([descent.PROBE, 0.0])
+
+
+def test_a_model_that_cannot_be_simulated_is_infinitely_far():
+    def value(z):
+        if z[0] > 1:
+            raise InputError("E-STEP", "step", "is too large", "")
+        return 2.0
+
+    safe = descent.guarded(value)
+    assert safe(np.array([0.0])) == 2.0 and safe(np.array([2.0])) == np.inf

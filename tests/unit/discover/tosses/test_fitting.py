@@ -1,12 +1,15 @@
 """`fit` and `add` on tosses with known truth, through the commands."""
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from rockref import cli
 from rockref.api import Model
+from rockref.discover.tosses.fit import TossFit
 from rockref.discover.tosses.fitting import add_to_tosses, at_values, fit_tosses, unfitted
 from rockref.discover.tosses.parameters import effect_parameters
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
@@ -122,3 +125,24 @@ def test_a_diagnosis_that_is_not_to_be_trusted_ends_with_one(capsys, folder, mon
     monkeypatch.setattr("rockref.discover.tosses.diagnose.diagnose", lambda *a, **k: found)
     ended, out, _ = run(capsys, "diagnose", folder, "--json")
     assert ended == code and json.loads(out)["verdict"] == verdict
+
+
+def few(folder, use, count):
+    """The tosses of the folder with this many of a use."""
+    whole = load_tosses(folder)
+    kept = [t for t in whole.tosses if t.use != use]
+    return replace(whole, tosses=(*kept, *whole.used(use)[:count]))
+
+
+def test_too_few_tosses_are_refused(folder):
+    with pytest.raises(InputError, match="has 7 tosses of use fit") as error:
+        fit_tosses(few(folder, "fit", 7))
+    assert error.value.code == "E-SIZE"
+
+
+@pytest.mark.parametrize("held, uses", [(0, {"fit"}), (6, {"fit", "holdout"})])
+def test_without_held_out_tosses_an_addition_has_no_proof(folder, monkeypatch, held, uses):
+    monkeypatch.setattr(TossFit, "run", lambda self, z, iterations: (z, float(np.abs(z).sum())))
+    found = add_to_tosses("mass_eccentricity", few(folder, "holdout", held))
+    assert {use for use, _ in found.errors} == uses and bool(found.proof) is bool(held)
+    assert found.after.fit.effects == ("mass_eccentricity",) and found.before.fit.effects == ()

@@ -114,3 +114,15 @@ def test_where_a_toss_is_does_not_depend_on_the_model(tmp_path):
     rows = [row_of("m", model, poses, 0.1048, "fit", "flight").stretches for model in (stated(), other)]
     where = [[(s["stretch"], s["tosses"], s["frames_percent"]) for s in row] for row in rows]
     assert where[0] == where[1] and len(where[0]) > 3
+
+
+def test_effects_that_the_compiled_step_has_not_in_this_order_are_left_to_the_law(tmp_path):
+    """Two effects in the order of a file, and in the other one: the same motion, by either engine."""
+    from rockref.effects.loads.quadratic_drag import QuadraticDrag
+
+    pytest.importorskip("numba")
+    effects = (PlateTilt(0.01, 0.0), QuadraticDrag(0.01))
+    _, poses = as_measured(stated(), tmp_path / "t", count=2, frames=12)
+    ends = [predict(stated().replace(effects=order), poses) for order in (effects, effects[::-1])]
+    plain = predict(stated(), poses)
+    assert np.abs(ends[0].x - ends[1].x).max() < 1e-9 < 1e-5 < np.abs(ends[0].x - plain.x).max()

@@ -122,3 +122,17 @@ def test_two_effects_that_do_the_same_are_said_to_be_alike(full):
     first = way_down(full, (), lambda line: None)[0]
     # The confusion is that of all effects, also where the way begins lower.
     assert "c" not in first.fit.effects and first.confusion == found
+
+
+def test_settling_goes_on_while_it_gains_and_no_longer_than_it_may(full, monkeypatch):
+    steps = []
+
+    def descend(self, z, poses, weight, slopes):
+        steps.append(z)
+        return z, 10.0 - share * len(steps)
+
+    monkeypatch.setattr(Parabola, "descend", descend)
+    for share, wanted in ((1.0, together.AFTER), (0.0, 1)):
+        steps.clear()
+        found = together.settled(replace(full, objective=10.0), full.fit.poses, np.ones(1))
+        assert len(steps) == wanted and found.objective == pytest.approx(10.0 - share * wanted)
