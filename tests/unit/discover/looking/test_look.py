@@ -1,5 +1,7 @@
 """One look further, on bowls in place of fits: the race, the challenge, gains and sizes."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -123,3 +125,65 @@ def test_where_candidates_begin(monkeypatch, at_first, near, far, asked):
     monkeypatch.setattr(looking, "from_far", way("far", far))
     look = looking.look_further(ALONE, left((), at_first), 0, lambda line: None)
     assert seen == asked and look.in_full == ("far" in asked)
+
+
+@pytest.fixture
+def fought(monkeypatch):
+    """A duel in which those asked end at given floors; who was begun anew, and beside whom, comes back."""
+    asked = SimpleNamespace(anew=None, valley=None)
+
+    def prepare(look, anew, valley=()):
+        def fitted_anew(setup, begun, kept, say, sure):
+            asked.anew = (list(begun), sure)
+            return list(anew)
+
+        def in_the_valley_of(setup, winner, others, kept):
+            asked.valley = (winner.effects, others)
+            return list(valley)
+
+        monkeypatch.setattr(looking, "candidates_beside", lambda setup, effects: ())
+        monkeypatch.setattr(looking, "own_z", lambda setup, effects: np.zeros(1))
+        monkeypatch.setattr(looking, "fitted_anew", fitted_anew)
+        monkeypatch.setattr(looking, "in_the_valley_of", in_the_valley_of)
+        return looking.duel(ALONE, look, lambda line: None), asked
+
+    return prepare
+
+
+LEVER, DRAG = ("rolling_resistance",), ("quadratic_drag",)
+
+
+def at(effects, floor):
+    z = [0.0, 1.0] if effects else [0.0]
+    return family(effects, Bowl(np.array(z), floor=floor), z)
+
+
+def gains_of(lever, drag):
+    return {"rolling_resistance": lever, "quadratic_drag": drag}
+
+
+def test_a_plain_winner_that_is_clean_and_alone_needs_no_duel(fought):
+    kept, winner, rival = at((), 1.5), at(LEVER, 1.0), at(DRAG, 1.4)
+    best, asked = fought(Look(kept, [winner, rival], gains_of(2 * looking.PLAIN, 100.0)), [])
+    assert best is winner and asked.anew is None
+
+
+def test_a_near_rival_is_fitted_afresh_and_may_win(fought):
+    kept, winner, rival = at((), 1.2), at(LEVER, 1.1), at(DRAG, 1.12)
+    better = at(DRAG, 1.0)
+    look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
+    best, asked = fought(look, [better])
+    assert best is better and asked.anew == ([LEVER, DRAG], LEVER)
+    # The gain is not plain: the others begin once more where the winner ended.
+    assert asked.valley == (DRAG, [LEVER])
+    assert [f.effects for f in look.order] == [DRAG, LEVER]
+    assert look.gains["quadratic_drag"] == pytest.approx(gain_over(kept, better))
+
+
+def test_after_a_plain_gain_nobody_begins_again_where_the_winner_ended(fought, monkeypatch):
+    monkeypatch.setattr(looking, "PLAIN", 100.0)
+    kept, winner, rival = at((), 1.2), at(LEVER, 1.0), at(DRAG, 1.02)
+    look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
+    best, asked = fought(look, [at(DRAG, 1.01)])
+    assert best is winner and asked.anew is not None and asked.valley is None
+    assert look.gains["quadratic_drag"] > gain_over(kept, rival)

@@ -1,9 +1,14 @@
 """What the releases tell before anything is cut into windows."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.discover.fit.least_squares import Point
 from rockref.discover.fit.search import Setup
+from rockref.discover.looking import presearch
 from rockref.discover.looking.presearch import EXPLAINED, HELD, STRONG, release_fit, suspects
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
@@ -84,3 +89,88 @@ def test_axes_askew_are_begun_with_where_they_and_a_velocity_explain_the_release
     # The turn about x is also one of all the block's angles at release, which the runs' own tilts take up in part.
     for axis, turn, within in zip("xyz", turns, (8e-3, 1e-3, 1e-3), strict=True):
         assert abs(values[f"gyro_misalignment.{axis}"] - turn) < within
+
+
+@pytest.fixture
+def scripted(monkeypatch):
+    """Release fits whose excess is given by effect, and a tone; the sets of effects that are suspected come back."""
+
+    def prepare(left, strength=1.0, baseline="eight_points", flat=None):
+        asked = []
+
+        def release_fit(setup, effects=(), iterations=6):
+            asked.append((effects, setup.frequency))
+            count = np.full(2, 3000.0)
+            point = Point(
+                np.zeros(len(setup.parameters(effects))), None, 0.5 * count * (1 + left.get(effects, left[()]))
+            )
+            return SimpleNamespace(series=SimpleNamespace(count=count), parameters=()), point
+
+        monkeypatch.setattr(presearch, "release_fit", release_fit)
+        monkeypatch.setattr(presearch, "flat_tops", lambda experiment, runs: flat)
+        monkeypatch.setattr(presearch, "tone", lambda setup, fit, point: (17.0, strength))
+        monkeypatch.setattr(presearch, "size_of", lambda family: 1.0)
+        model = Model.table_3_1() if baseline == "eight_points" else Model.four_points()
+        setup = Setup(SimpleNamespace(baseline=baseline, tilt_uncertainty=0.0014), (), model)
+        setup, sets, seen = suspects(setup)
+        return setup, sets, seen, asked
+
+    return prepare
+
+
+def test_a_quiet_release_is_searched_for_nothing(scripted):
+    setup, sets, seen, asked = scripted({(): 0.0})
+    assert sets == [()] and asked == [((), None)] and setup.frequency is None and seen["tone_hz"] == 17.0
+
+
+@pytest.mark.parametrize("explained, suspected", [(0.1, True), (0.9, False)])
+def test_a_tone_is_a_shaking_base_where_that_explains_the_release(scripted, explained, suspected):
+    left = {(): 1.0, ("base_vibration",): explained}
+    setup, sets, seen, asked = scripted(left, strength=2 * presearch.TONE)
+    assert (("base_vibration",) in sets) is suspected and (("base_vibration",) in seen["starts"]) is suspected
+    assert setup.frequency == 17.0 and asked[-1] == (("base_vibration",), 17.0)
+
+
+def test_the_feet_are_suspected_where_the_experimenter_knows_of_none(scripted):
+    _, sets, seen, _ = scripted({(): 0.0}, baseline="four_points")
+    assert sets == [(), ("foot_defects",)]
+    # Begun at their typical size beside what the release says of the baseline.
+    start = seen["starts"]["foot_defects",]
+    n = len(seen["z"])
+    assert len(start) > n and np.all(start[:n] == 0.0) and np.all(start[n:] == 1.0)
+
+
+def test_flat_tops_are_the_stops_of_the_gyroscope_at_that_rate(scripted):
+    setup, sets, seen, asked = scripted({(): 1.0}, flat=0.5)
+    assert sets[:2] == [(), ("gyro_saturation",)] and seen["flat_top"] == 0.5
+    own = setup.parameters(("gyro_saturation",))[-2]
+    assert 1 / own.value(seen["starts"]["gyro_saturation",][-2]) == pytest.approx(0.5)
+    # Nobody has to fit what is in the records.
+    assert (("gyro_saturation",), None) not in asked
+
+
+def test_where_no_single_effect_explains_the_release_two_may_and_the_sensor_is_taken_along(scripted):
+    pair = ("gyro_misalignment", "release_velocity")
+    left = {(): 8.0, ("gyro_misalignment",): 6.0, ("release_velocity",): 5.0, pair: 0.1}
+    _, sets, seen, asked = scripted(left)
+    assert sets == [(), ("gyro_misalignment",)]
+    assert seen["release_shares"]["release_velocity"] == pytest.approx(1 - 5 / 8)
+    assert (pair, None) in asked
+
+
+def test_a_fit_of_the_release_that_always_gains_ends_at_last(monkeypatch):
+    class Falling:
+        parameters, series, steps = (), SimpleNamespace(count=np.zeros(1)), 0
+
+        def begin(self):
+            return Point(np.zeros(1), None, np.full(1, 1e6))
+
+        def step(self, point, lam):
+            self.steps += 1
+            return Point(point.z, None, 0.9 * point.loss), lam
+
+    fit = Falling()
+    monkeypatch.setattr(presearch, "release_windows", lambda setup: None)
+    setup = SimpleNamespace(fit=lambda windows, effects: fit)
+    assert release_fit(setup)[1].objective == pytest.approx(1e6 * 0.9**presearch.LONGEST)
+    assert fit.steps == presearch.LONGEST

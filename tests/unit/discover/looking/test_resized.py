@@ -8,7 +8,7 @@ import pytest
 from rockref.discover.fit.approach import HIGHER, higher
 from rockref.discover.fit.families import mean_loss, structured
 from rockref.discover.fit.parameter import Parameter
-from rockref.discover.looking.resized import AFFORDABLE, LAST, UNSETTLED, cheapest, moves, placed_at, resized
+from rockref.discover.looking.resized import AFFORDABLE, LAST, ROUNDS, UNSETTLED, cheapest, moves, placed_at, resized
 from tests.unit.discover.bowls import ALONE, WINDOWS, Bowl, family
 
 
@@ -143,3 +143,22 @@ def test_only_sizes_of_effects_are_changed_and_the_cheapest_places_come_first():
     found = cheapest(point, placed_at(bowl, point, moves(bowl, point.z)))
     assert [p.objective for p in found] == sorted(p.objective for p in found)
     assert all(p.objective < AFFORDABLE * point.objective for p in found)
+
+
+def test_a_fit_that_always_finds_something_better_is_taken_on_a_few_times_only(monkeypatch):
+    rounds = []
+
+    def lower(setup, family, seed):
+        rounds.append(mean_loss(family))
+        bowl = Bowl(np.zeros(2), floor=0.98 * family.fit.floor)
+        return type(family)(family.effects, bowl, bowl.point(np.zeros(2), family.point.corrections)[0])
+
+    monkeypatch.setattr("rockref.discover.looking.resized.averaged", lower)
+    start = family(("rolling_resistance",), Bowl(np.zeros(2), floor=1.3), np.zeros(2))
+    end = resized(ALONE, start, 0)
+    assert len(rounds) == ROUNDS and mean_loss(end) == pytest.approx(1.3 * 0.98**ROUNDS)
+
+
+def test_what_most_windows_contradict_is_left_as_it_is():
+    far = family(("rolling_resistance",), Bowl(np.zeros(2), floor=4.0), np.zeros(2))
+    assert structured(far) == 1.0 and resized(ALONE, far, 0) is far

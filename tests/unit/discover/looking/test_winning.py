@@ -173,3 +173,19 @@ def test_of_a_pair_the_first_effect_is_held_against_its_rivals(monkeypatch, firs
     # Begun where the rival had ended, with the second effect as large as in the pair.
     begun = (("other", "lever"), [*rival.point.z, pair.point.z[-1]])
     assert asked == ([] if behind else [begun])
+
+
+def test_a_plain_gain_needs_no_challenge(monkeypatch):
+    monkeypatch.setattr(winning, "challenge", lambda *a: pytest.fail("challenged"))
+    kept = family((), Bowl(np.zeros(1), floor=1.2), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5])), np.array([0.0, 0.5]))
+    look = Look(kept, [winner], {"rolling_resistance": 2 * winning.PLAIN})
+    assert upheld(look, winner, False, 0, quiet) is winner
+
+
+def test_a_winner_whose_kin_were_all_tried_stays_as_it_is(monkeypatch):
+    monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (GyroScale,))
+    monkeypatch.setattr(winning, "in_the_valley_of", lambda *a: pytest.fail("tried again"))
+    kept = family((), Bowl(np.zeros(1), floor=1.3), np.zeros(1))
+    ended = looked(kept, family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.1), np.array([0.0, 0.5])))
+    assert winning.with_kin(ALONE, ended, 0, quiet) is ended
