@@ -24,7 +24,7 @@ def equation_svg(tex: str) -> str:
 
     try:
         path = TextPath((0.0, 0.0), f"${tex}$", size=SIZE, prop=FontProperties(math_fontfamily="stix"))
-    except ValueError:
+    except (ValueError, AttributeError):  # the second of matplotlib 3.11, for what has nothing to be drawn
         return ""
     if not len(path.vertices):
         return ""

@@ -32,7 +32,7 @@ def test_letters_stand_upright():
     assert np.ptp(upper[:, 0]) > np.ptp(lower[:, 0])
 
 
-@pytest.mark.parametrize("tex", [r"\begin{cases} 1 \end{cases}", r"\frac{1", ""])
+@pytest.mark.parametrize("tex", [r"\begin{cases} 1 \end{cases}", r"\frac{1", "", r"\quad"])
 def test_what_cannot_be_drawn_is_shown_as_it_was_written(tex):
     assert equation_svg(tex) == ""
     page = Page("title")
