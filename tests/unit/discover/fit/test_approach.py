@@ -1,11 +1,13 @@
 """Where a fit begins: the warp of the feet is found by looking, and an effect is moved with the tilts it is like."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.discover.fit import approach
 from rockref.discover.fit.approach import (
     BEFORE,
     FINER,
@@ -149,3 +151,18 @@ def test_a_gyroscope_is_turned_about_the_axis_that_no_release_shows():
     found = min((placed(fit, point.z + move) for move in moves), key=lambda p: p.objective)
     step = TURNS[1] - TURNS[0]
     assert abs(fit.parameters[x].value(found.z[x]) - turn["x"]) < step
+
+
+def test_a_first_look_at_an_effect_leaves_those_before_it_where_they_are(monkeypatch):
+    """Of two switches only that from the given parameter on is moved; there are no feet whose warp would follow."""
+    names = ["K_N", "rolling_resistance.lever", "quadratic_drag.c"]
+    fit = SimpleNamespace(parameters=[SimpleNamespace(name=name) for name in names])
+    asked = []
+    monkeypatch.setattr(approach, "placed", lambda fit, z: SimpleNamespace(z=z))
+    monkeypatch.setattr(approach, "same_release", lambda fit, i, z: names[i])
+    monkeypatch.setattr(approach, "best_for_all", lambda fit, point, moves: (asked.append(moves), point)[1])
+    approached_beside(fit, np.zeros(3), 2)
+    assert asked == ["quadratic_drag.c"]
+    asked.clear()
+    approached_beside(fit, np.zeros(3), 1)
+    assert asked == ["rolling_resistance.lever", "quadratic_drag.c"]
