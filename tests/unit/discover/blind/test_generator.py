@@ -136,8 +136,8 @@ def test_a_push_is_the_rate_at_release_and_lets_the_block_leave_with_it():
     world.kick = np.array([0.02, 0.0, 0.0])
     pushed = generator.simulate(world, 0.117, seconds=0.01)
     assert pushed[0] == pytest.approx([0.02, 0.0, 0.0])
-    # The edge stays where it is: after ten milliseconds the block still turns faster by as much. Its weight turns it
-    # at 1.7 rad/s2, which the lean of 0.2 mrad more changes by less than a hundredth.
+    # The edge stays where it is: after ten milliseconds the block still turns faster by as much. Its lean differs by
+    # 0.2 mrad at most, which the weight turns into p^2 times that, 4e-3 rad/s2: a hundredth in that time, at most.
     assert pushed[-1, 0] - plain[-1, 0] == pytest.approx(0.02, rel=0.02)
 
 
