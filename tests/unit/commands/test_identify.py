@@ -1,9 +1,15 @@
-"""`rockref identify` before the work: what it refuses leaves nothing behind, and what it searches instead is said."""
+"""`rockref identify`: what it refuses leaves nothing behind, what it searches instead is said, and how it ends."""
 
+import copy
+import json
+
+import numpy as np
 import pytest
 
-from rockref import InputError, cli
+from rockref import InputError, Model, cli
+from rockref.identify.search import Progress, Settings
 from tests.shipped import two_runs
+from tests.unit.report.made_up import IDENTIFICATION
 
 
 @pytest.fixture
@@ -60,3 +66,48 @@ def test_remarks_of_the_reader_are_said_before_the_work(capsys, here, monkeypatc
     path.write_text(path.read_text(encoding="utf-8").replace('"holdout"', '"fit"'), encoding="utf-8")
     told = refused(capsys, "EIGHT")
     assert "[W-NO-HOLDOUT]" in told and told.index("[W-NO-HOLDOUT]") < told.index("[E-STOP]")
+
+
+class TestTheEnd:
+    """The search is made up; its result is printed and written."""
+
+    @pytest.fixture
+    def ended(self, capsys, here, monkeypatch):
+        """Run the command to an end at the noise floor, or above it; what it was asked comes along."""
+
+        def run(*words, floor=True):
+            record, asked = copy.deepcopy(IDENTIFICATION), {}
+            record["least_squares"]["at_noise_floor"] = floor
+
+            def answered(question, settings, work, folder, *, resume, report):
+                asked.update(settings=settings, folder=str(folder), resume=resume, workers=work.workers)
+                report(question.space, "search", Progress(1, settings.generations, 0.5, np.full(12, 0.5), 3.0))
+                return record, Model.table_3_1()
+
+            monkeypatch.setattr("rockref.identify.from_experiment.answered", answered)
+            with pytest.raises(SystemExit) as end:
+                cli.main(["identify", "EIGHT", "-o", "found", "--workers", "1", *words])
+            return end.value.code, *capsys.readouterr(), asked
+
+        return run
+
+    @pytest.mark.parametrize("floor, code", [(True, 0), (False, 1)])
+    def test_the_exit_code_is_1_above_the_noise_floor_and_both_files_are_written(self, ended, here, floor, code):
+        found, out, err, _ = ended(floor=floor)
+        assert found == code and err == "" and ("Above the noise floor nothing is determined" in out) is not floor
+        assert out.endswith("wrote found/identification.json\nwrote found/model.toml\n")
+        record = json.loads((here / "found/identification.json").read_text())
+        assert record["least_squares"]["at_noise_floor"] is floor and record["runs"] == IDENTIFICATION["runs"]
+        assert Model.load(here / "found/model.toml").parameters == Model.table_3_1().parameters
+
+    def test_json_is_what_is_in_the_file(self, ended, here):
+        code, out, err, _ = ended("--json")
+        assert (code, err) == (0, "") and out == (here / "found/identification.json").read_text()
+
+    def test_generations_are_told_where_they_are_wanted(self, ended):
+        _, _, err, _ = ended("--verbose")
+        assert err.startswith("search cost 0.5000  K_N ") and err.count("\n") == 1
+
+    def test_what_was_asked_for_reaches_the_search(self, ended):
+        *_, asked = ended("--generations", "7", "--population", "8", "--seed", "3", "--resume")
+        assert asked == {"settings": Settings(8, 7, 3), "folder": "found", "resume": True, "workers": 1}

@@ -7,24 +7,7 @@ import pytest
 from rich.console import Console
 
 from rockref.report.identification_text import print_identification
-
-RECORD = {
-    "search": {
-        "simulations": 10000, "cost": 0.1234, "weights": {"main_impacts": 2.0},
-        "terms": {"01": {"main_impacts": 0.05}, "06": {"main_impacts": 0.07}},
-    },
-    "least_squares": {
-        "at_noise_floor": True, "chi2": 1.02,
-        "values": {"K_N": 6.1e7, "theta_0": 0.1171},
-        "errors": {"K_N": 5e6, "theta_0 of 01": 1e-5, "theta_0 of 06": 3e-5},
-        "determined": {"K_N": False, "theta_0": True},
-        "trade_offs": [["K_N", "beta_ext", -0.91]],
-    },
-    "runs": [
-        {"run": "03", "use": "holdout", "release_tilt_rad": 0.11712, "rms_deg_s": [0.05, 0.06, 0.07],
-         "rms_over_noise": 1.01, "rms_over_noise_as_stated": 2.5},
-    ],
-}  # fmt: skip
+from tests.unit.report.made_up import IDENTIFICATION as RECORD
 
 
 def said(record):

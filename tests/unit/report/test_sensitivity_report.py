@@ -3,38 +3,31 @@
 import io
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from rich.console import Console
 
-from rockref.identify.predictability import Growth
-from rockref.identify.sensitivity import Digits, family
-from rockref.identify.sensitivity_study import Study, record
-from rockref.model.parameters import TABLE_3_1
+from rockref.identify.sensitivity_study import record
 from rockref.report.figures import rendered
 from rockref.report.sensitivity_figures import sensitivity_figures
 from rockref.report.sensitivity_text import digits_table, horizons_table, print_sensitivity, sentences
+from tests.unit.report import made_up
 
 
 @pytest.fixture(scope="module")
-def made_up():
-    t = np.arange(0, 3, 5e-4)
-    base = np.stack([np.abs(np.sin(4 * t)) * np.sign(np.cos(2 * t)), np.cos(60 * t), np.sin(80 * t)], axis=-1)
-    f = family(["a", "b"], np.array([base, base * (1 + 0.2 * (t > 2))[:, None]]))
-    g = Growth(np.array([0.5, 1.3]), np.array([[1.0, 9.0], [1.0, 11.0]]), 10.0, 1.2)
-    return Study(0, f, f, f, (Digits("K_N", 6e7, 1, 2, 0.04, 0.3),), g)
+def study():
+    return made_up.study()
 
 
-def test_four_figures_with_the_same_bytes_every_time(made_up):
-    figures = sensitivity_figures(made_up)
+def test_four_figures_with_the_same_bytes_every_time(study):
+    figures = sensitivity_figures(study)
     assert len(figures) == 4
     name = "growth_of_differences"
-    assert rendered(figures[name], "svg") == rendered(sensitivity_figures(made_up)[name], "svg")
+    assert rendered(figures[name], "svg") == rendered(sensitivity_figures(study)[name], "svg")
     assert rendered(figures["figure_3_5_time_step"], "png").startswith(b"\x89PNG")
 
 
-def test_words_and_tables(made_up):
-    result = record(made_up)
+def test_words_and_tables(study):
+    result = record(study)
     assert "10 times" in sentences(result)[0] and "1.00 decimal digits" in sentences(result)[0]
     assert horizons_table(result).rows[0][2].startswith("1.9")  # averaged over 0.1 s, seen just before 2 s
     assert horizons_table(result).rows[1][2] == "beyond 3.0"
