@@ -61,3 +61,24 @@ def test_check_ends_with_1_where_a_goal_is_missed(capsys, tmp_path, monkeypatch)
     assert "| score | discoverer | r | n |" in printed.out and "| a | 50.0 % | 50.0 % | 4 |" in printed.out
     assert "not as it was sealed: truth" in printed.err
     assert run(capsys, "score", tmp_path)[0] == 0
+
+
+def test_make_says_how_many_cases_there_are_and_the_digest_of_the_truth(capsys, tmp_path, monkeypatch):
+    asked = {}
+    made = {"truth_sha256": "abc", "cases": {"case-001": {}, "case-002": {}}}
+    monkeypatch.setattr(making, "make", lambda folder, seed, n, **more: asked.update(more, n=n) or made)
+    code, printed = run(capsys, "make", tmp_path, "--seed", 7, "--cases", 2)
+    assert code == 0 and printed.out == f"2 cases in {tmp_path}; truth sealed, SHA-256 abc\n"
+    assert asked["n"] == 2 and asked["cases"] is None
+
+
+def test_scores_that_all_meet_their_goals_pass_the_check_and_nothing_else_is_said(capsys, tmp_path, monkeypatch):
+    row = {"score": "a", "value": 0.95, "low": 0.8, "high": 1.0, "n": 4, "goal": ">= 0.9", "met": True, "percent": True}
+    found = {"scores": [row], "failures": [], "rivals": {}, "sealed": {"truth": True, "verdicts": True}}
+    asked = {}
+    monkeypatch.setattr(scoring, "score", lambda *a, **k: asked.update(k) or found)
+    code, printed = run(capsys, "score", tmp_path, "--check", "--no-rivals")
+    assert code == 0 and printed.err == "" and asked["with_rivals"] is False
+    assert "95.0 %" in printed.out and "discoverer" not in printed.out
+    code, printed = run(capsys, "score", tmp_path, "--check", "--json")
+    assert code == 0 and json.loads(printed.out) == found and asked["with_rivals"] is True

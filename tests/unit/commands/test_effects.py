@@ -109,6 +109,12 @@ def test_picture_is_a_picture(capsys, tmp_path):
     assert path.read_bytes().startswith(b"\x89PNG")
 
 
+def test_json_beside_a_picture_is_json_and_nothing_else(capsys, tmp_path):
+    path = tmp_path / "drift.svg"
+    out, _, code = said(capsys, "gyro_drift", "--picture", str(path), "--duration", "0.01", "--json")
+    assert code == 0 and json.loads(out)["id"] == "gyro_drift" and "<svg" in path.read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     "arguments, message",
     [
