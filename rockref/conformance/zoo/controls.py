@@ -153,7 +153,8 @@ class Permuted(RulesBackend):
     def _shuffled(self, problem: Problem) -> Problem:
         p, s, o = problem.points, problem.start, self.order
         per_point = {k: getattr(p, k)[o] for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu")}
-        memory = {k: getattr(s, k)[o] for k in ("s", "anchored", "sliding")}
+        kept = ("s", "anchored", "sliding") if s.F is None else ("s", "anchored", "sliding", "F")
+        memory = {k: getattr(s, k)[o] for k in kept}
         return replace(problem, points=replace(p, **per_point), start=replace(s, **memory))
 
 

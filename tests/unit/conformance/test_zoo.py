@@ -3,13 +3,16 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from rockref.conformance import blackbox, in_words, vectors
 from rockref.conformance.judge import judge
+from rockref.conformance.law_backend import RulesBackend
 from rockref.conformance.runs import judge_runs
 from rockref.conformance.verdict import verdict
 from rockref.conformance.zoo import run as zoo_run
+from rockref.conformance.zoo.controls import Permuted
 from rockref.conformance.zoo.mistake import Mistake
 from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
 from rockref.conformance.zoo.run import case_of_control, case_of_mistake, in_markdown, run_zoo, summary
@@ -131,6 +134,21 @@ def test_the_whole_zoo_reaches_its_figures():
     found = run_zoo()
     assert found["detected"] == found["planted"] and found["controls_rejected"] == 0
     assert not zoo_run.falls_short(found)
+
+
+def test_points_in_another_order_are_put_back_and_four_are_left_as_they_are():
+    law, other = RulesBackend(), Permuted()
+    steps = [vectors.problem_of(v.inputs) for v in vectors.steps_as_runs()]
+    for n in (4, 8):
+        # Of the steps on so many feet the one in which most of them are told apart by what they carry.
+        problem = max((p for p in steps if p.points.n == n), key=lambda p: len(set(law.simulate(p).F[1, :, 2])))
+        right = law.simulate(problem)
+        assert len(set(right.F[1, :, 2])) >= n / 2
+        for found in (other.simulate(problem), *other.simulate_many([problem])):
+            assert np.array_equal(found.anchored, right.anchored)
+            # Sums of the same forces in another order.
+            assert np.allclose(found.F, right.F, rtol=1e-12, atol=1e-12 * np.abs(right.F).max())
+            assert np.array_equal(found.W, right.W) or n == 8
 
 
 @pytest.mark.parametrize(
