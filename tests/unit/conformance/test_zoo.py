@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -105,6 +106,15 @@ def test_a_black_box_resembles_its_own_mistake(id_):
     assert near[0][0] == id_ and near[0][1] > 0.999
 
 
+def test_where_all_runs_are_those_of_a_mistake_its_rule_is_named_in_place_of_the_first_that_is_wrong():
+    """Feet that stand elsewhere let another foot slide first: the first wrong result is a trial force."""
+    box = zoo_run.BlackBox(BY_ID["Z60"].backend())
+    findings = judge(box, ["L5s"])
+    alone, asked = verdict(findings), verdict(findings, box)
+    assert (alone.rule, asked.rule, BY_ID["Z60"].rule) == ("T1", "G2", "G2")
+    assert asked.says == "All runs deviate as those of Z60; the first short run outside would point to T1."
+
+
 def test_the_law_itself_resembles_nobody():
     assert blackbox.neighbours(blackbox.fingerprint(CONTROLS[0].backend())) == []
 
@@ -134,6 +144,34 @@ def test_the_whole_zoo_reaches_its_figures():
     found = run_zoo()
     assert found["detected"] == found["planted"] and found["controls_rejected"] == 0
     assert not zoo_run.falls_short(found)
+
+
+def test_the_zoo_goes_through_mistakes_and_controls_and_says_how_far_it_is(monkeypatch):
+    monkeypatch.setattr(zoo_run, "MISTAKES", (BY_ID["Z01"],))
+    monkeypatch.setattr(zoo_run, "CONTROLS", CONTROLS[:1])
+    monkeypatch.setattr(zoo_run, "judge", lambda backend, layers: judge(backend, ["L1"]))
+    told = []
+    found = run_zoo(black_box=False, progress=lambda *a: told.append(a))
+    assert told == [("zoo", 0.5), ("zoo", 1.0)] and [c["id"] for c in found["cases"]] == ["Z01", "C01"]
+    assert found["attributed_black_box"] is None and "by runs alone" not in zoo_run.in_words(found)
+    assert run_zoo(black_box=False) == found
+
+
+@pytest.mark.parametrize("off, rejected", [(0.0, False), (1e-6, True)])
+def test_a_control_is_rejected_where_only_its_long_runs_are_off(monkeypatch, off, rejected):
+    """The runs, which take minutes, are the shipped rows, shifted in the first window."""
+
+    def simulate(backend, problems):
+        every = [vectors.trajectory(name).columns for name in vectors.window_names()]
+        assert len(problems) == len(every)
+        rows = [{"W": c["W_rad_s"].copy(), "x": c["x_m"], "Lambda": c["Lambda"].reshape(-1, 3, 3)} for c in every]
+        rows[0]["W"][1:] += off
+        return [SimpleNamespace(**rows[0]), *rows[1:]]
+
+    monkeypatch.setattr(zoo_run, "simulate", simulate)
+    monkeypatch.setattr(zoo_run, "judge", lambda backend, layers: judge(backend, ["L7"]))
+    case = case_of_control(CONTROLS[0], runs=True)
+    assert case["rejected"] is rejected and case["named"] is None and (case["bars"] > 10) is rejected
 
 
 def test_points_in_another_order_are_put_back_and_four_are_left_as_they_are():
