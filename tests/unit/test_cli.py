@@ -1,5 +1,6 @@
 """The command line: exit codes, errors on one line, help with an example, quick to start."""
 
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -76,6 +77,15 @@ def test_faults_of_ours_keep_their_traceback(command_that):
 def test_the_package_runs_as_a_module():
     done = subprocess.run([sys.executable, "-m", "rockref", "--version"], capture_output=True, text=True, check=True)
     assert done.stdout == f"rockref {__version__}\n"
+
+
+def test_the_module_runs_nothing_where_it_is_only_imported(capsys, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["python", "no_such_command"])
+    runpy.run_module("rockref.__main__", run_name="imported")
+    assert capsys.readouterr() == ("", "")
+    with pytest.raises(SystemExit) as end:
+        runpy.run_module("rockref.__main__", run_name="__main__")
+    assert end.value.code == 2 and "no_such_command" in capsys.readouterr().err
 
 
 def test_unknown_command_ends_with_2_and_suggests(capsys):

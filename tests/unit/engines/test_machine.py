@@ -1,5 +1,6 @@
 """The arithmetic probes tell IEEE arithmetic from its usual replacements."""
 
+import importlib.util
 import json
 from fractions import Fraction
 
@@ -61,3 +62,28 @@ def test_each_fault_is_unsound(fault):
 
 def test_other_rounding_is_unsound():
     assert not machine.is_sound(SOUND | {"rounds_half_to_even": False})
+
+
+def test_without_numba_nothing_is_said_of_it_and_the_machine_is_sound(monkeypatch):
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    findings = machine.check_arithmetic()
+    assert findings["numba_fuses"] is findings["numba_flushes_subnormals"] is None and machine.is_sound(findings)
+
+
+def plain(left, right):
+    """A dot product of products and sums that are each rounded."""
+    return sum(a * b for a, b in zip(left.tolist(), right.tolist(), strict=True))
+
+
+def fused(left, right):
+    """A dot product whose every product and sum is rounded once."""
+    total = 0.0
+    for a, b in zip(left.tolist(), right.tolist(), strict=True):
+        total = float(Fraction(a) * Fraction(b) + Fraction(total))
+    return total
+
+
+@pytest.mark.parametrize("dot, fuses", [(plain, False), (fused, True)])
+def test_a_fusing_dot_product_is_told_from_a_plain_one(monkeypatch, dot, fuses):
+    monkeypatch.setattr(np, "dot", dot)
+    assert machine._dot_fuses() is fuses
