@@ -18,6 +18,7 @@ from rockref.conformance.law_backend import NumpyEngine
 from rockref.conformance.properties import PropertyCheck
 from rockref.conformance.runs import RunCheck
 from rockref.conformance.verdict import LOOP, UNASKED, as_json, verdict
+from rockref.conformance.zoo.mistakes import BY_ID
 from rockref.model.errors import InputError
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/backend_numpy.py"
@@ -230,6 +231,13 @@ class Broken:
         return self.answer(problem)
 
 
+def test_a_rule_that_its_piece_shows_right_is_not_blamed_for_the_runs():
+    """The first wrong result of the runs is a normal force; the contact law was asked by itself and is right."""
+    v = verdict(judge(Only(BY_ID["Z04"].backend(), "contact_law"), ["L1", "L5s"]))
+    wrong = [c.rule for c in v.findings.failures if c.layer == "L5s"]
+    assert v.rule == BY_ID["Z04"].rule == "K1" and "N1" in wrong and v.rules["N1"] != "pass"
+
+
 @pytest.mark.parametrize(
     "answer, said",
     [
@@ -242,6 +250,8 @@ class Broken:
         (lambda p: None, ""),
         (lambda p: {"W": np.zeros((7, 2))}, "W has shape (7, 2), not"),
         (lambda p: {"W": [[1, 2], [3]]}, "rows of different lengths"),
+        (lambda p: vars(NumpyEngine().simulate(p)) | {"t": [0.0]}, "t has shape (1,), not"),
+        (lambda p: vars(NumpyEngine().simulate(p)) | {"t": "soon"}, "t holds no numbers"),
         (lambda p: sys.exit(3), "SystemExit: 3"),
     ],
 )
@@ -306,6 +316,17 @@ def test_results_that_a_piece_does_not_give_are_not_shown():
     vector = next(v for v in vectors.layer("L1") if v.rule == "T4")
     checks = compare(vector, {"F_N": 1.0})
     assert {c.grade for c in checks} == {"not shown"}
+
+
+@pytest.mark.parametrize(
+    "F_T, said",
+    [(np.zeros(3), "has shape (3,), not (2,)"), (np.array(["a", "b"]), "is no number"), ([[1], [2, 3]], "unusable")],
+    ids=["three", "words", "ragged"],
+)
+def test_a_result_of_another_form_is_outside_and_speaks_of_no_rule(F_T, said):
+    vector = next(v for v in vectors.layer("L1") if "F_T" in v.expect)
+    (check,) = [c for c in compare(vector, {"F_T": F_T}) if c.name == "F_T"]
+    assert check.failed and not check.weighed and said in check.note
 
 
 def test_a_wrong_decision_takes_the_blame_for_the_force():

@@ -163,3 +163,11 @@ def test_a_program_is_asked_for_the_eight_points_too(tmp_path):
     backend.close()
     assert [c.effect for c in checks] == ["foot_defects"]
     assert "as if delta_long2 were of the other sign" in checks[0].note
+
+
+def test_of_a_record_that_no_known_mistake_gives_nothing_is_said():
+    claim = of("gyro_scale")
+    assert claim.piece == "sensor"
+    noise = np.random.default_rng(0).normal(size=claim.expect["crv_deg_s"][0].shape)
+    check = claims.explained(claim, {"crv_deg_s": noise})
+    assert check.failed and check.note == ""

@@ -145,3 +145,12 @@ def test_pieces_that_a_program_says_it_has_not_are_not_judged(tmp_path):
         path.write_text(content)
         findings = judge(offline.Recorded(path), ["L0", "L1"])
         assert findings.pieces == ("contact_law",) and findings.checks and not findings.failures
+
+
+def test_what_a_program_says_in_place_of_an_answer_is_the_note_of_the_failure(responses, tmp_path):
+    lines, wrong = responses.read_text().splitlines(keepends=True), vectors.layer("L1")[9].id
+    path = tmp_path / "error.jsonl"
+    said = jsonlines.line({"id": wrong, "error": "no idea"})
+    path.write_text("".join(said if f'"{wrong}"' in line else line for line in lines))
+    v = verdict(judge(offline.Recorded(path), ["L1"]))
+    assert {c.vector for c in v.findings.failures} == {wrong} and "says: no idea" in v.check.note

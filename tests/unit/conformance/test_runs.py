@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rockref.conformance import in_words, vectors
+from rockref.conformance import in_files, in_words, runs, vectors
 from rockref.conformance.backend import load
 from rockref.conformance.judge import judge
 from rockref.conformance.pieces import simulate
@@ -172,3 +172,39 @@ def test_longer_steps_are_another_problem():
     assert replace(run.problem, step=1e-5).step == base.problem.step
     first = run.columns["W_rad_s"][-1] - base.columns["W_rad_s"][-1]
     assert np.abs(first).max() > 1e-6, "the step matters, and the vectors show it"
+
+
+def test_where_no_attitudes_are_shown_nothing_is_said_of_impacts():
+    run = vectors.trajectory("table_3_1")
+    judged = judge_rows(run, {"W": run.columns["W_rad_s"]}, "float64")
+    assert judged.grade == "bitwise" and judged.impacts == [] and run.meta["impacts"]
+
+
+def test_a_run_that_is_not_answered_fails_by_itself_and_the_judge_goes_on(monkeypatch):
+    names = ("window_table_3_1_0500ms", "drop")
+    monkeypatch.setattr(runs, "window_names", lambda: names[:1])
+    monkeypatch.setattr(runs, "trajectory_names", lambda: names[1:])
+
+    class DropsOnly:
+        def simulate(self, problem):
+            if problem.duration != vectors.trajectory("drop").problem.duration:
+                raise RuntimeError("too long")
+            return Shifted("W", 0, 0).out(vectors.trajectory("drop"))
+
+    told = []
+    found = judge(DropsOnly(), ["L5"], progress=lambda *a: told.append(a))
+    assert [(r.id, r.grade, r.note) for r in found.runs] == [
+        (names[0], "outside", "RuntimeError: too long"),
+        (names[1], "bitwise", ""),
+    ]
+    assert told == [("L5", 0.5), ("L5", 1.0)]
+
+
+def test_the_page_shows_where_a_run_parts():
+    run = vectors.trajectory("window_table_3_1_0500ms")
+    findings = judge(load("numpy"), ["L7"])
+    findings.runs = [judge_rows(run, Shifted("W", row, 1e-6).out(run), "float64") for row in (60, 10**6)]
+    page = in_files.page(verdict(findings))
+    assert f"first outside: {run.columns['t_s'][60]:.5g} s" in page
+    # The run that is right is left out where one is wrong.
+    assert page.count("<svg") == page.count(f"<h3>{run.id}: outside") == 1

@@ -55,6 +55,9 @@ def test_an_altered_file_is_refused(tmp_path, monkeypatch):
         vectors.read_bytes("L0.json")
     with pytest.raises(InputError, match="is not there"):
         vectors.read_bytes("L1.json")
+    monkeypatch.setattr(vectors, "LARGEST", 1)
+    with pytest.raises(InputError, match="has more than 1 bytes"):
+        vectors.read_bytes("L0.json")
 
 
 @pytest.mark.parametrize("name", ["MANIFEST", *LAYERS, "LE", *(f"L5/{n}" for n in RUNS)])
