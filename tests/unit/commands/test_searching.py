@@ -53,7 +53,8 @@ def test_on_a_terminal_every_stage_has_a_bar_that_goes_on(capsys, monkeypatch):
         say(SPACE, "search", generation(1))
         say(SPACE, "search", generation(200))
         say(SPACE, "signals", generation(17, cost=0.125))
-    last = seen.getvalue()[seen.getvalue().rindex("search") :]
-    assert "200/250" in last and "cost 0.5000  K_N 6e+07" in last
+    # What is drawn last, from where its first line was erased.
+    last = seen.getvalue()[seen.getvalue().rindex("\x1b[2Ksearch") :]
+    assert last.count("search") == 1 and "200/250" in last and "cost 0.5000  K_N 6e+07" in last
     assert "signals" in last and " 17/250" in last and "cost 0.1250" in last
     assert capsys.readouterr().out == ""

@@ -23,10 +23,10 @@ def test_every_stage_has_a_line_with_the_seconds_so_far_where_it_is_wanted(capsy
 def test_a_terminal_shows_the_last_stage(capsys, monkeypatch):
     seen = terminal.put_in_place(monkeypatch)
     with stages("planning") as say:
-        say("release [0.117]")
-        say("limits [1/2]")
+        say("release 0.117")
+        say("limits [of all]")
     shown = seen.getvalue()
-    assert "planning" in shown and shown.rindex("limits [1/2]") > shown.rindex("planning")
+    assert "planning" in shown and shown.rindex("limits [of all]") > shown.rindex("planning")
     assert capsys.readouterr().out == ""
 
 
