@@ -179,6 +179,12 @@ SIGNATURE_WORDS = {
     "loss_after": "misfit after it (1 is noise)",
     "axis_shares": "shares of the axes",
     "remaining_axis_shares": "shares of the axes in what remains",
+    "stretch_shares": "shares of free arcs and of main impacts",
+    "parity": "the moment that is missing in free arcs is",
+    "parity_shares": "share of it that each parity explains",
+    "repeats": "alike in runs that were released alike (0 to 1)",
+    "coherence": "coherence of the clearest tone (0 to 1)",
+    "locked_to": "goes by",
 }
 
 
@@ -187,7 +193,7 @@ def signature_table(d: dict[str, Any]) -> Table:
     rows = []
     for key, value in d["signature"].items():
         words = SIGNATURE_WORDS.get(key, key.replace("_", " "))
-        rows.append([words, in_words(value)])
+        rows.append([words, in_words(value).replace("_", " ")])
     return Table("What the baseline's misfit looks like", ("sign", "found"), rows, prose=True)
 
 
