@@ -79,7 +79,7 @@ def test_a_check_that_the_fit_did_not_pass_is_said_with_the_verdict(capsys, monk
 def test_the_page_of_the_record_has_every_key(made):
     """`docs/reference/diagnose.md` has a row for each key, and no other row."""
     text = (ROOT / "docs/reference/diagnose.md").read_text(encoding="utf-8")
-    keys = [line.split("`")[1] for line in text.split("## Gates")[0].splitlines() if line.startswith("| `")]
+    keys = [line.split("`")[1] for line in text.split("\n## ")[0].splitlines() if line.startswith("| `")]
     assert sorted(keys) == sorted(fakes.diagnosis("named", made).to_dict())
 
 
