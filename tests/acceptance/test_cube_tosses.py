@@ -61,6 +61,14 @@ def test_a_flat_face_rubs_more_than_a_corner_and_less_when_slow(seen):
     assert min(slides) > 1.1 * seen["measured_centre"]["corner"]["values"]["friction"]["value"]
 
 
+def test_a_tip_rebounds_by_half_as_much_as_the_corner_of_a_face(seen):
+    """A plain damper has it the other way round, see `tests/unit/measure/test_toss_balance.py`."""
+    corner = seen["measured_centre"]["corner"]["values"]
+    face, tip = (corner[f"restitution_on_a_{place}"] for place in ("face", "tip"))
+    assert tip["value"] < 0.6 * face["value"]
+    assert face["value"] - tip["value"] > 4 * np.hypot(face["se"], tip["se"])
+
+
 def test_stated_values_have_the_errors_that_the_documentation_names(tosses):
     held = side_by_side(tosses.used("holdout"), tosses.rate)
     e = errors(predict(nominal_model(tosses), held), held, tosses.width)
@@ -85,4 +93,6 @@ def test_the_diagnosis_explains_tosses_that_it_did_not_see(tosses):
     # report, from the raw first frame; from the flight 6.3 % in the mean, 5.5 % and 4.3 deg in the median.
     assert 100 * np.mean(last["raw"].position) < 9.3 and np.mean(last["raw"].rotation) < 9.4
     assert 100 * np.mean(last["flight"].position) < 6.3
+    # The goal is 6.2 deg, and 6.1 was reached; the standard error of a mean with a few that fall otherwise is 0.7.
+    assert np.mean(last["flight"].rotation) < 6.2 + 0.7
     assert 100 * np.median(last["flight"].position) < 5.5 and np.median(last["flight"].rotation) < 4.3
