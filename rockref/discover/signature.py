@@ -216,10 +216,12 @@ def coherence(s: Series, r: np.ndarray) -> float:
     t, share = times(s), np.zeros(len(tones))
     for run in range(len(s.runs)):
         parts = []
-        for b in np.flatnonzero((s.run_of == run) & ~s.first):
+        for b in np.flatnonzero((s.run_of == run) & ~s.first & (s.valid.sum(axis=1) > LEAST_SAMPLES)):
             own, y = t[b, s.valid[b]], r[b, s.valid[b]]
             y = y - np.polyval(np.polyfit(own - own.mean(), y, 1), own - own.mean())
             parts.append(np.exp(-2j * np.pi * np.outer(tones, own)) @ y)
+        if not parts:
+            continue
         size = np.sqrt(len(parts) * np.sum(np.abs(parts) ** 2, axis=0))
         share += np.abs(np.sum(parts, axis=0)) / np.maximum(size, 1e-300) / len(s.runs)
     return float(share.max())

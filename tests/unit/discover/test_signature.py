@@ -174,3 +174,8 @@ class TestLock:
         for run, turned in zip(lone.runs, (0.0, np.pi, 0.0, 0.0), strict=True):
             run.release_tilt, run.block_turned = 0.1 if turned or run is lone.runs[0] else run.release_tilt, turned
         assert card.repeats(lone, self.tone(windows, [0.5] * 4)[..., 1]) is None
+
+    def test_runs_of_one_swing_have_no_tone(self):
+        made = experiment(Model.table_3_1(), [{}, {}], duration=1.0)
+        short = series(made, made.runs, 0.05, 0.09, 0.6)
+        assert short.first.all() and card.coherence(short, noise(short)[..., 0]) == 0.0
