@@ -6,7 +6,9 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
+from rockref.identify.sensitivity import Digits
 from rockref.identify.sensitivity_study import record
+from rockref.model.parameters import TABLE_3_1
 from rockref.report.figures import rendered
 from rockref.report.sensitivity_figures import sensitivity_figures
 from rockref.report.sensitivity_text import digits_table, horizons_table, print_sensitivity, sentences
@@ -34,8 +36,8 @@ def test_words_and_tables(study):
     assert digits_table(result).rows == [["K_N", "6e+07", "1", "30 %", "2", "4.0 %"]]
 
 
-def test_a_block_in_its_plane_is_said_to_say_nothing_of_digits(made_up):
-    result = record(made_up)
+def test_a_block_in_its_plane_is_said_to_say_nothing_of_digits(study):
+    result = record(study)
     assert "in its plane" not in " ".join(sentences(result))
     still = result | {"significant_digits": [d | {"change_stated": 0} for d in result["significant_digits"]]}
     assert sentences(still)[-1].startswith("The block stays in its plane")
@@ -43,16 +45,16 @@ def test_a_block_in_its_plane_is_said_to_say_nothing_of_digits(made_up):
     assert digits_table(endless).rows[0][5] == "∞" and "∞: about an axis" in digits_table(endless).note
 
 
-def test_parameters_without_digits_are_named(made_up):
-    said = sentences(record(made_up))
+def test_parameters_without_digits_are_named(study):
+    said = sentences(record(study))
     assert said[1].startswith("Without digits") and "theta_0" in said[1] and "K_N" not in said[1]
     digits = tuple(Digits(name, 1.0, 1, 2, 0.04, 0.3) for name in TABLE_3_1)
-    assert len(sentences(record(replace(made_up, digits=digits)))) == 1
+    assert len(sentences(record(replace(study, digits=digits)))) == 1
 
 
-def test_a_study_is_printed_whole(made_up):
+def test_a_study_is_printed_whole(study):
     out = io.StringIO()
-    print_sensitivity(Console(file=out, width=200), record(made_up))
+    print_sensitivity(Console(file=out, width=200), record(study))
     text = out.getvalue()
     assert "A small difference grows 10 times" in text and "beyond 3.0" in text
     (row,) = [line.split() for line in text.splitlines() if line.startswith("K_N")]
