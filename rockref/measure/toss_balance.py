@@ -235,7 +235,8 @@ def corner_ratios(k: Impacts) -> Measured:
         if len(a) > 4:
             spread = 1.4826 * np.median(np.abs(a - np.median(a)))
             values[name] = (float(np.median(a)), float(1.2533 * spread / np.sqrt(len(a))), "1")
-    tip = np.maximum(1.5 * k.r[:, 2] ** 2 / np.sum(k.r**2, axis=1) - 0.5, 0.0)
+    squares = np.sum(k.r**2, axis=1)
+    tip = np.maximum(1.5 * k.r[:, 2] ** 2 / np.where(squares > 0, squares, 1.0) - 0.5, 0.0)
     if len(tip) > 4 and np.ptp(tip) > LEAST_TURN:
         p, se, _, _ = robust(np.stack([1 - tip, tip], axis=1), restitution, np.arange(len(tip)))
         for name, v, s in zip(("restitution_on_a_face", "restitution_on_a_tip"), p, se, strict=True):

@@ -322,6 +322,38 @@ def test_ratios_are_those_of_the_corner_not_of_the_body():
     assert found.values["restitution"][0] == pytest.approx(np.median(-u2[:, 2] / u1[:, 2]))
 
 
+def turned(squares, restitution):
+    """Corners on a line to the origin with this cosine squared, that come straight down without a turn."""
+    k = sliding([[0.0, 0.0, -1.0]] * len(squares), [[0.0, 0.0, e] for e in restitution])
+    c = np.sqrt(np.array(squares))
+    return replace(k, r=0.08 * np.stack([np.sqrt(1 - c * c), 0 * c, -c], axis=1))
+
+
+def test_restitution_is_read_off_for_a_face_and_for_a_tip():
+    """0.6 where P_2 is 0 and 0.2 where it is 1; where a corner lies flatter than one of a face P_2 counts as zero."""
+    squares = np.array([1 / 3, 0.5, 2 / 3, 0.8, 1.0, 0.1])
+    tip = np.array([0.0, 0.25, 0.5, 0.7, 1.0, 0.0])
+    found = corner_ratios(turned(squares, 0.6 - 0.4 * tip)).values
+    assert found["restitution_on_a_face"] == (pytest.approx(0.6), pytest.approx(0.0, abs=1e-12), "1")
+    assert found["restitution_on_a_tip"] == (pytest.approx(0.2), pytest.approx(0.0, abs=1e-12), "1")
+
+
+@pytest.mark.parametrize(
+    "squares",
+    [[0.2, 0.25, 0.3, 0.4, 0.53], [1 / 3, 0.5, 2 / 3, 0.8]],
+    ids=["corners that are turned alike", "four corners"],
+)
+def test_no_slope_is_read_where_there_is_none_to_be_read(squares):
+    """P_2 from 0 to 0.295; and too few of all turns."""
+    found = corner_ratios(turned(squares, np.full(len(squares), 0.5)))
+    assert not {"restitution_on_a_face", "restitution_on_a_tip"} & set(found.values)
+
+
+def test_a_slope_is_read_from_a_range_of_three_tenths():
+    found = corner_ratios(turned([0.2, 0.25, 0.3, 0.4, 0.54], np.full(5, 0.5)))
+    assert found.values["restitution_on_a_tip"][0] == pytest.approx(0.5)
+
+
 def test_energy_change_is_that_of_both_motions():
     k, J = struck(3)
     before = [0.5 * v @ v + 0.5 * W @ np.diag(J) @ W for v, W in zip(k.v_before, k.W_before, strict=True)]
