@@ -97,6 +97,8 @@ TRIED = (
 def verdict_words(record: dict[str, Any]) -> list[str]:
     """The verdict, what this kind of verdict means, and the proof on held-out runs."""
     words = [diagnosis_text.sentence_of(record), diagnosis_text.MEANINGS.get(record["verdict"], "")]
+    if record["verdict"] == "something_else":
+        words.append(diagnosis_text.looks_like(record))
     e = record["error"]
     floor = e["noise_floor"]
     if record["amplitudes"]:

@@ -30,10 +30,34 @@ def sentence_of(d: dict[str, Any]) -> str:
     return d.get("sentence") or MEANINGS.get(d["verdict"], d["verdict"])
 
 
+#: What a moment of each parity does.
+PARITY_WORDS = {
+    "even": "pulling to the same side all the while",
+    "odd_in_velocity": "against the motion or with it",
+    "odd_in_side": "righting the block or pushing it over",
+    "odd_in_both": "other on the way out than on the way back",
+}
+
+
+def looks_like(d: dict[str, Any]) -> str:
+    """What the misfit looks like, in a sentence, for a reader who has to think of a cause himself."""
+    s = d["signature"]
+    parts = [f"about the {s['axis']} axis"]
+    if shares := s.get("stretch_shares"):
+        parts.append("in free arcs" if shares["free_arc"] >= shares["impact"] else "at main impacts")
+    if s.get("parity"):
+        parts.append(PARITY_WORDS[s["parity"]])
+    if s.get("locked_to") in ("release", "clock"):
+        parts.append("again with every release" if s["locked_to"] == "release" else "going on by the clock")
+    return f"The misfit is largest {', '.join(parts)}."
+
+
 def print_diagnosis(console: Console, d: dict[str, Any]) -> None:
     """Print a diagnosis from its JSON record."""
     say(console, f"{d['experiment']}: {d['verdict'].upper().replace('_', ' ')}. {sentence_of(d)}", "bold")
     say(console, MEANINGS.get(d["verdict"], ""))
+    if d["verdict"] == "something_else":
+        say(console, looks_like(d))
     if d["effects"]:
         say(console, "")
         for id in d["effects"]:

@@ -6,6 +6,7 @@ import pytest
 from rich.console import Console
 
 from rockref.discover.diagnosis_record import plain
+from rockref.discover.signature import PARITIES
 from rockref.report import diagnosis_text
 from tests.unit.discover import fakes
 
@@ -50,6 +51,32 @@ def test_with_one_the_share_of_the_gap_that_it_closes_is_told(record):
     bare = record["error"] | {"baseline": {"fit": 0.25, "holdout": None}, "with_effect": {"fit": 0.06, "holdout": None}}
     (row,) = [line.split() for line in said(record | {"error": bare}).splitlines() if line.startswith("gap to")]
     assert row[-3:] == ["95", "%", "–"]
+
+
+LOOKS = {
+    "axis": "main", "stretch_shares": {"free_arc": 0.9, "impact": 0.1}, "parity": "odd_in_side", "locked_to": "release",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "changes, sentence",
+    [
+        ({}, "about the main axis, in free arcs, righting the block or pushing it over, again with every release."),
+        ({"parity": None, "locked_to": "clock"}, "about the main axis, in free arcs, going on by the clock."),
+        ({"stretch_shares": {"free_arc": 0.2, "impact": 0.8}, "parity": None, "locked_to": "neither"},
+         "about the main axis, at main impacts."),
+        ({"axis": "transverse", "stretch_shares": {}, "parity": "even", "locked_to": None},
+         "about the transverse axis, pulling to the same side all the while."),
+    ],
+)  # fmt: skip
+def test_of_something_else_it_is_told_what_it_looks_like(record, changes, sentence):
+    unknown = plain(fakes.diagnosis("something_else").to_dict()) | {"signature": LOOKS | changes}
+    assert f"The misfit is largest {sentence}" in said(unknown)
+    assert "The misfit is largest" not in said(record)
+
+
+def test_every_parity_has_its_words():
+    assert set(diagnosis_text.PARITY_WORDS) == set(PARITIES)
 
 
 def test_a_gate_that_was_not_passed_is_told_with_care(record):
