@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from block import released
 
 from rockref.effects.base import Effect
-from rockref.effects.catalogue import EFFECTS
+from rockref.effects.catalogue import find
 from rockref.model.response import Response
 
 #: Windows of a batch, and their length [s]: those of a fit are 20 to 60 ms long.
@@ -47,7 +47,7 @@ def costs(ids=(), repeat: int = 60) -> list[dict]:
     law, rows = uses((), motion), []
     for name in ids or IN_THE_STEP:
         row: dict = {"effect": name}
-        for use, (run, steps) in uses((EFFECTS[name].typical(),), motion).items():
+        for use, (run, steps) in uses((find(name).typical(),), motion).items():
             plain, changed = least(law[use][0], run, repeat)
             row[use] = {"law_ns": plain / steps * 1e9, "ns": changed / steps * 1e9, "ratio": changed / plain}
         rows.append(row)

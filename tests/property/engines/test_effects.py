@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 pytest.importorskip("numba")
 
 import rockref
-from rockref.effects.catalogue import EFFECTS, in_step_order
+from rockref.effects.catalogue import find, in_step_order
 from rockref.engines.compiled import engine, slots
 from rockref.model.simulate import simulate as law
 from tests.property.engines.test_bits import assert_same_bits
@@ -28,10 +28,10 @@ def effects(draw, ids: tuple[str, ...]):
     made = []
     for id in draw(st.lists(st.sampled_from(ids), min_size=1, max_size=3, unique=True)):
         values = {}
-        for key, q in EFFECTS[id].quantities.items():
+        for key, q in find(id).quantities.items():
             anywhere = st.floats(q.low, q.high)
             values[key] = draw(st.one_of(st.sampled_from([q.absent, q.low, q.high]), anywhere))
-        made.append(EFFECTS[id](**values))
+        made.append(find(id)(**values))
     return in_step_order(made)
 
 
