@@ -51,11 +51,12 @@ UNEXPLAINED = 0.30
 #: A run contradicts the others where more than ALONE of its windows stay structured, and less than AT_PEACE of any
 #: other run's (decided: what moves the block moves it in every run).
 ALONE, AT_PEACE = 0.6, 0.1
-#: Share above which no second effect is looked for: the runs do not look like anything in the catalogue. Nor is one
-#: above MOST of the windows, where the first gained less than A_PART of what it left (decided: of lost packets, of a
-#: spinning wheel and of a ringing support 82 to 90 % stayed structured, and the first gained 0.12 to 0.22 of what was
-#: left; a spinning foot, of a pair, left 85 % and gained 0.72 of it).
-HOPELESS, MOST, A_PART = 0.9, 0.5, 0.25
+#: No second effect is looked for above MOST of the windows structured, where the first gained less than A_PART of what
+#: it left, nor above NEARLY_ALL of them, where it gained less than HALF: the runs do not look like anything in the
+#: catalogue (decided: of lost packets, of a spinning wheel and of a ringing support 82 to 90 % stayed structured, and
+#: the first gained 0.12 to 0.22 of what was left; of three pairs with a spinning foot 85 to 92 %, and it gained 0.72 to
+#: 0.88 of it).
+MOST, A_PART, NEARLY_ALL, HALF = 0.5, 0.25, 0.9, 0.5
 #: Mean loss of a window that is noise: the robust loss of white noise, less the five corrections (seen on
 #: simulated runs at their own parameters).
 NOISE = 0.97
@@ -136,7 +137,7 @@ def settles(before: float, after: float) -> bool:
 
 def is_hopeless(bad: float, gain: float, room: float) -> bool:
     """Whether no second effect can help: share of structured windows, gain of the first effect, what it left."""
-    return bad > HOPELESS or (bad > MOST and gain < A_PART * room)
+    return (bad > MOST and gain < A_PART * room) or (bad > NEARLY_ALL and gain < HALF * room)
 
 
 def contradicting(by_run: dict[str, float]) -> str | None:
