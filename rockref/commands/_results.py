@@ -1,12 +1,15 @@
 """What a command leaves behind beside what it prints: the record, the model, and a line for every file."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from rockref.api import Model
     from rockref.measure.notice import Notice
 
@@ -68,6 +71,32 @@ def keep(text: str, output: Path | None, model: "Model", save_model: Path | None
     if save_model is not None:
         model.save(save_model)
     return [path for path in (output, save_model) if path is not None]
+
+
+def with_files(found: Any) -> Callable[[list[Path]], str]:
+    """What makes JSON of a result with a `to_dict`, and of the files that were written."""
+    return lambda written: in_json(found.to_dict() | {"written": [str(path) for path in written]})
+
+
+@contextmanager
+def told(
+    as_json: bool, json_of: Callable[[list[Path]], str], words: "Callable[[Console], None]"
+) -> Iterator[list[Path]]:
+    """Give the list to which files are added as they are written; then tell what was found, and which files.
+
+    It is told even where a file cannot be written: minutes of work are not lost.
+    """
+    from rockref.commands._stages import console
+
+    written: list[Path] = []
+    try:
+        yield written
+    finally:
+        if as_json:
+            typer.echo(json_of(written))
+        else:
+            words(console())
+            say_written(written)
 
 
 def say_written(paths: Iterable[Path]) -> None:

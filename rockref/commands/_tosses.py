@@ -5,7 +5,7 @@ from pathlib import Path
 
 import typer
 
-from rockref.commands._results import in_json, keep, say_written, usable_files
+from rockref.commands._results import in_json, keep, say_written, told, usable_files, with_files
 
 
 def usable(report: Path | None) -> Path | None:
@@ -51,7 +51,7 @@ def diagnose_tosses(
 ) -> None:  # fmt: skip
     """Print what is missing in the model of tosses; exit code 1 if a gate fails."""
     from rockref.commands._models import models_and_others
-    from rockref.commands._stages import console, stages
+    from rockref.commands._stages import stages
     from rockref.discover.tosses.diagnose import diagnose
     from rockref.measure.tosses import load_tosses
     from rockref.model.errors import InputError
@@ -68,20 +68,13 @@ def diagnose_tosses(
         found = diagnose(tosses, given, progress=say)
     record = found.to_dict()
     text = in_json(record)
-    written: list[Path] = []
-    try:
+    with told(as_json, lambda written: text, lambda console: print_toss_diagnosis(console, record)) as written:
         written += keep(text, output, found.model, save_model)
         if folder is not None:
             from rockref.report.output import made_folder
             from rockref.report.toss_page import write_toss_diagnosis
 
             written.append(write_toss_diagnosis(record, made_folder(folder)))
-    finally:  # minutes of work are told even where they cannot be written
-        if as_json:
-            typer.echo(text)
-        else:
-            print_toss_diagnosis(console(), record)
-            say_written(written)
     if record["verdict"] == "not_trustworthy":
         raise typer.Exit(1)
 
@@ -91,7 +84,7 @@ def fit_to_tosses(
 ) -> None:
     """Fit the law and effects to the fit tosses, print the numbers, write the model; exit code 1 if a gate fails."""
     from rockref.commands._models import models_and_others
-    from rockref.commands._stages import console, stages
+    from rockref.commands._stages import stages
     from rockref.discover.tosses.fitting import fit_tosses
     from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_fit
@@ -102,16 +95,9 @@ def fit_to_tosses(
     given = models[0] if models else None
     with stages(f"fitting {path}", every_line=verbose) as say:
         found = fit_tosses(tosses, tuple(more), given, progress=say)
-    written: list[Path] = []
-    try:
+    with told(as_json, with_files(found), lambda console: print_toss_fit(console, found.to_dict())) as written:
         found.model.save(output)
         written.append(output)
-    finally:  # minutes of work are told even where they cannot be written
-        if as_json:
-            typer.echo(in_json(found.to_dict() | {"written": [str(path) for path in written]}))
-        else:
-            print_toss_fit(console(), found.to_dict())
-            say_written(written)
     if not found.passed:
         raise typer.Exit(1)
 
@@ -128,7 +114,7 @@ def add_to_model_of_tosses(
 ) -> None:
     """Fit an effect into a model of tosses, print the errors before and after, write the model."""
     from rockref.commands._models import known_files, named_models
-    from rockref.commands._stages import console, stages
+    from rockref.commands._stages import stages
     from rockref.discover.tosses.fitting import add_to_tosses
     from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_addition
@@ -140,8 +126,7 @@ def add_to_model_of_tosses(
     given = next(iter(named_models([model] if model else [], own)), None)
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = add_to_tosses(effect, tosses, given, progress=say)
-    record, written = found.to_dict(), list[Path]()
-    try:
+    with told(as_json, with_files(found), lambda console: print_toss_addition(console, found.to_dict())) as written:
         found.after.model.save(output)
         written.append(output)
         if folder is not None:
@@ -151,9 +136,3 @@ def add_to_model_of_tosses(
 
             models, names = [found.before.model, found.after.model], [f"without {effect}", f"with {effect}"]
             written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(folder)))
-    finally:  # minutes of work are told even where they cannot be written
-        if as_json:
-            typer.echo(in_json(record | {"written": [str(p) for p in written]}))
-        else:
-            print_toss_addition(console(), record)
-            say_written(written)

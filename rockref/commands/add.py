@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_name, in_json
+from rockref.commands._results import ExperimentFolder, folder_name
 
 
 def register(app: typer.Typer) -> None:
@@ -54,9 +54,10 @@ def add(
 
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
     from rockref.commands._models import check_step, known_files, named_models, say_idle
-    from rockref.commands._results import say_remarks, say_written, usable_files
+    from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.commands._stages import stages
     from rockref.discover.add import add as run_addition
+    from rockref.report.addition_text import print_addition
     from rockref.report.output import made_folder, usable_folder
 
     known_files([effect])
@@ -68,20 +69,10 @@ def add(
     with stages(f"adding {effect}", every_line=verbose) as say:
         found = run_addition(effect, experiment, given, seed, workers, progress=say)
     say_remarks(found.experiment.notices)
-    written: list[Path] = []
-    try:
+    with told(as_json, with_files(found), lambda console: print_addition(console, found)) as written:
         found.model.save(output)
         written.append(output)
         if folder is not None:
             from rockref.report.addition_page import write_addition
 
             written.append(write_addition(found, made_folder(folder)))
-    finally:  # minutes of work are told even where they cannot be written
-        if as_json:
-            typer.echo(in_json(found.to_dict() | {"written": [str(path) for path in written]}))
-        else:
-            from rockref.commands._stages import console
-            from rockref.report.addition_text import print_addition
-
-            print_addition(console(), found)
-            say_written(written)

@@ -58,10 +58,11 @@ def diagnose(
 
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
     from rockref.commands._models import check_step, models_and_others, say_idle
-    from rockref.commands._results import keep, say_remarks, say_written, usable_files
+    from rockref.commands._results import keep, say_remarks, told, usable_files
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
+    from rockref.report.diagnosis_text import print_diagnosis
     from rockref.report.output import made_folder, usable_folder
 
     models, candidates = models_and_others([model] if model else [], effect)
@@ -74,23 +75,13 @@ def diagnose(
         found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates)
     record = plain(found.to_dict())
     text = json.dumps(record, indent=1, allow_nan=False)
-    written: list[Path] = []
     say_remarks(found.experiment.notices)
-    try:
+    with told(as_json, lambda written: text, lambda console: print_diagnosis(console, record)) as written:
         written += keep(text, output, found.model, save_model)
         if folder is not None:
             from rockref.report.diagnosis_page import write_diagnosis
 
             with stages("the page"):
                 written.append(write_diagnosis(found, made_folder(folder)))
-    finally:  # minutes of work are told even where they cannot be written
-        if as_json:
-            typer.echo(text)
-        else:
-            from rockref.commands._stages import console
-            from rockref.report.diagnosis_text import print_diagnosis
-
-            print_diagnosis(console(), record)
-            say_written(written)
     if record["verdict"] == "not_trustworthy":
         raise typer.Exit(1)

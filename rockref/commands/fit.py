@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import ExperimentFolder, in_json
+from rockref.commands._results import ExperimentFolder
 
 
 def register(app: typer.Typer) -> None:
@@ -49,9 +49,10 @@ def fit(
 
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
     from rockref.commands._models import check_step, known_files, named_model, say_idle
-    from rockref.commands._results import say_remarks, say_written, usable_files
+    from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.commands._stages import stages
     from rockref.discover.fitting import fit_experiment
+    from rockref.report.fit_text import print_fit
 
     usable_files(output)
     known_files(effect)
@@ -63,18 +64,8 @@ def fit(
             experiment, tuple(effect) if effect else None, given, seed, workers, check=gates, progress=say
         )
     say_remarks(found.experiment.notices)
-    written: list[Path] = []
-    try:
+    with told(as_json, with_files(found), lambda console: print_fit(console, found)) as written:
         found.model.save(output)
         written.append(output)
-    finally:  # minutes of work are told even where they cannot be written
-        if as_json:
-            typer.echo(in_json(found.to_dict() | {"written": [str(path) for path in written]}))
-        else:
-            from rockref.commands._stages import console
-            from rockref.report.fit_text import print_fit
-
-            print_fit(console(), found)
-            say_written(written)
     if not found.passed:
         raise typer.Exit(1)

@@ -39,12 +39,13 @@ def plan(
       rockref plan --model model.toml --runs 0.117,0.1,0.117t --json > plan.json
     """
     from rockref.commands._models import models_and_others, say_idle
-    from rockref.commands._results import say_written, usable_files
+    from rockref.commands._results import told, usable_files
     from rockref.commands._stages import stages
     from rockref.discover.diagnosis_record import plain
     from rockref.discover.plan import plan as run_plan
     from rockref.discover.plan import releases_from
     from rockref.model.storage import write_text
+    from rockref.report.plan_text import print_plan
 
     usable_files(output)
     planned = releases_from(runs)
@@ -53,17 +54,7 @@ def plan(
     with stages("planning", every_line=verbose) as say:
         found = run_plan(given, planned, candidates or None, seed=seed, workers=workers, progress=say)
     text = json.dumps(plain(found.to_dict()), indent=1, allow_nan=False)
-    written: list[Path] = []
-    try:
+    with told(as_json, lambda written: text, lambda console: print_plan(console, found)) as written:
         if output is not None:
             write_text(output, text + "\n")
             written.append(output)
-    finally:  # minutes of work are told even where they cannot be written
-        if as_json:
-            typer.echo(text)
-        else:
-            from rockref.commands._stages import console
-            from rockref.report.plan_text import print_plan
-
-            print_plan(console(), found)
-            say_written(written)
