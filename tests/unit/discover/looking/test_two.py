@@ -93,10 +93,11 @@ def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "alone, gain, expected", [(0.6, 3000.0, True), (0.1, 3000.0, False), (0.6, 100.0, False), (0.95, 3000.0, False)]
+    "alone, gain, expected",
+    [(0.6, 3000.0, True), (0.1, 3000.0, False), (0.6, 100.0, False), (0.95, 3000.0, True), (0.95, 1000.0, False)],
 )
 def test_two_are_looked_for_where_one_leaves_too_much(monkeypatch, alone, gain, expected):
-    """It explains most windows, or next to nothing, or what is left looks like nothing that is known."""
+    """It explains most windows, or next to nothing; where nearly all are left, less than half will not do."""
     monkeypatch.setattr(diagnose, "room", lambda family: 3000.0)
     look = Look(left((), 0.9), [], {"rolling_resistance": gain})
     assert diagnose.leaves_too_much(look, left(("rolling_resistance",), alone)) == expected
