@@ -38,7 +38,8 @@ REPEATS = 0.5
 #: Releases that count as alike [rad]; decided: wires scatter by 0.02 degrees.
 ALIKE = 2e-3
 #: Where a tone is looked for, in steps that three seconds resolve [Hz]; and the coherence over the windows of a run
-#: from which on it is one (decided: without a tone public experiments have 0.25 to 0.30, with a base that shakes 0.41).
+#: from which on it is one (decided: without a tone public experiments have 0.25 to 0.30, with a base that shakes 0.42;
+#: so has a loose part that swings, but that repeats).
 TONES, TONE = (5.0, 100.0, 0.1), 0.38
 
 
