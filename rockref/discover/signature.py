@@ -30,8 +30,8 @@ PARITIES = {
 #: Functions of the distance from the apex in each parity: Legendre's polynomials of degree 0, 1, 2 on (0, 1).
 SHAPES = (np.ones_like, lambda u: 2 * u - 1, lambda u: 6 * u * u - 6 * u + 1)
 #: Slopes stand out of their noise by so many standard deviations, and so large a share of them has one parity, or none
-#: is named (decided: of the public experiments those with a drag, an eccentricity or a loose part have 0.8 to 1.0 of
-#: the right one; friction and a shaking base at most 0.13 of any).
+#: is named (decided: of the public experiments that with drag has 1.0 of the right one, the next 0.21; that with an
+#: eccentricity 0.65 and 0.20; a loose part at most 0.42 of any, a shaking base 0.02).
 STANDS_OUT, HAS_PARITY = 5.0, 0.5
 #: Misfits of two runs that were released alike which are so much alike are locked to the release (decided).
 REPEATS = 0.5

@@ -22,7 +22,7 @@ class OrientationDependentDamping(Effect):
     quantities = {
         "a": Quantity("1", 0.0, 0.1, 10.0, 1.0, "+", "damping of a tip over that of a corner of a face, less one", 0.0)
     }
-    sentence = "Pressed along its diagonal a corner works all the walls that meet in it, and loses more than on a face."
+    sentence = "How a corner is turned when it strikes decides what it loses: with its tip more than lying on a face."
     equation = (
         r"F^{(N)} = \max\left(K^{(N)}\xi + C^{(N)}\left(1 + a\,\max(P_2(\cos\phi),\,0)\right)\dot\xi,\ 0\right),\quad "
         r"\cos\phi = -r_z/\|r\|"
