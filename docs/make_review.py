@@ -57,14 +57,31 @@ EQUATIONS = {
     "M1": r"W\,[\mathrm{deg/s}] = \tfrac{180}{\pi} W",
 }
 
+#: What the source has of the rules to which it gives no number.
+SOURCES = {
+    "G1": 'only "m is the mass of the block (54 kg)"; the formula is that of any uniform cuboid',
+    "R1": "only that the block is released by a wire; the posture is decided",
+    "I1": "\"Simo's algorithm\", without formulas; they are those of Simo and Wong (1991), doi:10.1002/nme.1620310103",
+    "S1": "nothing; decided",
+    "K1": "in words: penetration length, its time derivative and sliding velocity of each node",
+    "T5": "nothing; decided",
+    "T1": 'before (3.6): "a trial friction force corresponding to a sticking condition"',
+    "T4": 'after (3.6): "both the friction force amplitude and the contact point position are updated"',
+    "A1": "nothing; statics of a rigid body",
+    "S2": "nothing; how a run is begun and recorded",
+    "M1": "the axes of Fig. 3.4: convected rotational velocities (crv) in deg/s",
+}
+SOURCES |= dict.fromkeys(("I2", "I3", "I4", "I5"), SOURCES["I1"]) | dict.fromkeys(("A2", "A3"), SOURCES["A1"])
+
 HEAD = """# The physics on one page
 
-This page is made from the sources by `docs/make_review.py`; it is not edited by hand, and a test compares it with them.
+This page is made from the code by `docs/make_review.py`; it is not edited by hand, and a test compares the two.
 It is what a physicist has to read: for each rule of the law, in the order in which data flows through a step, the
 equation, the code that is it, what had to be decided because the source is silent, and what holds the code to the
 equation. Symbols are those of [the nomenclature](reference/nomenclature.md). Layers of vectors: L0 parameters and
 geometry, L1 one contact point, L2 sums and moments, L3 rotations, L4 single steps, L5s and L5 runs, L7 the measured
-channel.
+channel. The source is chapter 3 of a thesis, known here as an excerpt (`CITATION.cff`). Numbers like (3.5a) are its
+own; names like K1 and T5 are those of this project, also for what the source says in words or not at all.
 
 Every rule is one undecorated function of the folder `rockref/model`. Tests that run whole trajectories hold all of them
 together and stand at the end."""
@@ -162,7 +179,7 @@ def section(rule: Rule) -> str:
     path, name, text = source_of(rule)
     code, docstring = without_docstring(text)
     parts = [f"## {rule.id}: {rule.says}", f"$$\n{EQUATIONS[rule.id]}\n$$"]
-    parts.append(f"`{name}` in `{path}`; source: {rule.equation}.")
+    parts.append(f"`{name}` in `{path}`. The source: {SOURCES.get(rule.id, rule.equation)}.")
     if docstring:
         parts.append("> " + docstring.split("\n\n")[0].replace("\n", " "))
     parts.append(f"```python\n{code}\n```")

@@ -65,7 +65,10 @@ def point_kinematics(x, Lambda, v, W, P, radius=None, plate=None) -> Kinematics:
 
 
 def kelvin_voigt(xi: np.ndarray, xi_rate: np.ndarray, K_N: np.ndarray, C_N: np.ndarray) -> np.ndarray:
-    """Rule N1: Kelvin-Voigt normal force without tension [N], for xi >= 0. All (..., n). Source: (3.5a)."""
+    """Rule N1: Kelvin-Voigt normal force without tension [N], for xi >= 0. All (..., n). Source: (3.5a).
+
+    The excerpt has lost the sign of relation in "if xi 0"; xi >= 0 is what (3.5b), xi < 0, leaves.
+    """
     F = K_N * xi + C_N * xi_rate
     return np.maximum(F, ZERO[F.dtype])  # (3.5a)
 
@@ -137,7 +140,11 @@ def norm(F: np.ndarray) -> np.ndarray:
 
 
 def sticks(size: np.ndarray, limit: np.ndarray) -> np.ndarray:
-    """Rule T2: sticking holds while the trial force, of this size, is inside the cone. All (..., n). Source: (3.6a)."""
+    """Rule T2: sticking holds while the trial force, of this size, is inside the cone. All (..., n). Source: (3.6a).
+
+    The excerpt prints "if v_slide = 0: F_T > mu_0 F_N"; it is read as the limit up to which a point sticks, as the text
+    has it: a point slides "if this trial force exceeds Coulomb's sliding threshold".
+    """
     return size <= limit  # (3.6a)
 
 
@@ -146,6 +153,10 @@ def radial_return(F_trial: np.ndarray, size: np.ndarray, stick: np.ndarray, mu_F
 
     `size` is the length of the trial force and `mu_F_N` the sliding force, both (..., n). A point above the plate has
     F_N = 0 and so no friction. Source: (3.6b).
+
+    The excerpt prints (3.6b) along the sliding velocity, -mu F_N v_slide / |v_slide|, and says that it is computed by
+    "a similar radial return mapping", which shortens the trial force. Decided: the return is the law; in an established
+    slide both point the same way, and where a slide begins or turns they differ.
     """
     one = stick.astype(size.dtype)
     scale = np.divide(mu_F_N, size, out=one, where=~stick)
