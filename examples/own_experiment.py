@@ -2,7 +2,7 @@
 
 Run it in an empty folder: ``python own_experiment.py`` writes `logger/` (what a logger might have exported; here it is
 simulated) and makes `my_block/` of it. Then: ``rockref compare my_block``. What is to be changed for records of your
-own stands in capitals and in `body_rates`.
+own stands in capitals, in `read` and in `body_rates`.
 """
 
 from __future__ import annotations

@@ -46,6 +46,7 @@ class ContactPoints:
 
     @property
     def n(self) -> int:
+        """How many points there are."""
         return self.P.shape[-2]
 
 
