@@ -42,6 +42,7 @@ def add(
     \b
     Example:
       rockref add rolling_resistance data/experiments/mystery-05 -o with_rolling.toml
+      rockref add cable_restraint data/experiments/mystery-10 -o with_cable.toml
       rockref add gyro_scale data/experiments/mystery-10 --model with_cable.toml -o with_both.toml --report report
       rockref compare data/experiments/mystery-05 --model table_3_1 --model with_rolling.toml
 

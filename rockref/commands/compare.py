@@ -43,6 +43,9 @@ def compare(
     Reads fit and holdout runs alike and says which is which: it judges nothing. Exit code 0, or 2 if the input cannot
     be used; with --check, 1 if a model leaves the band of noise and run-to-run spread before the second main impact.
 
+    Of a folder of tosses: errors of position and rotation over the frames, where they grow, and what needs no contact
+    model; with --model, --report and --json.
+
     \b
     Example:
       rockref compare data/experiments/mystery-01

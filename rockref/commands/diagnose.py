@@ -44,6 +44,9 @@ def diagnose(
     Fits the baseline and every candidate of the catalogue to the fit runs, confirms on the held-out runs. Exit code 0
     if there is a verdict (none is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
 
+    Of a folder of tosses: a staircase of effects, each with what it takes off the held-out error; without effects of
+    your own, --seed and --workers.
+
     \b
     Example:
       rockref diagnose data/experiments/mystery-05

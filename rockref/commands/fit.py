@@ -40,7 +40,7 @@ def fit(
       rockref fit data/experiments/mystery-08 --effect examples/my_effect.py:EddyBrake
       rockref fit data/experiments/mystery-08 --json > fit.json
 
-    A folder of tosses is fitted too, with --effect, --model, -o, -v and --json; see `rockref compare`.
+    A folder of tosses is fitted too, with --effect, --model, -o, -v and --json.
     """
     from rockref.measure.tosses import is_toss_folder
 
