@@ -32,7 +32,7 @@ def sensitivity(
     effect: OwnEffects = None,
     step: Annotated[
         list[float] | None,
-        typer.Option("--step", help="A time step in s; may be repeated. Default: those of Fig. 3.5."),
+        typer.Option("--step", help="A time step in s; may be repeated. Default: 1e-5, 3e-6, 1e-6, 3e-7."),
     ] = None,
     duration: Annotated[float, typer.Option(min=1.6, help="Length of the runs in s.")] = 6.0,
     trials: Annotated[int, typer.Option(min=2, max=MOST, help="Chromosomes with changed last digits.")] = 10,

@@ -20,7 +20,7 @@ from rockref.model.errors import InputError
 from rockref.model.parameters import GENES_12, TABLE_3_1, chromosome_12, from_chromosome_12
 from rockref.model.simulate import check
 
-#: The steps of Fig. 3.5 [s]; the source states that one of three is 3e-6 s. The finest is decided.
+#: Time steps [s]. Fig. 3.5 has three; the excerpt states 1e-5 and 3e-6 s, the finer ones are decided.
 STEPS = (1e-5, 3e-6, 1e-6, 3e-7)
 #: 1 mm of wire at the top of the block [rad].
 RELEASE_ERROR = float(np.radians(0.08))
