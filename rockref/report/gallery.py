@@ -88,6 +88,10 @@ def sign_in_words(kind: type[Effect], name: str) -> str:
     if q.sign == "+":
         brings_in = kind.switches is None or name in kind.switches
         return f"physical only above {q.absent:g}" if brings_in and finite else "positive"
+    if finite and q.least == q.absent:
+        return f"{q.absent:g} or more"
+    if finite and q.most == q.absent:
+        return f"{q.absent:g} or less"
     if q.least >= 0:
         return f"on either side of {q.absent:g}" if finite else "of any size"
     return "of either sign"
@@ -174,7 +178,12 @@ def page() -> str:
         "What may be added to the law. `rockref effects NAME` prints the same; `rockref simulate --effect WORDS` and",
         "a model file use it. Pictures show the block of Table 3.1, without the effect in grey and with it, at its",
         "typical size, in colour; on the right is the difference, with minus without, on a scale of its own. For",
-        "`foot_defects`, which makes eight points of four, grey is the four-point model.",
+        "`foot_defects`, which makes eight points of four, grey is the four-point model. They are drawn when the site",
+        "is built (`make docs`).",
+        "",
+        "*Absent* is the value at which a parameter changes nothing; *typical* the size at which an effect is shown,",
+        "and at which a search begins; *plausible* the range outside which a value is used with a remark; beyond its",
+        "hard limits it is refused. *Acts at* names the methods of [an effect's class](../howto/own_effect.md).",
     ]
     for question, answers in QUESTIONS.items():
         parts += ["", f"## {TITLES[question]}", "", f"The law: {answers[0].sentence}", "", f"$${answers[0].equation}$$"]

@@ -25,8 +25,8 @@ class DimensionDeviation(Effect):
     switches = ("width", "depth", "height")
     sentence = "A rounded or worn edge, or a wrong drawing: the feet stand closer together than the sides say."
     equation = (
-        r"P \to \mathrm{diag}(s_w, s_d, s_h)\,P,\quad "
-        r"J(w, d, h) \to J(s'_w w, s'_d d, s'_h h),\quad s' = 1 + \eta (s - 1)"
+        r"P \to \mathrm{diag}(s_b, s_d, s_h)\,P,\quad "
+        r"J(b, d, h) \to J(s'_b b, s'_d d, s'_h h),\quad s' = 1 + \eta (s - 1)"
     )
     source = "The model's source, Fig. 3.2 (what the sides enter: rules G1 and G2); a definition: no DOI"
     confounder = "inertia_deviation"

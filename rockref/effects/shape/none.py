@@ -11,5 +11,5 @@ class NoShapeEffect(Effect):
 
     question = "shape"
     sentence = "A uniform cuboid on point feet, centre of mass in the middle, plate normal everywhere (rules G1, G2)."
-    equation = r"J = \frac{m}{12}\,\mathrm{diag}(d^2+h^2,\ w^2+h^2,\ w^2+d^2)"
+    equation = r"J = \frac{m}{12}\,\mathrm{diag}(d^2+h^2,\ b^2+h^2,\ b^2+d^2)"
     source = 'The model\'s source, "Defects", Fig. 3.2b'

@@ -72,6 +72,8 @@ def test_effects_of_tosses_are_shown_without_a_simulation(capsys):
         ("gyro_scale", "of either sign; allowed is all finite numbers"),
         ("gyro_bandwidth", "of any size; allowed is above 0 Hz"),
         ("uneven_foot_friction", "on either side of 1; allowed is at least 0"),
+        ("spin_friction", "0 or more; allowed is at least 0, at most 1"),
+        ("dimension_deviation", "1 or less; allowed is at least 0, at most 1"),
     ],
 )
 def test_sign_and_hard_limits_are_shown(capsys, id, words):
