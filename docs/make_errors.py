@@ -24,8 +24,8 @@ error, the exit code is 2, and no output has been written. In Python it is a `ro
 
 Codes that begin with `W-` are remarks: the input was used, and something about it was noticed.
 
-A code keeps its meaning from version to version; the words may change. Words in braces stand for what was found. This
-page is made from the sources by `docs/make_errors.py`.
+A code keeps its meaning from version to version; the words may change. Words in braces stand for what was found or
+for what is allowed. This page is made from the code by `docs/make_errors.py`.
 """
 
 
@@ -49,7 +49,7 @@ def words(node: ast.expr) -> str | None:
                 parts.append(str(part.value))
             elif isinstance(part, ast.FormattedValue):
                 inside = words(part.value)
-                parts.append(inside if inside is not None else "{" + ast.unparse(part.value)[:40] + "}")
+                parts.append(inside if inside is not None else "{" + (stands_for(part.value) or "…") + "}")
         return "".join(parts)
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         left, right = words(node.left), words(node.right)
@@ -59,6 +59,26 @@ def words(node: ast.expr) -> str | None:
     if isinstance(node, ast.Subscript):  # a text cut to a length
         return words(node.value)
     return None
+
+
+#: Words for names that say little to who does not read the code.
+SAID = {"e": "error", "__name__": "kind", "strerror": "reason", "self": "…"}
+
+
+def stands_for(node: ast.AST) -> str:
+    """A word for what is put into a text: the first name in it; empty where there is none."""
+    match node:
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return SAID.get(name, name.lower())
+        case ast.Call(func=ast.Name(id="len")):
+            return "n"
+        case ast.Call(args=[first, *_]):
+            return stands_for(first)
+        case ast.Call(func=ast.Attribute(value=whose)):
+            return stands_for(whose)
+        case ast.Constant():
+            return ""
+    return next((word for part in ast.iter_child_nodes(node) if (word := stands_for(part))), "")
 
 
 def assigned(tree: ast.AST) -> list[tuple[int, str, str]]:

@@ -10,6 +10,7 @@ from rockref.commands._results import folder_name
 
 HELP = """Test the discoverer on sealed hidden effects.
 
+\b
 Example:
   rockref blind make blind --seed 7 --cases 12
   rockref blind score blind

@@ -40,11 +40,11 @@ def register(app: typer.Typer) -> None:
 
 
 def conform(
-    target: Annotated[str, typer.Argument(help="What is judged, or what is done; see below.")] = "numpy",
+    target: Annotated[str, typer.Argument(help="What is judged, or what is done; see above.")] = "numpy",
     rest: Annotated[list[str] | None, typer.Argument(help="Program and its arguments, or files.")] = None,
     layers: Annotated[str | None, typer.Option(help="Some of L0,L1,L2,L3,L4,L5s,L5,L6,L7,LE; all by default.")] = None,
     profile: Annotated[
-        str | None, typer.Option(help="float64, float32, scheme (another integrator); default: what it says.")
+        str | None, typer.Option(help="float64, float32, scheme (another integrator); default: the backend's own.")
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Small layers only, no trajectories, no properties.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,

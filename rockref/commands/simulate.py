@@ -34,7 +34,7 @@ def simulate(
 ) -> None:
     """Simulate a release and write time, body rates, pose, point forces and contacts.
 
-    The columns carry their units; rates are those that the gyroscope shows, an ideal one without sensor effects. A
+    The columns carry their units; rates are those of an ideal gyroscope, but for the sensor effects of the model. A
     block that overturns is a result, and said so.
 
     \b
