@@ -4,8 +4,8 @@
     rockref conform exe python examples/backend_numpy.py        (the same as a program that speaks JSON lines)
 
 Only `simulate` is mandatory. Every other method of `Backend` is a piece that the judge asks by itself, so that it can
-name the wrong
-equation. One function per rule; the rule's id stands in its docstring. SI units throughout; arrays are float64.
+name the wrong equation. One function per rule; the rule's id stands in its docstring. SI units throughout; arrays are
+float64.
 """
 
 import numpy as np
