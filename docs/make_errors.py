@@ -62,7 +62,7 @@ def words(node: ast.expr) -> str | None:
 
 
 #: Words for names that say little to who does not read the code.
-SAID = {"e": "error", "__name__": "kind", "strerror": "reason", "self": "…"}
+SAID = {"e": "error", "__name__": "kind", "__dataclass_fields__": "names", "strerror": "reason", "self": "…"}
 
 
 def stands_for(node: ast.AST) -> str:

@@ -26,9 +26,10 @@ and nothing else on standard output.
 
 HEAD_OF_API = """# From Python
 
-What `import rockref` gives, written from the sources by `docs/make_reference.py`. It loads NumPy and nothing else. SI
+What `import rockref` gives, written from the code by `docs/make_reference.py`. It loads NumPy and nothing else. SI
 units throughout; a leading `...` in a shape stands for axes of a batch. Further functions are imported from where they
-live ([The house](../explanation/house.md) has the folders): their docstrings say shapes, units and errors in the same way.
+live ([the house](../explanation/house.md) has the folders): their docstrings say shapes, units and errors in the same
+way.
 """
 
 

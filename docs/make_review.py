@@ -61,7 +61,7 @@ EQUATIONS = {
 SOURCES = {
     "G1": 'only "m is the mass of the block (54 kg)"; the formula is that of any uniform cuboid',
     "R1": "only that the block is released by a wire; the posture is decided",
-    "I1": "\"Simo's algorithm\", without formulas; they are those of Simo and Wong (1991), doi:10.1002/nme.1620310103",
+    "I1": '"Simo\'s algorithm", without formulas; they are those of Simo and Wong (1991), doi:10.1002/nme.1620310103',
     "S1": "nothing; decided",
     "K1": "in words: penetration length, its time derivative and sliding velocity of each node",
     "T5": "nothing; decided",
