@@ -50,10 +50,12 @@ def question(experiment: Path, base: Model | None = None, genes: int = 12, searc
     data = load_experiment(experiment, uses=("fit",))
     targets = targets_of(data)
     check_searched(base, genes)
-    model = (base or Model.table_3_1()).replace(
-        mass=data.mass, width=data.width, depth=data.width, height=data.height, points="eight_points", effects=()
-    )
     chosen = chosen_runs(targets, search_runs)
+    # Release angles are counted from the model's: it has to be that about which the gene of the angle is searched.
+    model = (base or Model.table_3_1()).replace(
+        mass=data.mass, width=data.width, depth=data.width, height=data.height, points="eight_points", effects=(),
+        theta_0=chosen[0].tilt,
+    )  # fmt: skip
     space = (space_12 if genes == 12 else space_54)(model, chosen[0].tilt)
     return Question(experiment, targets, chosen, space, data.baseline, data.notices)
 

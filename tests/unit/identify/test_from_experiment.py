@@ -2,12 +2,14 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rockref.identify.campaign import campaign
@@ -65,6 +67,17 @@ def test_the_number_of_workers_changes_no_bit(control, tmp_path, monkeypatch):
         ends.append(json.dumps(record).encode() + b"".join(p.read_bytes() for p in sorted(folder.iterdir())))
         assert {p.name for p in folder.iterdir()} == {"model.toml", "search.json", "signals_1.json"}
     assert ends[0] == ends[1]
+
+
+def test_release_angles_are_counted_from_the_stated_tilt(control, tmp_path):
+    """Of an experiment that is not released at the angle of Table 3.1, too: there the search had gone astray."""
+    folder = tmp_path / "other_tilt"
+    shutil.copytree(control, folder)
+    toml = folder / "experiment.toml"
+    toml.write_text(toml.read_text().replace("release_tilt_rad = 0.117", "release_tilt_rad = 0.116"))
+    asked = question(folder)
+    assert asked.chosen[0].tilt == 0.116 == asked.space.model.parameters.theta_0
+    assert asked.space.values(np.full(12, 0.5))[-1] == pytest.approx(0.116)
 
 
 def test_a_number_of_genes_that_is_not_known_is_refused(control):
