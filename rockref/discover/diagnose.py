@@ -13,7 +13,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover import verdict as rules
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.evidence import HeldOut, held_out, rms_deg_s
+from rockref.discover.fit.evidence import Losses, held_out, rms_deg_s
 from rockref.discover.fit.families import (
     Family,
     amplitudes,
@@ -131,8 +131,12 @@ def diagnose(
     base = baseline_model(experiment, model)
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say, own=known)
     setup, sets, seen = suspects(setup)
-    null, start = beginning(setup, sets, seen)
+    null, start, aside = beginning(setup, sets, seen)
     start, looks = grown(setup, start, seed, say)
+    if aside is not None and room(start) > rules.SECOND_ROOM:
+        start, looks = better_course(start, looks, *grown(setup, aside, seed, say), say)
+    held = load_experiment(path, uses=(FIT, HOLDOUT))
+    start = proven(setup, held, start, looks, say)
     if start.effects and not looks:
         # What the release named leaves no room for a look, in which it would have been fitted to its end.
         start = finished(setup, start, seed)
@@ -146,12 +150,11 @@ def diagnose(
     if not start.effects:
         # Nothing was found: the baseline itself has to be taken down to what it can reach before that is said.
         null = start = refit(null, 2 * POLISH, seed)
-    held = load_experiment(path, uses=(FIT, HOLDOUT))
     return conclude(setup, held, null, start, looks, seen, begun)
 
 
-def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Family, Family]:
-    """The plain baseline, and what is built on: it, or a suspect of the releases that does better.
+def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Family, Family, Family | None]:
+    """The plain baseline, what is built on (it, or a suspect of the releases that does better), and who was set aside.
 
     Where the releases are far from the baseline and a suspect explains them, the baseline gets few iterations at first.
     """
@@ -169,7 +172,8 @@ def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Fa
     null, start = families[0], min(families, key=mean_loss)
     if "flat_top" in seen:
         # Nobody has to infer this: it is in the records.
-        return null, next(f for f in families if f.effects == ("gyro_saturation",))
+        return null, next(f for f in families if f.effects == ("gyro_saturation",)), None
+    suspect = min(families[1:], key=mean_loss, default=None)
     if start.effects and structured(start) > DOUBTFUL:
         # A sensor that explains the release and not what follows may stand in for a load: the baseline gets its turn.
         null = Family((), *baseline(setup))
@@ -178,7 +182,20 @@ def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Fa
         better = gain_over(null, start) > rules.DETECTED
     else:
         better = mean_loss(start) * NO_WORSE < mean_loss(null)
-    return null, start if better else null
+    return (null, start, None) if better else (null, null, suspect)
+
+
+def better_course(
+    start: Family, looks: list[Look], other: Family, others: list[Look], say: Callable[[str], None]
+) -> tuple[Family, list[Look]]:
+    """Of what grew from the plain baseline and from a suspect that was set aside the one that explains more.
+
+    A release that is pushed explains the releases, and nothing of what follows where the contact is another one, too;
+    from the baseline a drift took its place, and left 1585 units (decided: as much as a second effect has to gain).
+    """
+    gain = gain_between(start, other)
+    say(f"  {' + '.join(other.effects)} in the place of {' + '.join(start.effects) or 'nothing'}: gain {gain:.0f}")
+    return (other, others) if gain > rules.SECOND else (start, looks)
 
 
 def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) -> tuple[Family, list[Look]]:
@@ -223,8 +240,37 @@ def settled_by_two(setup: Setup, look: Look, found: Family, say: Callable[[str],
         return None
     best = pair.order[0]
     first, second = best.effects
-    there = rules.is_detected(pair.gains[second], min(size_of(best, first), size_of(best, second)), second=True)
+    sizes = size_of(best, first), size_of(best, second)
+    # What this is counted over was not taken to its end.
+    there = pair.gains[second] > rules.PLAIN_SECOND and min(sizes) > rules.SECOND_SIZE
     return pair if there and rules.settles(structured(found), structured(best)) else None
+
+
+def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look], say: Callable[[str], None]) -> Family:
+    """A pair, or its first effect alone where the second gains little and a rival or the held-out runs say no.
+
+    Effects that were found together at the release are left as they are.
+    """
+    if len(pair.effects) < 2 or not looks or len(looks[-1].kept.effects) != 1:
+        return pair
+    alone, gains, second = looks[-1].kept, looks[-1].gains, pair.effects[-1]
+    gain = gains[second]
+    if gain > rules.PLAIN_SECOND:
+        return pair
+    if rivals := [id for id, g in gains.items() if id not in pair.effects and g > rules.told_apart(gain)]:
+        say(f"  {second} is not told apart from {', '.join(rivals)}")
+        return alone
+
+    def fitted(f: Family) -> Losses:
+        return Losses(f.point.loss, f.fit.series.count, f.fit.series.run_of)
+
+    def held(f: Family) -> Losses:
+        return held_out(setup, f.fit, f.point, experiment, f.effects)
+
+    on_fitted = float(np.mean(held_gains(fitted(alone), fitted(pair), rules.SHOWN)))
+    on_held = held_gains(held(alone), held(pair), rules.SHOWN)
+    say(f"  {second}: the loss falls by {on_fitted:.3f}, held out by {' '.join(f'{g:.3f}' for g in on_held)}")
+    return pair if rules.is_proven(on_fitted, on_held) else alone
 
 
 def without(setup: Setup, family: Family, effect: str) -> Family:
@@ -342,15 +388,15 @@ def to_be_sure(setup: Setup, null: Family, final: Family, decision: rules.Decisi
     return rules.separating(decision)
 
 
-def held_gains(plain: HeldOut, other: HeldOut) -> list[float]:
-    """By how much the loss falls on each held-out run (1 is noise, 3 the most that a window counts).
+def held_gains(plain: Losses, other: Losses, most: float = 3.0) -> list[float]:
+    """By how much the loss falls on each run (1 is noise, `most` the most that a window counts).
 
     The windows of the two fits may be cut differently.
     """
     found = []
     for i in np.unique(plain.run_of):
         a, b = plain.run_of == i, other.run_of == i
-        worse = np.minimum(2 * plain.loss[a] / plain.count[a], 3.0)
-        better = np.minimum(2 * other.loss[b] / other.count[b], 3.0)
+        worse = np.minimum(2 * plain.loss[a] / plain.count[a], most)
+        better = np.minimum(2 * other.loss[b] / other.count[b], most)
         found.append(float(np.mean(worse) - np.mean(better)))
     return found

@@ -32,12 +32,18 @@ def rms_deg_s(fit: Fit, point: Point) -> float:
 
 
 @dataclass
-class HeldOut:
-    """Held-out runs seen by a model whose shared parameters are fixed: loss per window, rms."""
+class Losses:
+    """Loss, number of values, and run of each window."""
 
     loss: np.ndarray
     count: np.ndarray
     run_of: np.ndarray
+
+
+@dataclass
+class HeldOut(Losses):
+    """Held-out runs seen by a model whose shared parameters are fixed, and their RMS in deg/s."""
+
     rms: float
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from rockref.discover import diagnose
 from rockref.discover.diagnose import beginning, ranked_by, without
+from rockref.discover.fit.evidence import Losses
 from rockref.discover.looking.look import Look
 from rockref.effects import catalogue
 from tests.unit.discover.bowls import WINDOWS, Bowl, family, series
@@ -48,8 +49,9 @@ def test_what_the_release_suggested_is_built_on_if_it_explains_what_follows(monk
     own = SimpleNamespace(prior=1.0)
     setup = SimpleNamespace(workers=1, parameters=lambda effects: [own] * (1 + len(effects)))
     seen = {"loss": 1.0, "z": np.zeros(1), "starts": {("gyro_scale",): np.zeros(2)}}
-    null, start = beginning(setup, [(), ("gyro_scale",)], seen)
+    null, start, aside = beginning(setup, [(), ("gyro_scale",)], seen)
     assert (null.effects, start.effects) == ((), builds_on)
+    assert (aside is None) if builds_on else (aside.effects == ("gyro_scale",))
     assert asked == [(), ("gyro_scale",)] + [()] * (sensor > 1.5)
 
 
@@ -72,8 +74,9 @@ def test_the_flat_top_of_the_records_decides_for_the_stops_of_the_gyroscope(monk
     monkeypatch.setattr(diagnose, "baseline", baseline)
     setup = SimpleNamespace(workers=1, parameters=lambda effects: [SimpleNamespace(prior=1.0)] * (1 + len(effects)))
     seen = {"loss": 1.0, "z": np.zeros(1), "flat_top": 0.5}
-    null, start = beginning(setup, [(), ("gyro_saturation",)], seen)
+    null, start, aside = beginning(setup, [(), ("gyro_saturation",)], seen)
     assert (null.effects, start.effects) == ((), ("gyro_saturation",)), "though the baseline fits better"
+    assert aside is None
 
 
 @pytest.mark.parametrize("floor, builds_on", [(1.2, ("gyro_scale",)), (1.05, ())])
@@ -168,6 +171,34 @@ def test_a_pair_has_to_be_there_and_to_settle(course, gain, rest, taken):
     assert found is (pair if taken else None)
 
 
+@pytest.mark.parametrize(
+    "gains, held, ends",
+    [
+        ({"quadratic_drag": 950.0}, 0.0, BOTH),  # it gains enough
+        ({"quadratic_drag": 500.0}, 0.3, BOTH),  # the held-out runs show it
+        ({"quadratic_drag": 500.0}, 0.1, LEVER),  # they show little of it
+        ({"quadratic_drag": 500.0, "adhesion": 480.0}, 0.3, LEVER),  # a rival does as well
+        ({"quadratic_drag": 500.0, "adhesion": 440.0, "rolling_resistance": 490.0}, 0.3, BOTH),
+    ],
+)
+def test_a_second_effect_that_gains_little_has_to_be_shown_by_the_held_out_runs(monkeypatch, gains, held, ends):
+    alone, pair = left(LEVER, 0.0, room=0.4), left(BOTH, 0.0)
+
+    def held_out(setup, fit, point, experiment, effects):
+        loss = 1.5 - (held if effects == BOTH else 0.0)
+        return Losses(np.full(8, loss * 50), np.full(8, 100), np.repeat([0, 1], 4))
+
+    monkeypatch.setattr(diagnose, "held_out", held_out)
+    look = Look(alone, [pair], gains)
+    assert diagnose.proven(None, None, pair, [look], lambda line: None).effects == ends
+
+
+def test_effects_that_the_release_shows_need_no_other_proof():
+    pair = left(BOTH, 0.0)
+    assert diagnose.proven(None, None, pair, [], lambda line: None) is pair
+    assert diagnose.proven(None, None, pair, [Look(pair, [], {})], lambda line: None) is pair
+
+
 @pytest.fixture
 def whole(monkeypatch):
     """A diagnosis whose every step is made up; returns the null, the end, and what was done between."""
@@ -182,7 +213,7 @@ def whole(monkeypatch):
         monkeypatch.setattr(diagnose, "load_experiment", lambda path, uses: SimpleNamespace(fit_runs=lambda: ()))
         monkeypatch.setattr(diagnose, "baseline_model", lambda experiment, model: None)
         monkeypatch.setattr(diagnose, "suspects", lambda setup: (setup, [()], {}))
-        monkeypatch.setattr(diagnose, "beginning", lambda setup, sets, seen: (null, null))
+        monkeypatch.setattr(diagnose, "beginning", lambda setup, sets, seen: (null, null, None))
         monkeypatch.setattr(diagnose, "grown", lambda setup, begun, seed, say: (start or begun, looks))
         monkeypatch.setattr(diagnose, "finished", noted("finished", lambda setup, f, seed: f))
         monkeypatch.setattr(diagnose, "without", noted("without", lambda setup, f, effect: left((effect,), 0.1)))
@@ -209,6 +240,28 @@ def test_of_a_pair_what_came_to_nothing_is_left_out_and_a_rival_of_the_first_is_
     pair.point.z[2] = 0.01
     _, final, done = whole(pair, looks)
     assert final.effects == ("quadratic_drag",) and done == ["without"]
+
+
+@pytest.mark.parametrize("room, taken", [(0.0, BOTH), (0.2, LEVER)])
+def test_of_two_courses_the_one_that_explains_more_is_taken(room, taken):
+    course, other = (left(LEVER, 0.0, room=0.2), []), (left(BOTH, 0.0, room=room), [])
+    assert diagnose.better_course(*course, *other, lambda line: None)[0].effects == taken
+
+
+@pytest.mark.parametrize("rest, courses, ends", [(0.3, [(), LEVER], BOTH), (0.0, [()], ("adhesion",))])
+def test_a_suspect_that_was_set_aside_gets_its_course_where_much_is_left(monkeypatch, whole, rest, courses, ends):
+    begun = []
+
+    def grown(setup, start, seed, say):
+        begun.append(start.effects)
+        return (left(BOTH, 0.0), []) if start.effects else (left(("adhesion",), 0.0, room=rest), [])
+
+    whole(None, [])
+    monkeypatch.setattr(diagnose, "grown", grown)
+    monkeypatch.setattr(diagnose, "beginning", lambda *a: (left((), 0.9), left((), 0.9), left(LEVER, 0.5)))
+    monkeypatch.setattr(diagnose, "proven", lambda setup, held, start, looks, say: start)
+    _, final = diagnose.diagnose("folder")
+    assert begun == courses and final.effects == ends
 
 
 def test_before_nothing_is_said_to_be_missing_the_baseline_goes_as_far_as_it_can(whole):

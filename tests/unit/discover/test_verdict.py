@@ -84,6 +84,28 @@ def test_detection_asks_for_gain_and_size(second):
     assert not is_detected(gain - 2, size, second) and not is_detected(gain, size - 0.02, second)
 
 
+@pytest.mark.parametrize(
+    "held, proven",
+    [
+        ([0.1, 0.12], True),
+        ([0.04, 0.07], True),
+        ([0.03, 0.06], False),
+        ([0.3, -0.01], False),
+        ([0.3, 0.0], False),
+        ([], False),
+    ],
+)
+def test_a_second_effect_is_proven_by_every_held_out_run_and_half_of_what_the_fitted_ones_gain(held, proven):
+    assert rules.is_proven(0.1, held) == proven
+
+
+def test_a_rival_is_told_apart_by_a_twentieth_or_by_what_fits_end_short_of():
+    assert rules.told_apart(2000.0) == 1900.0
+    assert rules.told_apart(300.0) == 270.0
+    assert rules.told_apart(300.0, 100.0) == 200.0
+    assert rules.told_apart(20.0) == 0.0
+
+
 def test_second_effect_must_settle_the_windows():
     assert settles(0.5, 0.1) and settles(0.04, 0.03)
     assert not settles(0.125, 0.111)
