@@ -21,6 +21,11 @@ def folder_name(text: str | Path) -> Path:
     return Path(text)
 
 
+def folder_option(*names: str, help: str) -> Any:
+    """The option for a folder that a command writes into."""
+    return typer.Option(*names, parser=folder_name, metavar="FOLDER", help=help)
+
+
 #: What every command on an experiment takes.
 ExperimentFolder = Annotated[
     Path,

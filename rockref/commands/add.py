@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_name
+from rockref.commands._results import ExperimentFolder, folder_option
 
 
 def register(app: typer.Typer) -> None:
@@ -24,10 +24,7 @@ def add(
     output: Annotated[Path, typer.Option("--output", "-o", help="Where the new model goes.")] = Path(
         "with_effect.toml"
     ),
-    report: Annotated[
-        Path | None,
-        typer.Option("--report", parser=folder_name, metavar="FOLDER", help="Folder for page and figure."),
-    ] = None,
+    report: Annotated[Path | None, folder_option("--report", help="Folder for page and figure.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,

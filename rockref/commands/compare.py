@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_name, in_json
+from rockref.commands._results import ExperimentFolder, folder_option, in_json
 
 
 def register(app: typer.Typer) -> None:
@@ -24,13 +24,7 @@ def compare(
     ] = None,
     effect: OwnEffects = None,
     report: Annotated[
-        Path | None,
-        typer.Option(
-            "--report",
-            parser=folder_name,
-            metavar="FOLDER",
-            help="Folder for the page and the figures; made if it is not there.",
-        ),
+        Path | None, folder_option("--report", help="Folder for the page and the figures; made if it is not there.")
     ] = None,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself) or numba (compiled).")] = "auto",
     check: Annotated[

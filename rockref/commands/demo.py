@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_name
+from rockref.commands._results import folder_option
 
 
 def register(app: typer.Typer) -> None:
@@ -16,10 +16,7 @@ def register(app: typer.Typer) -> None:
 
 
 def demo(
-    out: Annotated[
-        Path,
-        typer.Option("--out", parser=folder_name, metavar="FOLDER", help="Folder for the page and the figures."),
-    ] = Path("demo_out"),
+    out: Annotated[Path, folder_option("--out", help="Folder for the page and the figures.")] = Path("demo_out"),
     data: Annotated[Path | None, typer.Option("--data", help="Folder of the shipped experiments.")] = None,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself, minutes) or numba (compiled).")] = "auto",
 ) -> None:

@@ -1,12 +1,11 @@
 """`rockref diagnose`: which effect is missing."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from rockref.commands._results import ExperimentFolder, folder_name
+from rockref.commands._results import ExperimentFolder, folder_option
 
 
 def register(app: typer.Typer) -> None:
@@ -24,13 +23,7 @@ def diagnose(
         typer.Option("--effect", "-e", help="An effect of your own, path/to/file.py:Class, to be tried, too."),
     ] = None,
     report: Annotated[
-        Path | None,
-        typer.Option(
-            "--report",
-            parser=folder_name,
-            metavar="FOLDER",
-            help="Folder for the page (index.html); made if it is not there.",
-        ),
+        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
     ] = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
     save_model: Annotated[Path | None, typer.Option("--save-model", help="Write the best model there.")] = None,
@@ -61,7 +54,7 @@ def diagnose(
 
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
     from rockref.commands._models import check_step, models_and_others, say_idle
-    from rockref.commands._results import keep, say_remarks, told, usable_files
+    from rockref.commands._results import in_json, keep, say_remarks, told, usable_files
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
@@ -77,7 +70,7 @@ def diagnose(
     with stages(f"diagnosing {experiment}", every_line=verbose) as say:
         found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates)
     record = plain(found.to_dict())
-    text = json.dumps(record, indent=1, allow_nan=False)
+    text = in_json(record)
     say_remarks(found.experiment.notices)
     with told(as_json, lambda written: text, lambda console: print_diagnosis(console, record)) as written:
         written += keep(text, output, found.model, save_model)

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_name, in_json
+from rockref.commands._results import ExperimentFolder, folder_option, in_json
 
 # decided: of a hundred thousand runs of 3e5 steps, at 27 million steps a second, a generation takes twenty minutes.
 MOST = 100_000
@@ -20,14 +20,7 @@ def register(app: typer.Typer) -> None:
 def identify(
     experiment: ExperimentFolder,
     output: Annotated[
-        Path,
-        typer.Option(
-            "--output",
-            "-o",
-            parser=folder_name,
-            metavar="FOLDER",
-            help="Folder for the result, the model and the checkpoints.",
-        ),
+        Path, folder_option("--output", "-o", help="Folder for the result, the model and the checkpoints.")
     ] = Path("identified"),
     model: Annotated[
         str, typer.Option("--model", "-m", help="table_3_1 or a model.toml: block and what is not searched.")

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_name
+from rockref.commands._results import folder_name, folder_option
 
 
 def register(app: typer.Typer) -> None:
@@ -23,12 +23,7 @@ def import_(
             help="A clone of github.com/DAIRLab/contact-nets, or its .pt files.",
         ),
     ],
-    output: Annotated[
-        Path,
-        typer.Option(
-            "--output", "-o", parser=folder_name, metavar="FOLDER", help="Folder for the tosses; a new or empty one."
-        ),
-    ],
+    output: Annotated[Path, folder_option("--output", "-o", help="Folder for the tosses; a new or empty one.")],
 ) -> None:
     """Make a folder of tosses from a clone of a public repository.
 

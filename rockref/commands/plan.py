@@ -1,6 +1,5 @@
 """`rockref plan`: what a campaign could show before it is made."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
@@ -39,9 +38,8 @@ def plan(
       rockref plan --model model.toml --runs 0.117,0.1,0.117t --json > plan.json
     """
     from rockref.commands._models import models_and_others, say_idle
-    from rockref.commands._results import told, usable_files
+    from rockref.commands._results import in_json, told, usable_files
     from rockref.commands._stages import stages
-    from rockref.discover.diagnosis_record import plain
     from rockref.discover.plan import plan as run_plan
     from rockref.discover.plan import releases_from
     from rockref.model.storage import write_text
@@ -53,7 +51,7 @@ def plan(
     say_idle(given, model)
     with stages("planning", every_line=verbose) as say:
         found = run_plan(given, planned, candidates or None, seed=seed, workers=workers, progress=say)
-    text = json.dumps(plain(found.to_dict()), indent=1, allow_nan=False)
+    text = in_json(found.to_dict())
     with told(as_json, lambda written: text, lambda console: print_plan(console, found)) as written:
         if output is not None:
             write_text(output, text + "\n")

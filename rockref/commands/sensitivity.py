@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import folder_name, in_json
+from rockref.commands._results import folder_option, in_json, say_written
 
 # decided: the rates of a thousand runs of 6 s at 2 kHz fill 0.3 GB, and a standard deviation is known to 2 %.
 MOST = 1_000
@@ -20,13 +20,7 @@ def register(app: typer.Typer) -> None:
 def sensitivity(
     output: Annotated[
         Path,
-        typer.Option(
-            "--output",
-            "-o",
-            parser=folder_name,
-            metavar="FOLDER",
-            help="Folder for the figures and the result; made if it is not there.",
-        ),
+        folder_option("--output", "-o", help="Folder for the figures and the result; made if it is not there."),
     ] = Path("sensitivity"),
     model: Annotated[str, typer.Option("--model", "-m", help="table_3_1 or a model.toml.")] = "table_3_1",
     effect: OwnEffects = None,
@@ -79,5 +73,4 @@ def sensitivity(
         typer.echo(text)
         return
     print_sensitivity(console(), result)
-    for path in written:
-        typer.echo(f"wrote {path}")
+    say_written(written)
