@@ -16,7 +16,7 @@ from rockref.discover.fit.errors import FIT_STRETCH, Errors, errors_of
 from rockref.discover.fit.families import Family, mean_loss
 from rockref.discover.fit.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of, start_from
 from rockref.discover.fit.gates import Gate, gates, other_start, starts_agree
-from rockref.discover.fit.information import covariance, information
+from rockref.discover.fit.information import Information, covariance, information
 from rockref.discover.fit.search import Setup, baseline
 from rockref.discover.looking.presearch import suspects
 from rockref.effects import catalogue
@@ -123,10 +123,11 @@ def fit_experiment(
         family = started_family(setup, known_effects(effects), start_of(seen, effects))
     other = None
     if check:
-        family, other = begun_again(replace(setup, base=family.fit.base), family, seed, say)
-    say("information of each run")
+        family, other, found = begun_again(replace(setup, base=family.fit.base), family, seed, say)
+    else:
+        say("information of each run")
+        found = information(family.fit, family.point)
     fit, point = family.fit, family.point
-    found = information(fit, point)
     checks = gates(fit, point, found, other.point) if other is not None else []
     numbers = in_file_order(estimates(fit, point, covariance(fit, found)))
     seen_errors = errors_of(fit, point)
@@ -148,23 +149,29 @@ def fit_experiment(
     )
 
 
-def begun_again(setup: Setup, family: Family, seed: int, say: Callable[[str], None]) -> tuple[Family, Family]:
-    """A fit and the same fit from other starts: the nearest to the runs, and of the others the one that confirms it.
+def begun_again(
+    setup: Setup, family: Family, seed: int, say: Callable[[str], None]
+) -> tuple[Family, Family, Information]:
+    """A fit and the same fit from other starts: the nearest to the runs, of the others the one that confirms it, and
+    what each run says of the nearest.
 
     A third start is only made where two do not end in the same place. What is kept stands on two that do.
     """
-    ends = [family]
+    ends, best = [family], family
+    known: Information | None = None
     for k in range(1, STARTS):
         say("gates: another start")
         begin = other_start(family.fit.parameters, family.point.z, seed + k)
         found = baseline(replace(setup, seed=seed + k), family.effects, begin, iterations=ITERATIONS)
         ends = sorted([*ends, Family(family.effects, *found)], key=mean_loss)
-        best, known = ends[0], information(ends[0].fit, ends[0].point)
+        if known is None or best is not ends[0]:
+            best, known = ends[0], information(ends[0].fit, ends[0].point)
         agree = [starts_agree(best.fit, best.point, end.point, known) for end in ends[1:]]
         nearest = min(range(len(agree)), key=lambda i: agree[i].value)
         if agree[nearest].passed:
             break
-    return best, ends[1 + nearest]
+    assert known is not None  # there are two starts at least
+    return best, ends[1 + nearest], known
 
 
 def usable(experiment: Experiment) -> Experiment:

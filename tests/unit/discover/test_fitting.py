@@ -30,10 +30,13 @@ def ends_at(monkeypatch):
             return SimpleNamespace(value=off, passed=off < 0.1)
 
         monkeypatch.setattr(fitting, "baseline", baseline)
-        monkeypatch.setattr(fitting, "information", lambda fit, point: None)
+        looked = []
+        monkeypatch.setattr(fitting, "information", lambda fit, point: looked.append(float(point.z[0])) or point)
         monkeypatch.setattr(fitting, "starts_agree", agree)
         first = family((), Bowl(np.zeros(1)), np.array([left.pop(0)]))
-        best, other = fitting.begun_again(ALONE, first, 0, lambda line: None)
+        best, other, found = fitting.begun_again(ALONE, first, 0, lambda line: None)
+        # What the runs say, which takes as long as a step of the fit, is asked once of each that was the nearest.
+        assert found is best.point and len(set(looked)) == len(looked)
         return float(best.point.z[0]), float(other.point.z[0]), len(left)
 
     return prepare
@@ -114,7 +117,8 @@ def test_what_a_fit_says_of_itself(monkeypatch, true_family, effects, check):
     monkeypatch.setattr(fitting, "chosen_family", lambda setup: (asked.append("chosen"), (setup, found))[1])
     monkeypatch.setattr(fitting, "suspects", lambda setup: (setup, [()], {"z": np.zeros(1)}))
     monkeypatch.setattr(fitting, "started_family", lambda *a: (asked.append("named"), found)[1])
-    monkeypatch.setattr(fitting, "begun_again", lambda *a: (asked.append("again"), (found, found))[1])
+    known = fitting.information(found.fit, found.point)
+    monkeypatch.setattr(fitting, "begun_again", lambda *a: (asked.append("again"), (found, found, known))[1])
     fitted = fitting.fit_experiment("folder", effects, fakes.DRAG, end=1.2, workers=1, check=check)
     assert asked == (["chosen"] if effects is None else ["named", "again"])
     # Where nobody went through the gates the model says so.
