@@ -32,7 +32,8 @@ from rockref.discover.blind.rivals import first_of_ranking, said
 from rockref.discover.blind.scoring import VERDICT
 from rockref.discover.blind.sealing import unseal, write_json
 from rockref.discover.blind.table import scores
-from rockref.discover.diagnose import baseline_model, diagnose
+from rockref.discover.compare.models import baseline_model
+from rockref.discover.diagnose import diagnose
 from rockref.discover.fit import search
 from rockref.discover.fit.families import Family, size_of
 from rockref.discover.looking.look import candidates_beside

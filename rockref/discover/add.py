@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.compare.models import baseline_model
 from rockref.discover.compare.stretches import AXES
-from rockref.discover.diagnose import baseline_model
 from rockref.discover.fit.errors import FIT_STRETCH, STRETCHES, Errors, errors_of, holdout_errors, spread_of
 from rockref.discover.fit.families import Family, afresh, mean_loss
 from rockref.discover.fit.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of

@@ -12,6 +12,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover import verdict as rules
+from rockref.discover.compare.models import baseline_model
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.evidence import Losses, held_out, rms_deg_s
 from rockref.discover.fit.families import (
@@ -94,12 +95,6 @@ class Diagnosis:
             "seconds": round(self.seconds, 1),
             "versions": versions(self.experiment),
         }
-
-
-def baseline_model(experiment: Experiment, model: Model | None = None) -> Model:
-    """The model that the experimenter starts from, with the block of the experiment."""
-    base = model or (Model.table_3_1() if experiment.baseline == "eight_points" else Model.four_points())
-    return base.replace(mass=experiment.mass, width=experiment.width, depth=experiment.width, height=experiment.height)
 
 
 def diagnose(

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.diagnose import baseline_model
+from rockref.discover.compare.models import baseline_model
 from rockref.discover.fit.errors import FIT_STRETCH, Errors, errors_of
 from rockref.discover.fit.families import Family, mean_loss
 from rockref.discover.fit.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of, start_from

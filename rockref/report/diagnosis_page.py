@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.compare.models import Comparison, compare
+from rockref.discover.compare.models import Comparison, baseline_model, compare
 from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import AXES
-from rockref.discover.diagnose import Diagnosis, baseline_model
+from rockref.discover.diagnose import Diagnosis
 from rockref.discover.diagnosis_record import plain
 from rockref.effects import catalogue
 from rockref.report import blocks, diagnosis_text, style, tables

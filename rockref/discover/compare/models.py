@@ -163,14 +163,15 @@ class Comparison:
         return to_dict(self)
 
 
-def baseline_model(experiment: Experiment) -> Model:
-    """Return the model from which the experimenter starts: Table 3.1, eight or four points, the block of the file.
+def baseline_model(experiment: Experiment, model: Model | None = None) -> Model:
+    """Return the model from which the experimenter starts, with the block of the file: the one that he gives, or Table
+    3.1 on eight or four points.
 
     Its own release tilt, which no run of the experiment uses, is that of the first run where the block is so slender
-    that it would fall over from that of Table 3.1.
+    that it would fall over from it.
     """
     kind = Model.four_points if experiment.baseline == "four_points" else Model.table_3_1
-    model = kind().replace(
+    model = (model or kind()).replace(
         mass=experiment.mass, width=experiment.width, depth=experiment.width, height=experiment.height
     )
     tilt = next((run.release_tilt for run in experiment.runs if run.release_tilt is not None), None)

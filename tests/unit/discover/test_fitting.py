@@ -9,6 +9,7 @@ import pytest
 from rockref.discover import fitting
 from rockref.discover.fit.families import Family
 from rockref.discover.fit.search import SHORT, Setup, windows
+from rockref.discover.windows.series import refinement
 from rockref.model.errors import InputError
 from tests.unit.discover import fakes
 from tests.unit.discover.bowls import ALONE, Bowl, family
@@ -29,8 +30,8 @@ def ends_at(monkeypatch):
             off = float(abs(point.z - other.z)[0])
             return SimpleNamespace(value=off, passed=off < 0.1)
 
-        monkeypatch.setattr(fitting, "baseline", baseline)
         looked = []
+        monkeypatch.setattr(fitting, "baseline", baseline)
         monkeypatch.setattr(fitting, "information", lambda fit, point: looked.append(float(point.z[0])) or point)
         monkeypatch.setattr(fitting, "starts_agree", agree)
         first = family((), Bowl(np.zeros(1)), np.array([left.pop(0)]))
@@ -71,6 +72,16 @@ def test_what_cannot_be_fitted_is_refused(change, code):
     with pytest.raises(InputError) as error:
         fitting.usable(replace(e, **change))
     assert error.value.code == code
+
+
+@pytest.mark.parametrize("model", [None, fakes.DRAG])
+def test_a_block_more_slender_than_table_3_1_is_begun_with_all_the_same(model):
+    """Its baseline has a tilt of its own, which no run uses, from which such a block would fall over."""
+    slender = replace(fakes.made_experiment(0.1), width=0.07)
+    slender = replace(slender, runs=tuple(replace(run, release_tilt=0.08) for run in slender.runs))
+    base = fitting.baseline_model(slender, model)
+    assert refinement(base) == 1 and base.width == base.depth == 0.07
+    assert base.active_effects() == (model.active_effects() if model else ())
 
 
 @pytest.mark.parametrize(
