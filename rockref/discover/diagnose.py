@@ -299,7 +299,6 @@ def conclude(
         bad=structured(final),
         median=float(np.median(2 * final.point.loss / final.fit.series.count)),
         held_gain=held_gains(plain, with_effect),
-        held_floor=float(np.median(2 * plain.loss / plain.count)),
         by_run={r.id: structured(final, i) for i, r in enumerate(setup.runs)},
         room=room(final),
         clipped=clipped(experiment, seen),

@@ -107,7 +107,6 @@ class Facts:
     bad: float
     median: float
     held_gain: list[float]
-    held_floor: float
     by_run: dict[str, float] = field(default_factory=dict)
     loud: tuple[int, int] = (0, 0)
     room: float = 0.0
@@ -187,6 +186,7 @@ def decide(facts: Facts) -> Decision:
             f"after the best fit (nearest candidate: {near}).",
         )  # fmt: skip
     proof = np.mean(facts.held_gain) if facts.held_gain else 0.0
+    unproven = "the held-out runs show nothing of it" if facts.held_gain else "no run was held out to show it"
     now_and_then = facts.loud[0] >= LOUD_FITTED and facts.loud[1] >= LOUD_HELD
     if now_and_then and (not facts.effects or len(facts.effects) == 1 and proof < HELD_OUT):
         return Decision(
@@ -223,8 +223,7 @@ def decide(facts: Facts) -> Decision:
     if facts.room > best and proof < HELD_OUT:
         return Decision(
             "none", (),
-            f"{name} gains {best:.0f} units where {facts.room:.0f} are left, and the held-out runs show nothing of it: "
-            "not accepted.",
+            f"{name} gains {best:.0f} units where {facts.room:.0f} are left, and {unproven}: not accepted.",
         )  # fmt: skip
     least = told_apart(best, apart)
     rivals = tuple(id for id, g in facts.gains.items() if id != name and g > least and id not in facts.far_fetched)
@@ -236,9 +235,7 @@ def decide(facts: Facts) -> Decision:
     if proof < -HELD_OUT:
         return Decision("none", (), f"{name} helps on the fitted runs and harms on the held-out ones: not accepted.")
     if proof < HELD_OUT:
-        return Decision(
-            "indicated", (name,), f"{name} is indicated by the fitted runs; the held-out runs show nothing of it."
-        )
+        return Decision("indicated", (name,), f"{name} is indicated by the fitted runs; {unproven}.")
     return Decision("named", (name,), f"{name} is missing: the error falls on fitted and held-out runs.")
 
 

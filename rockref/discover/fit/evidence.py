@@ -42,7 +42,7 @@ class Losses:
 
 @dataclass
 class HeldOut(Losses):
-    """Held-out runs seen by a model whose shared parameters are fixed, and their RMS in deg/s."""
+    """Held-out runs seen by a model whose shared parameters are fixed, and their RMS in deg/s (NaN without any)."""
 
     rms: float
 
@@ -50,6 +50,8 @@ class HeldOut(Losses):
 def held_out(setup: Setup, fit: Fit, point: Point, experiment, effects: tuple[str, ...], seed: int = 1) -> HeldOut:
     """Apply the parameters of a fit to the held-out runs: only release tilt, phases and window states are free."""
     runs = experiment.holdout_runs()
+    if not runs:
+        return HeldOut(np.zeros(0), np.zeros(0), np.zeros(0, int), float("nan"))
     fixed = fit.models(point.z)[0][0]
     own = replace(setup, experiment=experiment, runs=runs, base=fixed)
     parameters = [p for p in own.parameters(effects) if p.run is not None]

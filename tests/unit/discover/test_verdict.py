@@ -11,7 +11,7 @@ from rockref.discover.verdict import Facts, decide, is_detected, ranking, settle
 
 def facts(effects=("quadratic_drag",), gains=None, bad=0.0, held=(0.5, 0.4)) -> Facts:
     gains = {"quadratic_drag": 3000.0, "rolling_resistance": 500.0} if gains is None else gains
-    return Facts(effects, {e: 1.0 for e in effects}, gains, bad, 1.0, list(held), 1.0)
+    return Facts(effects, {e: 1.0 for e in effects}, gains, bad, 1.0, list(held))
 
 
 def test_nothing_found_is_none():
@@ -59,8 +59,10 @@ def test_windows_that_stay_structured_are_something_else():
     assert "quadratic_drag" in found.sentence  # the nearest candidate
 
 
-def test_no_gain_on_held_out_runs_is_only_indicated():
-    assert decide(facts(held=(0.0, 0.0))).verdict == "indicated"
+@pytest.mark.parametrize("held, why", [((0.0, 0.0), "show nothing of it"), ((), "no run was held out")])
+def test_no_gain_on_held_out_runs_is_only_indicated(held, why):
+    found = decide(facts(held=held))
+    assert found.verdict == "indicated" and why in found.sentence
 
 
 @pytest.mark.parametrize("held, verdict", [(0.004, "none"), (0.016, "class")])
