@@ -14,6 +14,7 @@ from rockref.api import Model
 from rockref.discover import verdict as rules
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.fit.beside import side_by_side
+from rockref.discover.fit.errors import FIT_STRETCH
 from rockref.discover.fit.evidence import Losses, held_out, rms_deg_s
 from rockref.discover.fit.families import (
     Family,
@@ -324,8 +325,7 @@ def conclude(
         amplitudes=amplitudes(final) if kept else {},
         error={
             "unit": "deg/s RMS",
-            "stretch": f"windows of 50 to 90 ms over the first {setup.end:g} s of each run, each restarted from the "
-            "reconstructed state; the worst tenth of the windows left out",
+            "stretch": FIT_STRETCH.format(end=setup.end),
             "noise_floor": noise,
             "baseline": {"fit": rms_deg_s(null.fit, null.point), "holdout": plain.rms},
             "with_effect": {

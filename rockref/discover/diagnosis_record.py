@@ -22,7 +22,9 @@ def plain(value: Any) -> Any:
     """Values of NumPy as plain ones, tuples as lists, and a number that is not finite as None, all the way down."""
     if isinstance(value, dict):
         return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple)):
         return [plain(v) for v in value]
     if isinstance(value, np.generic):
         value = value.item()

@@ -7,11 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from rockref.discover.compare.stretches import AXES
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.windows.series import Series
 from rockref.measure.impacts import Impacts, main_impacts
 
-AXES = ("main", "transverse", "longitudinal")
 #: A misfit of the first swings, in the median over the runs, that is so many times that of the windows after them
 #: belongs to the release (decided).
 RELEASE = 1.5

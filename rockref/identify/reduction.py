@@ -15,7 +15,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.identify.campaign import Campaign
 from rockref.identify.candidates import feature_costs
-from rockref.identify.genes import Space, space_54
+from rockref.identify.genes import RANGES, Space, space_54
 from rockref.identify.identification import fingerprint
 from rockref.identify.search import Found, Settings, search
 from rockref.identify.target import Target
@@ -59,7 +59,7 @@ def ways(space: Space, found: Found, mass: float) -> tuple[tuple[str, ...], np.n
         if " C_" in name:
             K = values[:, names.index(name.replace(" C_", " K_"))]
             beta = values[:, i] / (2 * np.sqrt(K * mass))
-            low, high = 0.04, 0.4
+            low, high = RANGES["beta_int"]  # that of both ratios
             u[:, i] = np.log(beta / low) / np.log(high / low)
     return tuple(names), u
 

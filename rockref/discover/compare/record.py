@@ -11,6 +11,7 @@ import numpy as np
 from rockref.discover.compare.band import Departure
 from rockref.discover.compare.features import Features, Losses
 from rockref.discover.compare.stretches import AXES, STRETCHES, StretchError
+from rockref.discover.diagnosis_record import plain
 from rockref.model.channel import DEGREES
 
 if TYPE_CHECKING:
@@ -141,16 +142,3 @@ def _losses(x: Losses) -> dict[str, Any]:
 
 def _lead(f: Features) -> float | None:
     return float(f.impacts.times[0] - f.onset) if len(f.impacts) else None
-
-
-def plain(value: Any) -> Any:
-    """Return `value` with arrays as lists, NumPy numbers as Python's, and what is not finite as None."""
-    if isinstance(value, dict):
-        return {str(k): plain(v) for k, v in value.items()}
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [plain(v) for v in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    return None if isinstance(value, float) and not math.isfinite(value) else value
