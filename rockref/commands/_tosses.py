@@ -2,10 +2,14 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 
-from rockref.commands._results import in_json, keep, say_written, told, usable_files, with_files
+from rockref.commands._results import in_json, keep, say_remarks, say_written, told, usable_files, with_files
+
+if TYPE_CHECKING:
+    from rockref.measure.tosses import Tosses
 
 
 def usable(report: Path | None) -> Path | None:
@@ -15,6 +19,15 @@ def usable(report: Path | None) -> Path | None:
     return None if report is None else usable_folder(report)
 
 
+def read(path: Path) -> "Tosses":
+    """The tosses of a folder; what the reader remarked on is said."""
+    from rockref.measure.tosses import load_tosses
+
+    tosses = load_tosses(path)
+    say_remarks(tosses.notices)
+    return tosses
+
+
 def compare_tosses(
     path: Path, model: Sequence[str] | None, effects: Sequence[str] | None, report: Path | None, as_json: bool
 ) -> None:
@@ -22,13 +35,10 @@ def compare_tosses(
     from rockref.commands._models import labels, named_models
     from rockref.commands._stages import console
     from rockref.discover.tosses.compare import compare
-    from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_comparison
 
     folder = usable(report)
-    tosses = load_tosses(path)
-    for notice in tosses.notices:
-        typer.echo(f"rockref: {notice}", err=True)
+    tosses = read(path)
     given = named_models(model or (), effects)
     models, names = (given, labels(list(model))) if model else (None, None)
     record = compare(tosses, models, names).to_dict()
@@ -53,13 +63,12 @@ def diagnose_tosses(
     from rockref.commands._models import models_and_others
     from rockref.commands._stages import stages
     from rockref.discover.tosses.diagnose import diagnose
-    from rockref.measure.tosses import load_tosses
     from rockref.model.errors import InputError
     from rockref.report.toss_text import print_toss_diagnosis
 
     usable_files(output, save_model)
     folder = usable(report)
-    tosses = load_tosses(path)
+    tosses = read(path)
     models, others = models_and_others([model] if model else [], effects)
     if others:
         raise InputError("E-EFFECT", "--effect", "of tosses only the catalogue is tried", "Leave it out.")
@@ -86,11 +95,10 @@ def fit_to_tosses(
     from rockref.commands._models import models_and_others
     from rockref.commands._stages import stages
     from rockref.discover.tosses.fitting import fit_tosses
-    from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_fit
 
     usable_files(output)
-    tosses = load_tosses(path)
+    tosses = read(path)
     models, more = models_and_others([model] if model else [], effects)
     given = models[0] if models else None
     with stages(f"fitting {path}", every_line=verbose) as say:
@@ -116,12 +124,11 @@ def add_to_model_of_tosses(
     from rockref.commands._models import known_files, named_models
     from rockref.commands._stages import stages
     from rockref.discover.tosses.fitting import add_to_tosses
-    from rockref.measure.tosses import load_tosses
     from rockref.report.toss_text import print_toss_addition
 
     usable_files(output)
     folder = usable(report)
-    tosses = load_tosses(path)
+    tosses = read(path)
     known_files([effect])
     given = next(iter(named_models([model] if model else [], own)), None)
     with stages(f"adding {effect}", every_line=verbose) as say:

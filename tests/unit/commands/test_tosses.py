@@ -107,9 +107,24 @@ class TestAdd:
         assert json.loads(out)["holdout_falls_by"]["mean"] == 4.96
 
 
-@pytest.mark.parametrize(
+WORDS = pytest.mark.parametrize(
     "arguments", [["diagnose"], ["fit"], ["add", "mass_eccentricity"]], ids=["diagnose", "fit", "add"]
 )
+
+
+@WORDS
+def test_what_was_left_out_of_the_tosses_is_said(capsys, monkeypatch, tmp_path, arguments):
+    x, Lambda, _ = made(stated(), 3, frames=8)
+    x[1, 4:] += 0.5
+    folder = write_tosses(tmp_path / "t", x, Lambda)
+    answer(monkeypatch, diagnosing, "diagnose", toss_records.diagnosis())
+    answer(monkeypatch, fitting, "fit_tosses", toss_records.fit(), passed=True)
+    answer(monkeypatch, fitting, "add_to_tosses", toss_records.addition(), **TestAdd().sides())
+    code, _, err = run(capsys, *arguments, folder, "-o", tmp_path / "out")
+    assert code == 0 and "toss 1: jumps at frame 4" in err and "[W-TOSS-LEFT-OUT]" in err
+
+
+@WORDS
 def test_a_disk_that_is_full_at_the_end_loses_no_words(capsys, monkeypatch, folder, tmp_path, arguments):
     from rockref.model import storage
     from rockref.model.errors import InputError
