@@ -47,6 +47,8 @@ MOST_ROWS = 500_000
 MOST = 1e15
 #: Cameras take so many frames a second [Hz]; decided.
 LEAST_RATE, MOST_RATE = 1.0, 1e6
+#: Frames by which an interval between two may be off; decided: a lost frame makes it one, and no clock jitters by half.
+UNEVEN = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,8 +123,8 @@ def load_tosses(path: Path | str, split: str = "rule") -> Tosses:
     Raises
     ------
     InputError
-        E-HEADER, E-COLUMN-MISSING, E-COLUMN-TWICE, E-FIELDS, E-NUMBER, E-POSE, E-RATE, E-SHORT, E-SIZE, E-CHOICE;
-        those of `read_text` and of `load_experiment`.
+        E-HEADER, E-COLUMN-MISSING, E-COLUMN-TWICE, E-FIELDS, E-NUMBER, E-POSE, E-RATE, E-GAP, E-SHORT, E-SIZE,
+        E-CHOICE; those of `read_text` and of `load_experiment`.
     """
     path = Path(path)
     if split not in ("rule", "all_fit", "all_holdout"):
@@ -148,12 +150,31 @@ def _from_experiment(path: Path) -> Tosses:
             what, cure = f"has {len(run.t)} frames", f"Give {LEAST_FRAMES} frames or more."
             raise InputError("E-SHORT", str(path / run.file), what, cure)
         tosses.append(_toss(run.id, run.id, run.use, np.asarray(run.t), np.asarray(run.pose), str(path / run.file)))
-    steps = np.concatenate([np.diff(toss.t) for toss in tosses])
+    rate = float(1 / np.median(np.concatenate([np.diff(toss.t) for toss in tosses])))
+    _check_rate(rate, f"{path}, times of the runs")
+    for run, toss in zip(experiment.runs, tosses, strict=True):
+        _check_frames(toss.t, rate, path / run.file)
     return Tosses(
-        path=path, name=experiment.name, rate=float(1 / np.median(steps)), mass=experiment.mass,
+        path=path, name=experiment.name, rate=rate, mass=experiment.mass,
         width=experiment.width, height=experiment.height, tosses=tuple(tosses), notices=experiment.notices,
         sha256=experiment.digest,
     )  # fmt: skip
+
+
+def _check_rate(rate: float, where: str) -> None:
+    if not LEAST_RATE <= rate <= MOST_RATE:
+        cure = "Check the unit: time is in s from the first frame."
+        raise InputError("E-RATE", where, f"frames come at {rate:.6g} Hz", cure)
+
+
+def _check_frames(t: np.ndarray, rate: float, where: Path) -> None:
+    """Refuse times t (N,) [s] of another rate than the camera's [Hz], or with a hole: tosses lie side by side, frame by
+    frame."""
+    off = np.flatnonzero(np.abs(np.diff(t) * rate - 1) > UNEVEN)
+    if len(off):
+        what = f"{t[off[0] + 1] - t[off[0]]:.4g} s between two frames, where the camera takes {rate:.6g} a second"
+        cure = "Give all runs at the rate of one camera, and cut a run before a hole."
+        raise InputError("E-GAP", f"{where}, line {off[0] + 3}", what, cure)
 
 
 def _from_table(table: Path) -> Tosses:
@@ -165,10 +186,8 @@ def _from_table(table: Path) -> Tosses:
         span = span[span.frames > span["first"]]
         if len(span) and (span.t > 0).all():
             rate = round(float(np.median((span.frames - span["first"]) / span.t)), 3)
-    if not LEAST_RATE <= rate <= MOST_RATE:
-        where, cure = f"{table}, column t_s", "Check the unit: time is in s from the first frame."
-        raise InputError("E-RATE", where, f"frames come at {rate:.6g} Hz", cure)
-    tosses, notices = [], []
+    _check_rate(rate, f"{table}, column t_s")
+    tosses, notices = [], list(raw.notices)
     for number, rows in data.groupby("toss", sort=True):
         rows = rows.sort_values("frame")
         id, group = _label(number), _label(rows["group"].iloc[0]) if "group" in rows else _label(number)

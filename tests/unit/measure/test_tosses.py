@@ -124,11 +124,20 @@ def test_an_experiment_folder_of_kind_toss_is_read_too(six, tmp_path):
     assert tosses.rate == pytest.approx(148, rel=1e-6)
 
 
+def still(times):
+    return "".join(f"{t},0,0,0,1,0,0,0\n" for t in times)
+
+
 @pytest.mark.parametrize(
     ("rows", "code"),
-    [("0,0,0,0,1,0,0,0\n", "E-SHORT"), ("".join(f"{-i},0,0,0,1,0,0,0\n" for i in range(9)), "E-TIME")],
+    [
+        (still([0]), "E-SHORT"),
+        (still(-i for i in range(9)), "E-TIME"),
+        (still(i / 148 for i in range(9) if i != 5), "E-GAP"),
+        (still(1000 * i / 148 for i in range(9)), "E-RATE"),
+    ],
 )
-def test_a_toss_that_is_a_frame_or_runs_back_is_refused(tmp_path, rows, code):
+def test_times_that_are_none_of_a_camera_are_refused(tmp_path, rows, code):
     (tmp_path / "0.csv").write_text("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n" + rows)
     text = 'name = "made"\nkind = "toss"\nbaseline = "four_points"\n'
     text += "[block]\nmass_kg = 0.5\nwidth_m = 0.1\nheight_m = 0.2\n"
@@ -151,6 +160,13 @@ def test_the_split_may_be_all_of_one_use(six, tmp_path):
     assert [len(tosses.used("fit")) for tosses in every] == [3, 6, 0]
     with pytest.raises(InputError, match="E-CHOICE"):
         load_tosses(folder, "half")
+
+
+def test_what_the_reader_of_the_text_remarks_on_is_kept(six, tmp_path):
+    (folder := tmp_path / "t").mkdir()
+    text = gzip.decompress((write_tosses(tmp_path / "u", *six) / "tosses.csv.gz").read_bytes())
+    (folder / "tosses.csv").write_bytes(b"\xef\xbb\xbf" + text)
+    assert [n.code for n in load_tosses(folder).notices] == ["W-BOM"]
 
 
 def test_the_table_may_be_named_itself(six, tmp_path):
