@@ -57,8 +57,11 @@ class Campaign:
             return [result for piece in pieces for result in function(*shared, piece)]
         done: dict[int, Sequence] = {}
         for attempt in range(ATTEMPTS):
+            jobs: dict[int, Future] = {}
             try:
-                jobs = {i: executor.submit(function, *shared, p) for i, p in enumerate(pieces) if i not in done}
+                # One by one: a worker that died since the last call is noticed here.
+                for i in (i for i in range(len(pieces)) if i not in done):
+                    jobs[i] = executor.submit(function, *shared, pieces[i])
                 for job in self._as_they_end(jobs.values()):
                     job.result()
                 done |= {i: job.result() for i, job in jobs.items()}

@@ -53,6 +53,18 @@ def test_a_killed_process_loses_nothing(tmp_path):
     assert (tmp_path / "mark").exists()
 
 
+def test_a_process_that_is_killed_between_two_calls_loses_nothing():
+    with campaign(2) as work:
+        assert work(analytic.bowl, (0.3,), ITEMS) == WANTED
+        pool = work.executor
+        for pid in list(pool._processes):
+            os.kill(pid, signal.SIGKILL)
+        patience = time.monotonic() + 30
+        while not pool._broken and time.monotonic() < patience:
+            time.sleep(0.01)
+        assert work(analytic.bowl, (0.3,), ITEMS) == WANTED
+
+
 def test_a_process_that_hangs_is_ended_and_loses_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr(campaigns, "AT_FIRST", 20.0)
     monkeypatch.setattr(campaigns, "LEAST", 5.0)
