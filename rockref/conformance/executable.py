@@ -55,6 +55,7 @@ class Executable:
         try:
             facts = self._started()
         except Misbehaved as e:
+            self.close()
             raise InputError(
                 "E-BACKEND", shlex.join(command), str(e), 'It must answer {"cmd":"start"} with one JSON line.'
             ) from e

@@ -239,9 +239,12 @@ def test_what_does_not_start_is_unusable(command):
         Executable(command)
 
 
-def test_another_protocol_is_refused():
+def test_another_protocol_is_refused_and_its_program_ended(monkeypatch):
+    ended = []
+    monkeypatch.setattr(executable, "_end_group", lambda process: (ended.append(process), process.kill()))
     with pytest.raises(InputError, match="protocol 2"):
         Executable([sys.executable, "-c", "input(); print('{\"protocol\": 2}', flush=True); input()"])
+    assert len(ended) == 1 and ended[0].wait(10) != 0
 
 
 def test_a_banner_and_other_chatter_are_passed_over_with_a_remark(tmp_path):
