@@ -55,9 +55,7 @@ def growth(
     crv = rates(problems, workers)
     t = np.arange(crv.shape[1]) / OUTPUT_RATE
     impacts = main_impacts(t, crv[0]).times
-    if len(impacts) < 2:
-        what = f"reaches {len(impacts)} of two main impacts in {duration} s; a difference grows from one to the next"
-        raise InputError("E-IMPACTS", "the model", what, "Give a duration that reaches the second main impact.")
+    check_impacts(impacts, duration)
     bounds = np.concatenate(([0.0], impacts))
     sizes = []
     for a, b in zip(bounds[:-1], bounds[1:], strict=True):
@@ -72,6 +70,13 @@ def growth(
     return Growth(
         impacts, factors, float(np.exp(rate.mean())), float(np.exp(rate.std(ddof=1))) if len(rate) > 1 else 1.0
     )
+
+
+def check_impacts(impacts: np.ndarray, duration: float) -> None:
+    """Refuse a response of `duration` [s] whose main impacts (K,) [s] do not reach the second (E-IMPACTS)."""
+    if len(impacts) < 2:
+        what = f"reaches {len(impacts)} of two main impacts in {duration} s; a difference grows from one to the next"
+        raise InputError("E-IMPACTS", "the model", what, "Give a duration that reaches the second main impact.")
 
 
 def slope(y: np.ndarray) -> float:

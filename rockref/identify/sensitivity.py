@@ -15,6 +15,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.identify.agreement import common_horizon, difference
 from rockref.identify.candidates import OUTPUT_RATE, STEP, rates
+from rockref.identify.predictability import check_impacts
 from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError
 from rockref.model.parameters import GENES_12, TABLE_3_1, chromosome_12, from_chromosome_12
@@ -129,19 +130,28 @@ class Digits:
 
 
 def significant_digits(
-    model: Model, threshold: float = SIGNIFICANT, step: float = STEP, workers: int | None = None, most: int = 6
+    model: Model,
+    threshold: float = SIGNIFICANT,
+    step: float = STEP,
+    workers: int | None = None,
+    most: int = 6,
+    duration: float = 1.6,
 ) -> list[Digits]:
     """The column of Table 3.1: the fewest digits at which rounding one parameter no longer changes the response.
 
     A value with d digits may be off by half of the last. The response has not changed where the quadratic mean of the
     difference up to the second main impact is below `threshold` of that of the response, about both the transverse and
     the longitudinal axis, for either sign and for all finer digits. What does not act in the model, or is zero,
-    has no row.
+    has no row.  duration [s] : within which the second main impact is looked for.
+
+    Raises InputError (E-IMPACTS) where it is not there.
     """
     genes = chromosome_12(model.parameters)
-    base_run = rates([model.problem(1.6, step, OUTPUT_RATE)], workers)[0]
+    base_run = rates([model.problem(duration, step, OUTPUT_RATE)], workers)[0]
     t = np.arange(len(base_run)) / OUTPUT_RATE
-    until = float(main_impacts(t, base_run).times[1])
+    impacts = main_impacts(t, base_run).times
+    check_impacts(impacts, duration)
+    until = float(impacts[1])
     acting = [i for i in (GENES_12.index(name) for name in varied(model)) if genes[i] != 0]
     trials = [(i, d, sign) for i in acting for d in range(1, most + 1) for sign in (-1, 1)]
     problems, possible = [], []

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.identify.predictability import Growth, growth
+from rockref.identify.predictability import Growth, check_impacts, growth
 from rockref.identify.search import versions
 from rockref.identify.sensitivity import (
     RELEASE_ERROR,
@@ -58,18 +58,19 @@ def study(
     model : released from theta_0 [rad];  seed : of the signs and of the small differences;  duration [s];
     steps [s] : of Fig. 3.5;  trials : chromosomes of Fig. 3.6 (the source shows two);  report : called with each name.
 
-    Raises InputError (E-MOOT; E-STEP, ...) as the simulation.
+    Raises InputError (E-MOOT; E-IMPACTS, where the second main impact is not reached; E-STEP, ...) as the simulation.
     """
     say = report or (lambda name: None)
     varied(model)
     say("time step")
     by_step = time_steps(model, steps, duration, workers)
+    check_impacts(by_step.impacts[0], duration)
     say("last digits")
     by_digit = last_digits(model, seed, trials, duration, workers=workers)
     say("release angle")
     by_angle = release_angle(model, RELEASE_ERROR, duration, workers=workers)
     say("significant digits")
-    table = tuple(significant_digits(model, workers=workers))
+    table = tuple(significant_digits(model, workers=workers, duration=duration))
     say("growth of small differences")
     return Study(seed, by_step, by_digit, by_angle, table, growth(model, seed=seed, duration=duration, workers=workers))
 

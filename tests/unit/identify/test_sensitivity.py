@@ -114,6 +114,25 @@ def test_growth_needs_two_impacts(table_3_1):
     assert refused.value.code == "E-IMPACTS"
 
 
+@pytest.fixture(scope="module")
+def large(table_3_1):
+    """Four times as large, and so twice as slow: it strikes at 1.0 and at 2.7 s."""
+    sides = {name: 4 * getattr(table_3_1, name) for name in ("width", "depth", "height")}
+    return table_3_1.replace(mass=64 * table_3_1.mass, K_N=16 * 6e7, K_T=16 * 5e7, **sides)
+
+
+def test_a_slow_block_is_followed_to_its_second_impact(large):
+    (found, *_) = significant_digits(large, step=2e-5, workers=1, duration=3.5)
+    assert found.name == "K_N" and np.isfinite(found.change)
+
+
+def test_a_study_that_ends_before_the_second_impact_is_refused_at_once(large):
+    said = []
+    with pytest.raises(InputError, match="reaches 1 of two main impacts in 1.6 s"):
+        study(large, 1, 1.6, (2e-5, 1e-5), 2, workers=1, report=said.append)
+    assert said == ["time step"]
+
+
 def test_the_record_is_plain_and_says_seed_and_versions(small):
     import json
 
