@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import inspect
 import json
 import time
 import traceback
@@ -41,10 +40,7 @@ def judge_case(folder: str, name: str, threads: int | None) -> str:
 def _diagnose(case: Path, threads: int | None) -> dict[str, Any]:
     from rockref.discover.diagnose import diagnose
 
-    options: dict[str, Any] = {"workers": threads} if "workers" in inspect.signature(diagnose).parameters else {}
-    result: Any = diagnose(case, **options)
-    plain = result if isinstance(result, dict) else result.to_dict()
-    return json.loads(json.dumps(plain, default=float))
+    return json.loads(json.dumps(diagnose(case, workers=threads).to_dict(), default=float))
 
 
 def rival_case(folder: str, name: str) -> str:

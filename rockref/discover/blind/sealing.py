@@ -5,20 +5,19 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-import os
 import secrets
 import zlib
 from pathlib import Path
 from typing import Any
 
+from rockref.model.storage import write_text
+
 SEALED, MANIFEST, OPENED = "truth.sealed.json", "MANIFEST.json", "truth.json"
 
 
 def write_json(path: Path, content: Any) -> None:
-    """Write JSON whole or not at all."""
-    beside = path.with_name(f"{path.name}.{os.getpid()}.part")
-    beside.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-    os.replace(beside, path)
+    """Write JSON whole or not at all. Raises InputError (E-WRITE)."""
+    write_text(path, json.dumps(content, indent=1) + "\n")
 
 
 def canonical(content: Any) -> bytes:
