@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from rockref.discover.diagnosis_record import plain
 from rockref.discover.tosses.compare import compare
 from rockref.discover.tosses.diagnose import diagnose
 from rockref.identify.alone import alone_in
@@ -34,6 +35,8 @@ def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[
     path = data or named_folder()
     usable_folder(folder)
     tosses = load_tosses(path)
+    for notice in tosses.notices:
+        say(str(notice))
     with alone_in(made_folder(folder)):
         return _made(tosses, folder, quick, say)
 
@@ -47,8 +50,8 @@ def _made(tosses: Tosses, folder: Path, quick: bool, say: Callable[[str], None])
     record = found.to_dict()
     say("where the explained model fails")
     after = compare(tosses, [found.model], ["explained"]).to_dict()
-    write_text(folder / "diagnosis.json", json.dumps(record, indent=1) + "\n")
-    write_text(folder / "comparison.json", json.dumps({"before": before, "after": after}, indent=1) + "\n")
+    for name, kept in (("diagnosis", record), ("comparison", {"before": before, "after": after})):
+        write_text(folder / f"{name}.json", json.dumps(plain(kept), indent=1, allow_nan=False) + "\n")
     found.model.save(folder / "model.toml")
     write_bytes(folder / "staircase.png", staircase_picture(record))
     page = Page("Tosses of a cube, explained", record["sentence"])
