@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +9,12 @@ from rockref.discover.tosses.compare import PUBLISHED
 from rockref.discover.tosses.diagnose import sentences
 from rockref.model.storage import write_bytes
 from rockref.report import toss_text
+from rockref.report.figures import rendered
 from rockref.report.page import Page, Table
 
 INK, SECOND, PALE = "#1f4e79", "#c05a00", "#9aa5b1"
+#: Dots an inch of the pictures; decided: ten inches make 1100, as wide as the page is read, and a tenth of a megabyte.
+DPI = 110
 
 
 def write_toss_comparison(record: dict[str, Any], folder: Path) -> Path:
@@ -85,11 +87,6 @@ def add_stretches(page: Page, rows: list[dict[str, Any]]) -> None:
 
 def stretches_picture(rows: list[dict[str, Any]]) -> bytes:
     """PNG: bars by stretch of the growth of the errors and of the energy lost; one colour a model, measured in grey."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
     names = [s["stretch"] for s in rows[0]["stretches"]]
     bars: list[list[tuple[str, str, list[float]]]] = [[], [], []]
     for row, color in zip(rows, (SECOND, INK, "#5b8c5a", "#7a4e8a"), strict=False):
@@ -97,7 +94,7 @@ def stretches_picture(rows: list[dict[str, Any]]) -> bytes:
             part.append((row["model"], color, [s["growth"][key] for s in row["stretches"]]))
         bars[2].append((row["model"], color, [s["energy_lost"]["model_percent"] for s in row["stretches"]]))
     bars[2].insert(0, ("measured", PALE, [s["energy_lost"]["measured_percent"] for s in rows[-1]["stretches"]]))
-    figure, axes = plt.subplots(1, 3, figsize=(10, 1.2 + 0.35 * len(names)), sharey=True, layout="constrained")
+    figure, axes = _panels(3, 10, 1.2 + 0.35 * len(names))
     labels = (
         "position error grows by, % of width",
         "rotation error grows by, deg",
@@ -116,30 +113,23 @@ def stretches_picture(rows: list[dict[str, Any]]) -> bytes:
     figure.legend(
         *axes[2].get_legend_handles_labels(), loc="outside upper center", ncols=len(bars[2]), frameon=False, fontsize=8
     )
-    return _png(figure)
+    return rendered(figure, "png", DPI)
 
 
-def _png(figure: Any) -> bytes:
-    import matplotlib.pyplot as plt
+def _panels(count: int, width: float, height: float) -> tuple[Any, Any]:
+    """A figure [inches] with panels side by side over one ordinate; no window system is asked for."""
+    from matplotlib.figure import Figure
 
-    out = io.BytesIO()
-    figure.savefig(out, format="png", dpi=110, metadata={"Software": None})
-    plt.close(figure)
-    return out.getvalue()
+    figure = Figure(figsize=(width, height), layout="constrained")
+    return figure, figure.subplots(1, count, sharey=True)
 
 
 def staircase_picture(record: dict[str, Any]) -> bytes:
     """PNG: mean position and rotation error on the held-out tosses, from both starts, over the added effects."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
     steps = record["staircase"]
     names = ["stated values", "contact fitted"] + ["+ " + s["added"].replace("_", " ") for s in steps[1:]]
     rows = range(len(names))
-    size = (10, 1.6 + 0.28 * len(names))
-    figure, axes = plt.subplots(1, 2, figsize=size, sharey=True, layout="constrained")
+    figure, axes = _panels(2, 10, 1.6 + 0.28 * len(names))
     labels = ("position error, % of width", "rotation error, deg")
     for k, (axis, key, unit) in enumerate(zip(axes, ("position_percent", "rotation_deg"), labels, strict=True)):
         for start, color, mark in (("raw", PALE, "s"), ("flight", INK, "o")):
@@ -154,4 +144,4 @@ def staircase_picture(record: dict[str, Any]) -> bytes:
             axis.spines[side].set_visible(False)
     axes[0].invert_yaxis()
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=4, frameon=False, fontsize=8)
-    return _png(figure)
+    return rendered(figure, "png", DPI)

@@ -48,6 +48,12 @@ def test_without_a_confusion_there_is_no_table_of_it(tmp_path):
     assert "0.953" not in path.read_text(encoding="utf-8")
 
 
+def test_pictures_ask_for_no_window_system(monkeypatch):
+    """Who draws windows of his own keeps them: the library's backend is left as it is."""
+    monkeypatch.setattr("matplotlib.use", lambda *a: pytest.fail("another backend"))
+    assert toss_page.staircase_picture(made.diagnosis()).startswith(b"\x89PNG")
+
+
 @pytest.mark.parametrize("colour", [toss_page.INK, toss_page.PALE, toss_page.SECOND])
 def test_pictures_have_every_line_and_bar(colour):
     rows = [r for r in made.comparison()["rows"] if (r["use"], r["start"]) == ("holdout", "flight")]
