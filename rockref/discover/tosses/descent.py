@@ -63,11 +63,11 @@ def limits(parameters: Sequence[Parameter]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def derivatives(
-    residual: Callable[[np.ndarray], np.ndarray], z: np.ndarray, r: np.ndarray, high: np.ndarray, known: int = 0
+    residual: Callable[[np.ndarray], np.ndarray], z: np.ndarray, r: np.ndarray, high: np.ndarray
 ) -> np.ndarray:
-    """(..., G - known) by differences, toward the inside at a limit; the first `known` ones are skipped."""
+    """(..., G) by differences, toward the inside at a limit."""
     columns = []
-    for i in range(known, len(z)):
+    for i in range(len(z)):
         moved = z.copy()
         d = DIFFERENCE if z[i] + DIFFERENCE <= high[i] else -DIFFERENCE
         moved[i] += d

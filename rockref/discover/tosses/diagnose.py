@@ -15,7 +15,7 @@ from rockref.discover.tosses.compare import measured
 from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.first_guess import first_guesses
 from rockref.discover.tosses.fit import HORIZONS, TossFit
-from rockref.discover.tosses.fitting import at_values, unfitted
+from rockref.discover.tosses.fitting import at_values, unfitted, values
 from rockref.discover.tosses.gates import floor_of, off_bounds, paired, step_small, total, uses_agree
 from rockref.discover.tosses.parameters import CANDIDATES, apply
 from rockref.discover.tosses.predict import predict
@@ -58,10 +58,7 @@ class Step:
 
     def values(self) -> dict[str, dict[str, Any]]:
         """Every number of the fit with its unit."""
-        return {
-            p.name: {"value": p.value(float(zi)), "unit": p.unit}
-            for p, zi in zip(self.fit.parameters, self.z, strict=True)
-        }
+        return values(self.fit.parameters, self.z)
 
 
 @dataclass
@@ -84,7 +81,7 @@ class TossDiagnosis:
 
     @property
     def model(self) -> Model:
-        """The last model whose effects were all proven."""
+        """The model of the last rung that the held-out tosses do not speak against."""
         good = [s for s in self.steps if s.verdict != "none"]
         return (good or self.steps)[-1].model
 

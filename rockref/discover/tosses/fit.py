@@ -40,12 +40,6 @@ def cut(poses: Poses, frames: int) -> Poses:
     )
 
 
-def picked(poses: Poses, which: np.ndarray) -> Poses:
-    """Some of the tosses."""
-    x, Lambda, frames = poses.x[which], poses.Lambda[which], poses.frames[which]
-    return poses._replace(x=x, Lambda=Lambda, frames=frames, v=poses.v[which], W=poses.W[which])
-
-
 @dataclass
 class TossFit:
     """A family of models over tosses: `base` with `parameters`; `start` is "flight" or "raw"."""
@@ -70,24 +64,20 @@ class TossFit:
         found = predict(self.model(z), poses, self.start, STEPS, moved)
         return residual(found, poses, self.width)
 
-    def run(
-        self, z: np.ndarray, iterations: int = 8, horizons: tuple[int, ...] = HORIZONS, weight: np.ndarray | None = None
-    ) -> tuple[np.ndarray, float]:
+    def run(self, z: np.ndarray, iterations: int = 8, horizons: tuple[int, ...] = HORIZONS) -> tuple[np.ndarray, float]:
         """The best z and its objective: mean over tosses and frames of position [%] plus rotation [deg], and prior.
 
-        weight : of the frames of a single horizon; by default by the blur of the start at z.
+        Frames are weighted by the blur of the start at the z with which a horizon begins.
         """
         objective = np.inf
         for frames in horizons:
-            z, objective = self._stage(z, cut(self.poses, frames), iterations, weight)
+            z, objective = self._stage(z, cut(self.poses, frames), iterations)
             many = f"{len(self.effects)} effects" if len(self.effects) > 3 else "+".join(self.effects)
             self.log(f"  {many or 'the law'}, {frames} frames: {objective:.3f}")
         return z, objective
 
-    def _stage(
-        self, z: np.ndarray, poses: Poses, iterations: int, weight: np.ndarray | None
-    ) -> tuple[np.ndarray, float]:
-        weight = self.frame_weights(z, poses) if weight is None else weight
+    def _stage(self, z: np.ndarray, poses: Poses, iterations: int) -> tuple[np.ndarray, float]:
+        weight = self.frame_weights(z, poses)
         z = np.clip(z, *descent.limits(self.parameters))
         now = self.objective(z, self.residual(z, poses), weight)
         for _ in range(iterations):
@@ -114,23 +104,16 @@ class TossFit:
         """The prior's part."""
         return float(np.sum((z / self.prior) ** 2)) / (2 * tosses)
 
-    def slopes(
-        self, z: np.ndarray, poses: Poses, weight: np.ndarray, known: descent.Slopes | None = None
-    ) -> descent.Slopes:
-        """Derivatives at z; position and turn of a frame count by the inverse of their size.
-
-        known : slopes of the first parameters at the same model, which are not asked for again.
-        """
+    def slopes(self, z: np.ndarray, poses: Poses, weight: np.ndarray) -> descent.Slopes:
+        """Derivatives at z; position and turn of a frame count by the inverse of their size."""
         r = self.residual(z, poses)
-        first = 0 if known is None else known.J.shape[-1]
         high = descent.limits(self.parameters)[1]
-        J = descent.derivatives(lambda moved: self.residual(moved, poses), z, r, high, first)
+        J = descent.derivatives(lambda moved: self.residual(moved, poses), z, r, high)
         size = np.sqrt(_sizes(r) ** 2 + FLOOR**2)
         by = weight[..., None] / size * np.exp(-size / CEILING)
         seen = weight > 0
-        new = J[seen].reshape(-1, 2, 3, J.shape[-1])
-        all_of_them = new if known is None else np.concatenate([known.J, new], axis=-1)
-        return descent.Slopes(r[seen].reshape(-1, 2, 3), all_of_them, by[seen], self.prior, len(r))
+        J = J[seen].reshape(-1, 2, 3, J.shape[-1])
+        return descent.Slopes(r[seen].reshape(-1, 2, 3), J, by[seen], self.prior, len(r))
 
     def frame_weights(self, z: np.ndarray, poses: Poses) -> np.ndarray:
         """(B, F) weights that sum to one a toss if nothing is blurred: less where the start's uncertainty decides."""

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from rockref.discover.tosses.errors import Errors
-from rockref.measure.flight import Poses, lowest
+from rockref.measure.flight import Poses
 
 #: The parts of a toss in their order.
 STRETCHES = ("flight", "first impact", "second and third impact", "further impacts", "sliding", "rest")
@@ -76,8 +76,3 @@ def by_stretch(found: np.ndarray, e: Errors) -> list[dict[str, Any]]:
             }
         )
     return rows
-
-
-def lowest_dip(poses: Poses, P: np.ndarray) -> np.ndarray:
-    """(B,) least height of the lowest body point over a toss [m]."""
-    return np.min(np.where(poses.measured, lowest(poses.x, poses.Lambda, P), np.inf), axis=1)
