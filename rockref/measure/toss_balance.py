@@ -81,7 +81,7 @@ def robust(
         keep = np.abs(r) < OUTLIER * 1.4826 * np.median(np.abs(r[keep])) + 1e-300
     p = np.linalg.lstsq(A[keep], y[keep], rcond=None)[0]
     r = y[keep] - A[keep] @ p
-    scatter = float(np.sqrt(r @ r / max(keep.sum() - A.shape[1] - lost * keep.mean(), 1)))
+    scatter = float(np.sqrt((r * r).sum() / max(keep.sum() - A.shape[1] - lost * keep.mean(), 1)))
     scores = np.zeros((int(groups.max()) + 1, A.shape[1]))
     np.add.at(scores, groups[keep], A[keep] * r[:, None])
     bread = np.linalg.pinv(A[keep].T @ A[keep])

@@ -11,6 +11,7 @@ PROGRAM = """
 import hashlib
 import numpy as np
 from rockref.discover.tosses.descent import Slopes
+from rockref.measure.toss_balance import robust
 
 draw = np.random.default_rng(1).normal
 {what}
@@ -20,10 +21,11 @@ NORMAL = """
 slopes = Slopes(draw(size=(22646, 2, 3)), draw(size=(22646, 2, 3, 38)), np.ones((22646, 2)), np.ones(38), 222)
 found = slopes.normal_equations(np.zeros(38), 3.0)
 """
+ROBUST = "found = robust(draw(size=(13000, 7)), draw(size=13000), np.arange(13000) // 60)"
 
 
 @pytest.mark.skipif((os.cpu_count() or 1) < 2, reason="one core has one thread")
-@pytest.mark.parametrize("what", [NORMAL])
+@pytest.mark.parametrize("what", [NORMAL, ROBUST])
 def test_one_thread_and_two_give_the_same_bits(what):
     digests = set()
     for threads in ("1", "2"):
