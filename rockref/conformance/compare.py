@@ -12,7 +12,6 @@ from rockref.conformance.rules import ORDER
 from rockref.conformance.vectors import Expected, Vector, problem_of
 from rockref.model.simulate import output_steps
 
-GRADES = ("bitwise", "inside", "look", "outside", "not shown", "not judged")
 #: A result within ten bars is inside "look": it passes, and is pointed out.
 LOOK = 10.0
 FLAGS = ("touching", "sliding", "anchored")

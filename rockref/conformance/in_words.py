@@ -11,7 +11,7 @@ from rockref.conformance.runs import RunCheck
 from rockref.conformance.vectors import AS_RUN, layer, manifest
 from rockref.conformance.verdict import Verdict, alike, downstream_of, grades
 
-RED, GREEN, YELLOW, BOLD, PLAIN = "\x1b[31m", "\x1b[32m", "\x1b[33m", "\x1b[1m", "\x1b[0m"
+RED, GREEN, BOLD, PLAIN = "\x1b[31m", "\x1b[32m", "\x1b[1m", "\x1b[0m"
 
 
 def painted(text: str, *codes: str, colour: bool) -> str:

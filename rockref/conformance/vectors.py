@@ -23,7 +23,6 @@ VERSION = "v1"
 SCHEMA = "rockref-vectors/1"
 #: Decided: the largest file that is shipped has 0.9 MB, 1.0 MB unpacked; a number has 30 characters.
 LARGEST, LONGEST_NUMBER = 16_000_000, 1000
-SMALL_LAYERS = ("L0", "L1", "L2", "L3", "L4", "L7")
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ The last of these ends in a valley that only the end of the record cuts across; 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -187,17 +187,3 @@ def _result(unknowns: Unknowns, at: Place, J: np.ndarray, alike: np.ndarray) -> 
     u = unknowns.chromosome(at.z, 0)
     u[unknowns.tilt_gene] = np.mean(at.z[len(unknowns.shared) :])
     return Polished(u, tilts, np.array(rms), at.chi2, at.z, J, unknowns.names, alike)
-
-
-def with_genes(space: Space, polished: Polished) -> dict[str, float]:
-    """Values of the polished genes by name, in their units; theta_0 is the mean over the targets."""
-    return dict(zip(space.names, map(float, space.values(polished.u)), strict=True))
-
-
-def narrowed(space: Space, u: np.ndarray, share: float) -> Space:
-    """The same genes with ranges of `share` of the width about u, inside the old ones."""
-    genes = []
-    for i, g in enumerate(space.genes):
-        low, high = (float(space.values(np.clip(u + s * share / 2, 0, 1))[i]) for s in (-1, 1))
-        genes.append(replace(g, low=low, high=high))
-    return replace(space, genes=tuple(genes))

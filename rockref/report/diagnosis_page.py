@@ -23,7 +23,7 @@ from rockref.report.page import Page, Table
 
 #: Bytes for the curves of the runs; decided: the page stays below half of what it may have.
 ROOM = 600_000
-BASELINE, FOUND = "baseline", "found"
+BASELINE = "baseline"
 
 
 def write_diagnosis(d: Diagnosis, folder: Path, comparison: Comparison | None = None) -> Path:

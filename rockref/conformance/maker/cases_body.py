@@ -163,9 +163,3 @@ def no_rotation() -> Iterator[Case]:
     """I3 of the vector that is exactly zero: nothing is moved, and nothing is divided by nothing."""
     fields = {"Lambda": ("I3", "I3")}
     yield Case("I3", "L3", "rotate", {"Theta": np.zeros(3)}, fields, ("zero",), on_surface=True)
-
-
-def all_bodies() -> Iterator[Case]:
-    """Every question of L2 and L3."""
-    for group in (assembly, exponentials, steps, no_rotation):
-        yield from group()

@@ -62,8 +62,3 @@ class Mistaken(RulesBackend):
         batch = pieces.simulate(self.rules, read, self.dtype, m.late, m.recorded)
         rows = [batch.pick(i) for i in range(len(problems))]
         return [m.report(r) for r in rows] if m.report else rows
-
-
-def same_shape(a: Any, like: np.ndarray) -> np.ndarray:
-    """`a` broadcast to the shape of `like`."""
-    return np.broadcast_to(a, like.shape)

@@ -73,8 +73,6 @@ SELDOM |= FORMS
 SELDOM_PRIOR = 0.1
 #: Prior standard deviation in typical sizes; decided: what is five times the typical size is not expected.
 PRIOR = 3.0
-#: Where the search starts in typical sizes for effects that the law at their absence does not see change.
-FINITE_START = 0.5
 
 
 def current(model: Model, kind: type[Effect]) -> Effect:

@@ -8,9 +8,9 @@ import pytest
 from rockref.identify import polish as polishing
 from rockref.identify import unknowns
 from rockref.identify.descent import BEYOND_ALL, FACTORS, NEARLY, Descent, Place
-from rockref.identify.genes import chromosome, model_of, space_12
+from rockref.identify.genes import chromosome, space_12
 from rockref.identify.identifiability import identifiability, profile
-from rockref.identify.polish import Effort, narrowed, polish, with_genes
+from rockref.identify.polish import Effort, polish
 from rockref.identify.runs import run_error
 from rockref.identify.target import seen_until, target
 from rockref.identify.unknowns import Unknowns, residuals, signal_costs
@@ -110,7 +110,7 @@ def test_a_profile_has_its_bottom_at_the_end(space, end, noisy_twin):
     known = identifiability(space, [noisy_twin], end)
     values, chi2 = profile(space, [noisy_twin], end, "beta_ext", 40 * known.errors[3], points=3)
     assert chi2[1] < chi2[0] and chi2[1] < chi2[2]
-    assert values[1] == pytest.approx(with_genes(space, end)["beta_ext"])
+    assert values[1] == pytest.approx(space.values(end.u)[space.names.index("beta_ext")])
 
 
 def test_every_run_has_its_own_release_angle(space, truth, table_3_1, noisy_twin):
@@ -188,13 +188,6 @@ def test_a_run_s_own_angle_is_found(space, end, noisy_twin):
     e = run_error(space, end, wrong, "holdout")
     assert e.tilt == pytest.approx(0.1170, abs=2e-5)
     assert e.over_noise < 1.15 < e.over_noise_stated
-
-
-def test_narrowed_ranges_keep_the_middle(space, truth):
-    smaller = narrowed(space, truth, 0.1)
-    assert all(a.low <= b.low < b.high <= a.high for a, b in zip(space.genes, smaller.genes, strict=True))
-    middle = model_of(smaller, smaller.units(space.values(truth)))
-    np.testing.assert_allclose(middle.parameters.K_N, 6e7, rtol=1e-12)
 
 
 class Dents(Descent):
