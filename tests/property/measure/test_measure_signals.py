@@ -12,7 +12,7 @@ from rockref.measure.activity import leakage, out_of_plane
 from rockref.measure.envelopes import envelopes
 from rockref.measure.gyroscope import low_pass, quantise, saturate
 from rockref.measure.impacts import main_impacts
-from rockref.measure.ledger import energy_ledger, rocking_block
+from rockref.measure.ledger import AFTER, FIT_WINDOW, energy_ledger, rocking_block
 from rockref.measure.noise import noise_floor
 from rockref.measure.phases import phases
 from rockref.measure.spectra import amplitude_spectrum
@@ -105,7 +105,12 @@ def test_ledger_balances(run):
         ledger.energy_before - ledger.impact_loss, ledger.energy_after, atol=1e-12 * scale, equal_nan=True
     )
     assert np.allclose(ledger.energy_after[:-1] - ledger.free_loss, ledger.energy_before[1:], atol=1e-12 * scale)
-    assert np.all(ledger.restitution[known] > 0.8) and np.all(ledger.restitution[known] < 1.05)
+    # Of impacts with a whole fit window behind them. Drawn are 0.90 to 0.97. Clatter of 0.008 rad/s on the main axis,
+    # carried on from fits of 100 ms, and an instant that is 1 ms off take up to 0.0105 rad/s off either rate, of which
+    # none is below 0.23 (2500 draws): 0.90 - 1.9 x 0.0105 / 0.23 = 0.81. A last arc that is cut is read from less.
+    whole = known & (ledger.times + AFTER + FIT_WINDOW <= t[-1])
+    assert np.all(ledger.restitution[whole] > 0.8) and np.all(ledger.restitution[whole] < 1.05)
+    assert np.all(ledger.restitution[known] > 0.0)
     assert np.all(ledger.path > 0.0) and np.all(ledger.square > 0.0) and np.all(ledger.out_of_plane >= 0.0)
 
 
