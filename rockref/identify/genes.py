@@ -6,6 +6,7 @@ same size. Stiffness, damping and friction are searched by their logarithm: thei
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -81,7 +82,7 @@ class Space:
     def slopes(self, u: np.ndarray) -> np.ndarray:
         """d(values)/d(u) at u, (..., G): what turns an error in u into one in the gene's unit."""
         low, high, log = self._bounds()
-        ratio = np.where(log, high / np.where(low > 0, low, 1), np.e)
+        ratio = np.where(log, high / np.where(low > 0, low, 1), math.e)
         return np.where(log, self.values(u) * np.log(ratio), high - low)
 
     def _bounds(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
