@@ -48,8 +48,9 @@ def add(
     from rockref.measure.tosses import is_toss_folder
 
     if is_toss_folder(experiment):
-        from rockref.commands._tosses import add_to_model_of_tosses
+        from rockref.commands._tosses import add_to_model_of_tosses, of_releases_only
 
+        of_releases_only(seed=seed != 0, workers=workers is not None)
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
     from rockref.commands._models import check_step, known_files, named_models, say_idle
     from rockref.commands._results import say_remarks, told, usable_files, with_files

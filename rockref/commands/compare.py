@@ -49,8 +49,9 @@ def compare(
     from rockref.measure.tosses import is_toss_folder
 
     if is_toss_folder(experiment):
-        from rockref.commands._tosses import compare_tosses
+        from rockref.commands._tosses import compare_tosses, of_releases_only
 
+        of_releases_only(engine=engine != "auto", check=check)
         return compare_tosses(experiment, model, effect, report, as_json)
     from rockref.commands._models import labels, named_models
     from rockref.commands._progress import progress

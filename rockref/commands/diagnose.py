@@ -50,8 +50,9 @@ def diagnose(
     from rockref.measure.tosses import is_toss_folder
 
     if is_toss_folder(experiment):
-        from rockref.commands._tosses import diagnose_tosses
+        from rockref.commands._tosses import diagnose_tosses, of_releases_only
 
+        of_releases_only(seed=seed != 0, workers=workers is not None)
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
     from rockref.commands._models import check_step, models_and_others, say_idle
     from rockref.commands._results import in_json, keep, say_remarks, told, usable_files

@@ -45,8 +45,9 @@ def fit(
     from rockref.measure.tosses import is_toss_folder
 
     if is_toss_folder(experiment):
-        from rockref.commands._tosses import fit_to_tosses
+        from rockref.commands._tosses import fit_to_tosses, of_releases_only
 
+        of_releases_only(seed=seed != 0, workers=workers is not None, **{"no-gates": not gates})
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
     from rockref.commands._models import check_step, known_files, named_model, say_idle
     from rockref.commands._results import say_remarks, told, usable_files, with_files

@@ -90,7 +90,7 @@ def capabilities(facts: dict[str, Any], known: Iterable[str]) -> list[str]:
     return [p for p in known if p in said] if isinstance(said, list) else []
 
 
-def object_of(text: str) -> dict[str, Any]:
+def object_of(text: str | bytes) -> dict[str, Any]:
     """The object that a line holds. Raises ValueError: what is wrong with it."""
     try:
         thing = json.loads(text)
@@ -131,10 +131,11 @@ def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
         return {"id": id_, "error": raised(e)}
 
 
-def serve(backend: Any, lines: Iterable[str] | None = None, out: TextIO | None = None) -> None:
+def serve(backend: Any, lines: Iterable[str | bytes] | None = None, out: TextIO | None = None) -> None:
     """Answer requests until `stop` or the end: this makes an executable of any Python backend."""
     out = sys.stdout if out is None else out
-    for text in sys.stdin if lines is None else lines:
+    # Bytes: a line that is no UTF-8 is answered like any other that cannot be read.
+    for text in getattr(sys.stdin, "buffer", sys.stdin) if lines is None else lines:
         if not text.strip():
             continue
         try:

@@ -182,6 +182,8 @@ def _read(path: Path, identity: dict[str, Any]) -> list[list[float]]:
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))
         other, costs = stored["search"], stored["costs"]
+        if not (isinstance(other, dict) and isinstance(costs, list)):
+            raise TypeError("other types than are written")
     except (OSError, ValueError, KeyError, TypeError) as e:
         raise InputError("E-FILE", str(path), f"is no checkpoint of a search ({e})", "Start without --resume.") from e
     mine = json.loads(json.dumps(identity))

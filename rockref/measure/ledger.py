@@ -10,8 +10,8 @@ import numpy as np
 from rockref.measure.arcs import Arcs, arcs
 from rockref.measure.impacts import Impacts, checked_signal, main_impacts
 from rockref.model.errors import InputError
+from rockref.model.problem import GRAVITY
 
-GRAVITY = 9.81
 # decided: a main impact is over after 20 ms (two or three drops), and begins, with clatter, some 5 ms before its drop.
 BEFORE, AFTER = 0.005, 0.025
 # decided: 100 ms average over two to ten periods of clatter, and stay on one side of the apex in arcs above 0.3 s.

@@ -238,12 +238,16 @@ def _numbers(text: str, table: Path) -> pd.DataFrame:
             "E-FILE", str(table), f"cannot be read as a table ({str(e)[:80]})", "Give comma-separated text."
         ) from e
     data.columns = pd.Index([names[place] for place in places])
+    lines = [number for number, row in enumerate(rows, start=2) if row.strip()]  # blank ones are passed over
     for name in known:
         values = pd.to_numeric(data[name], errors="coerce").to_numpy(float)
         bad = np.flatnonzero(~(np.abs(values) < MOST))
         if len(bad):
             raise InputError(
-                "E-NUMBER", f"{table}, line {bad[0] + 2}, column {name}", "is not a number", "Mend or remove the row."
+                "E-NUMBER",
+                f"{table}, line {lines[bad[0]]}, column {name}",
+                "is not a number",
+                "Mend or remove the row.",
             )
         data[name] = values
     return data

@@ -21,7 +21,6 @@ SPARSITY = 0.10
 LEAST_EXPLAINED = 0.05
 #: Family-wise limit of the largest of some thirty correlated z (5 %); from a simulated null.
 LEAST_Z = 3.1
-GRAVITY = 9.81
 
 
 def said(effect: str | None, **more: Any) -> dict[str, Any]:
@@ -124,6 +123,8 @@ def weak_rows(t, crv, tilt: float, turned: bool, experiment, width: float = 0.06
 
     t (N,) s, crv (N, 3) rad/s. Returns {name: (K,)} and (K,), N m s. Windows that hold a main impact are left out.
     """
+    from rockref.model.problem import GRAVITY
+
     h = float(t[1] - t[0])
     w = -crv[:, 0] * (-1.0 if turned else 1.0)  # rate of the lean toward the side of the release
     lean = tilt + np.concatenate([[0.0], np.cumsum(0.5 * h * (w[1:] + w[:-1]))])

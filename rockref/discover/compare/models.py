@@ -28,11 +28,12 @@ from rockref.discover.compare.features import (
 from rockref.discover.compare.stretches import StretchError, noise_of, stretch_errors
 from rockref.measure.experiment import Experiment, Run
 from rockref.measure.impacts import main_impacts
-from rockref.measure.ledger import GRAVITY, rocking_block
+from rockref.measure.ledger import rocking_block
 from rockref.measure.noise import noise_floor
 from rockref.measure.prediction import STEP, Prediction, gyro_of, predict
 from rockref.measure.repeatability import Repeatability, repeat_groups, repeatability
 from rockref.model.errors import InputError, NumericalError
+from rockref.model.problem import GRAVITY
 
 # decided: an envelope narrower than this many noise widths is noise.
 ENVELOPE_SIGMAS = 3.0

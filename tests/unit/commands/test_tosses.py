@@ -49,6 +49,25 @@ class TestCompare:
         assert code == 0 and {row["model"] for row in record["rows"]} == {"m"} and record["written"] == []
 
 
+@pytest.mark.parametrize(
+    "command, options",
+    [
+        (("compare",), ("--check",)),
+        (("compare",), ("--engine", "numpy")),
+        (("diagnose",), ("--seed", 1)),
+        (("diagnose",), ("--workers", 1)),
+        (("fit",), ("--no-gates",)),
+        (("fit",), ("--seed", 1)),
+        (("add", "rounded_corners"), ("--workers", 1)),
+    ],
+)
+def test_options_that_mean_nothing_for_tosses_are_refused(capsys, folder, tmp_path, monkeypatch, command, options):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(capsys, *command, folder, *options)
+    assert (code, out) == (2, "") and "E-ARGUMENT" in err and options[0] in err
+    assert list(tmp_path.iterdir()) == []
+
+
 class TestDiagnose:
     @pytest.mark.parametrize("verdict, code", [("named", 0), ("none", 0), ("not_trustworthy", 1)])
     def test_words_files_and_exit_code(self, capsys, monkeypatch, folder, tmp_path, verdict, code):

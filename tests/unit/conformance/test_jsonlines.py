@@ -2,6 +2,8 @@
 
 import io
 import json
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -24,7 +26,7 @@ class Careless:
         type(self).called = True
 
 
-def said(*lines: str, backend=None) -> list[dict]:
+def said(*lines: str | bytes, backend=None) -> list[dict]:
     out = io.StringIO()
     jsonlines.serve(backend or NumpyEngine(), lines, out)
     return [json.loads(line) for line in out.getvalue().splitlines()]
@@ -34,6 +36,7 @@ def said(*lines: str, backend=None) -> list[dict]:
     "line, words",
     [
         ("rubbish", "is no JSON"),
+        (b'{"cmd":"\xff\xfe"}\n', "is no JSON"),
         ("[1, 2]", "is no JSON object"),
         ("[" * 100_000, "is no JSON"),
         ("{}", "unknown command"),
@@ -81,3 +84,11 @@ def test_a_file_of_requests_that_is_none_is_refused_with_its_line(tmp_path, caps
         out, err = capsys.readouterr()
         assert end.value.code == 2 and out == ""
         assert "line 3" in err and words in err and "[E-REQUEST]" in err
+
+
+def test_a_program_outlives_a_line_that_is_no_utf_8():
+    asked = b'\xff\n{"cmd":"run","id":"b","piece":"rotate","in":{"Theta":[0,0,0]}}\n'
+    serving = "from rockref.conformance import jsonlines, law_backend; jsonlines.serve(law_backend.NumpyEngine())"
+    ended = subprocess.run([sys.executable, "-c", serving], input=asked, capture_output=True, check=True)
+    bad, good = map(json.loads, ended.stdout.splitlines())
+    assert "is no JSON" in bad["error"] and good["out"]["Lambda"] == np.eye(3).tolist()

@@ -103,7 +103,9 @@ def test_another_search_s_checkpoint_is_refused(here, tmp_path):
     assert "settings" in error.value.what
 
 
-@pytest.mark.parametrize("text", ["", "{}", '{"search": 1', "[1, 2]"])
+@pytest.mark.parametrize(
+    "text", ["", "{}", '{"search": 1', "[1, 2]", '{"search": "a", "costs": []}', '{"search": {}, "costs": 1}']
+)
 def test_a_broken_checkpoint_is_named(here, tmp_path, text):
     path = tmp_path / "checkpoint.json"
     path.write_text(text)

@@ -77,6 +77,18 @@ def test_bad_tables_are_refused(six, tmp_path, change, code):
     assert e.value.code == code
 
 
+def test_a_bad_number_is_told_by_its_line_of_the_file(six, tmp_path):
+    folder = write_tosses(tmp_path / "t", *six)
+    header, *rows = gzip.decompress((folder / "tosses.csv.gz").read_bytes()).decode().splitlines()
+    rows[3] = rows[3].replace("0,3,", "0,3,oops", 1)
+    text = "\n".join([header, *rows[:2], "", "", *rows[2:], ""])
+    (folder / "tosses.csv.gz").write_bytes(gzip.compress(text.encode()))
+    with pytest.raises(InputError) as e:
+        load_tosses(folder)
+    number = int(e.value.where.split("line ")[1].split(",")[0])
+    assert "oops" in text.splitlines()[number - 1]
+
+
 @pytest.mark.parametrize("damage", [lambda raw: raw[:-20], lambda raw: raw[:30] + b"\xff" * 40 + raw[70:]])
 def test_a_packed_table_that_is_damaged_is_refused(six, tmp_path, damage):
     folder = write_tosses(tmp_path / "t", *six)
