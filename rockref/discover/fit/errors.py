@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from rockref.api import Model
 from rockref.discover.compare.stretches import AXES
-from rockref.discover.fit.evidence import TRIMMED
+from rockref.discover.fit.evidence import TRIMMED, on_held_out
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.search import MIDDLE, Setup, windows
+from rockref.discover.fit.search import Setup
 from rockref.measure.experiment import HOLDOUT, Experiment, load_experiment
 from rockref.measure.impacts import main_impacts
 from rockref.measure.repeatability import repeat_groups, repeatability
@@ -78,21 +78,12 @@ def stretch_of(fit: Fit) -> np.ndarray:
     return kinds
 
 
-def on_holdout(setup: Setup, model: Model, effects: tuple[str, ...], experiment: Experiment) -> tuple[Fit, Point]:
-    """A model with all its shared numbers fixed on the held-out runs: only tilt, phases and window starts are free."""
-    own = replace(setup, experiment=experiment, runs=experiment.holdout_runs(), base=model)
-    free = tuple(p for p in own.parameters(effects) if p.run is not None)
-    fit = Fit(windows(own, MIDDLE, model), model, free, log=setup.log)
-    start = fit.relax_states(fit.begin(), 2)
-    return fit, fit.run(start, 3, np.random.default_rng(1))
-
-
 def holdout_errors(setup: Setup, model: Model, effects: tuple[str, ...]) -> Errors | None:
     """Errors on the held-out runs, or None where there are none. Opens their files."""
     experiment = load_experiment(setup.experiment.path, uses=(HOLDOUT,))
     if not experiment.holdout_runs():
         return None
-    return errors_of(*on_holdout(setup, model, effects, experiment))
+    return errors_of(*on_held_out(setup, model, effects, experiment))
 
 
 def spread_of(experiment: Experiment, end: float) -> np.ndarray | None:

@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rockref.api import Model
 from rockref.discover.fit.approach import approached
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import MIDDLE, Setup, windows
+from rockref.measure.experiment import Experiment
 
 #: A window counts at most this much per sample value in a gain; decided: windows that fall into another order of corner
 #: impacts by luck would else outweigh all others.
@@ -47,17 +49,18 @@ class HeldOut(Losses):
     rms: float
 
 
-def held_out(setup: Setup, fit: Fit, point: Point, experiment, effects: tuple[str, ...], seed: int = 1) -> HeldOut:
+def held_out(setup: Setup, fit: Fit, point: Point, experiment: Experiment, effects: tuple[str, ...]) -> HeldOut:
     """Apply the parameters of a fit to the held-out runs: only release tilt, phases and window states are free."""
-    runs = experiment.holdout_runs()
-    if not runs:
+    if not experiment.holdout_runs():
         return HeldOut(np.zeros(0), np.zeros(0), np.zeros(0, int), float("nan"))
-    fixed = fit.models(point.z)[0][0]
-    own = replace(setup, experiment=experiment, runs=runs, base=fixed)
-    parameters = [p for p in own.parameters(effects) if p.run is not None]
-    series = windows(own, MIDDLE, fixed)
-    free = Fit(series, fixed, tuple(parameters), log=setup.log)
-    rng = np.random.default_rng(seed)
+    free, best = on_held_out(setup, fit.models(point.z)[0][0], effects, experiment)
+    return HeldOut(best.loss, free.series.count, free.series.run_of, rms_deg_s(free, best))
+
+
+def on_held_out(setup: Setup, model: Model, effects: tuple[str, ...], experiment: Experiment) -> tuple[Fit, Point]:
+    """A model with all its shared numbers fixed on the held-out runs: only tilt, phases and window starts are free."""
+    own = replace(setup, experiment=experiment, runs=experiment.holdout_runs(), base=model)
+    parameters = tuple(p for p in own.parameters(effects) if p.run is not None)
+    free = Fit(windows(own, MIDDLE, model), model, parameters, log=setup.log)
     start = free.relax_states(approached(free, np.zeros(len(parameters))), 2)
-    best = free.run(start, 3, rng)
-    return HeldOut(best.loss, series.count, series.run_of, rms_deg_s(free, best))
+    return free, free.run(start, 3, np.random.default_rng(1))

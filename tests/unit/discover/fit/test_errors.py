@@ -36,11 +36,11 @@ def test_a_stretch_without_a_window_has_no_error(first, known):
 def test_without_held_out_runs_there_is_no_error_of_them(monkeypatch):
     made = SimpleNamespace(holdout_runs=lambda: ())
     monkeypatch.setattr(erring, "load_experiment", lambda path, uses: made)
-    monkeypatch.setattr(erring, "on_holdout", lambda *a: pytest.fail("fitted"))
+    monkeypatch.setattr(erring, "on_held_out", lambda *a: pytest.fail("fitted"))
     setup = SimpleNamespace(experiment=SimpleNamespace(path="folder"))
     assert holdout_errors(setup, Model.table_3_1(), ()) is None
     made.holdout_runs = lambda: ("03",)
-    monkeypatch.setattr(erring, "on_holdout", lambda *a: fit_of(1, 2.0))
+    monkeypatch.setattr(erring, "on_held_out", lambda *a: fit_of(1, 2.0))
     assert isinstance(holdout_errors(setup, Model.table_3_1(), ()), Errors)
 
 
