@@ -39,8 +39,8 @@ LEAST_SIZE = 0.2
 #: Rivals whose gain is above this share of the best one, or within so many units of it, are not told apart from it.
 #: Fitted in full, the true effect leads by 70 of 1000 units where another law comes nearest (a cable for drag); fits
 #: end within some ten units of their best place, or, where the feet stand elsewhere and rates of another scale look the
-#: same, within 130 of 3140 (sides that were off under the stated inertia).
-RIVAL, CLOSE = 0.95, 30.0
+#: same, within 130 of 3140, or 152 of 2855 (sides that were off under the stated inertia).
+RIVAL, CLOSE = 0.94, 30.0
 #: A rival that has to be so many times its typical size is none of a winner that is less (decided: sides that are 2.2 %
 #: off do what a scale of 4 to 5 % does, 4.5 and 2.5 typical sizes; blind effects are made at up to twice theirs).
 FAR_FETCHED = 4.0

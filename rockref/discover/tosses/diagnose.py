@@ -20,7 +20,6 @@ from rockref.discover.tosses.gates import floor_of, off_bounds, paired, step_sma
 from rockref.discover.tosses.parameters import CANDIDATES, apply
 from rockref.discover.tosses.predict import predict
 from rockref.discover.tosses.together import STAGES, Stair, all_together, way_down
-from rockref.discover.verdict import RIVAL
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT
 from rockref.measure.flight import Poses, side_by_side
@@ -31,6 +30,8 @@ from rockref.model.errors import InputError
 FIRST_ITERATIONS, LAST_ITERATIONS = 16, 12
 #: Least tosses on either side for a verdict (decided: below it the bootstrap of a mean with heavy tails means little).
 LEAST_TOSSES = 8
+#: Share of a rung's gain that stays without its effect, from which on the others could stand for it; decided.
+TAKEN_OVER = 0.95
 
 
 @dataclass
@@ -241,7 +242,7 @@ def word(step: Step) -> str:
         return "none"
     if step.proof["low"] <= 0:
         return "indicated"
-    return "class" if step.taken_over > RIVAL else "named"
+    return "class" if step.taken_over > TAKEN_OVER else "named"
 
 
 def words(steps: list[Step], proven: tuple[str, ...]) -> tuple[str, str]:

@@ -10,7 +10,15 @@ from rockref.discover.fit.families import gain_over
 from rockref.discover.fit.parameter import Parameter
 from rockref.discover.looking import winning
 from rockref.discover.looking.look import Look
-from rockref.discover.looking.winning import CONTENDS, all_finished, exchanged, finished, to_the_end, upheld
+from rockref.discover.looking.winning import (
+    CONTENDS,
+    all_finished,
+    exchanged,
+    finished,
+    second_alone,
+    to_the_end,
+    upheld,
+)
 from rockref.effects.loads.quadratic_drag import QuadraticDrag
 from rockref.effects.sensor.gyro_scale import GyroScale
 from tests.unit.discover.bowls import ALONE, Bowl, family
@@ -97,11 +105,11 @@ def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
 
 
 @pytest.mark.parametrize(
-    "left, kin_at, best",
-    [(0.15, 0.0, DRAG), (0.15, 0.14, ROLLING), (0.02, 0.0, ROLLING)],
-    ids=["ahead", "far behind", "nothing is left"],
+    "left, kin_at, afresh_at, best",
+    [(0.15, 0.0, None, DRAG), (0.15, 0.14, None, ROLLING), (0.02, 0.0, None, ROLLING), (0.15, 0.14, 0.0, DRAG)],
+    ids=["ahead", "far behind", "nothing is left", "in another valley"],
 )
-def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left, kin_at, best):
+def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left, kin_at, afresh_at, best):
     """Decided by what they gain over the plain baseline; one that falls behind there is not fitted on."""
     kept = family((), Bowl(np.zeros(1), floor=1.3, stuck=True), np.zeros(1))
     winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.0 + left), np.array([0.0, 0.5]))
@@ -113,11 +121,21 @@ def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left
         return [kin]
 
     monkeypatch.setattr(winning, "in_the_valley_of", valley)
+    begun = []
+
+    def afresh(setup, z, over, say):
+        begun.append((z, over))
+        end = np.array([0.0, 0.0, 1.0])
+        return [] if afresh_at is None else [family(DRAG, Bowl(end, floor=1.0 + afresh_at), end)]
+
+    monkeypatch.setattr(winning, "own_z", lambda setup, effects: "absent")
+    monkeypatch.setattr(winning, "fitted_anew", afresh)
     monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (QuadraticDrag, GyroScale))
     look = looked(kept, winner)
     assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == best
     assert asked == ([] if left == 0.02 else [(ROLLING, [DRAG], kept)])
-    assert (kin.fit.iterations > 0) is (best == DRAG)
+    assert begun == ([] if left == 0.02 else [({DRAG: "absent"}, kept)])
+    assert (kin.fit.iterations > 0) is (best == DRAG and afresh_at is None)
     if best == DRAG:
         assert look.gains["quadratic_drag"] > look.gains["rolling_resistance"] > rules.DETECTED
 
@@ -173,6 +191,33 @@ def test_of_a_pair_the_first_effect_is_held_against_its_rivals(monkeypatch, firs
     # Begun where the rival had ended, with the second effect as large as in the pair.
     begun = (("other", "lever"), [*rival.point.z, pair.point.z[-1]])
     assert asked == ([] if behind else [begun])
+
+
+# 180 and 720 units: less than a second effect has to gain beside a first, and more.
+@pytest.mark.parametrize("floor, taken", [(1.05, True), (1.2, False)])
+def test_of_a_pair_the_first_effect_has_to_gain_beside_the_second(monkeypatch, floor, taken):
+    """It was found while the second was missing, and may have stood in for it."""
+    asked = []
+
+    def baseline(setup, effects, z):
+        asked.append((effects, list(z)))
+        end = at_its_bottom(effects, LEVER, floor)
+        return end.fit, end.point
+
+    monkeypatch.setattr(winning, "baseline", baseline)
+    pair = at_its_bottom(("sides", "lever"), (*SIDES, *LEVER))
+    kept, first = at_its_bottom((), (), 3.0), at_its_bottom(("sides",), SIDES, 2.0)
+    looks = [Look(kept, [first], {"sides": 3600.0}), Look(first, [pair], {"lever": 3600.0})]
+    final, seen = second_alone(ALONE, looks, pair, 0, quiet)
+    # Begun with what the pair has for all but its first effect.
+    assert asked == [(("lever",), [pair.point.z[0], pair.point.z[-1]])]
+    assert final.effects == (("lever",) if taken else pair.effects)
+    if not taken:
+        assert seen is looks
+        return
+    # The one look that is left shows the effect that stays beside the one that stood in for it.
+    assert [f.effects for f in seen[0].order] == [("lever",), ("sides",)] and seen[0].kept is kept
+    assert seen[0].gains["lever"] == pytest.approx(gain_over(kept, final)) and len(seen) == 1
 
 
 def test_a_plain_gain_needs_no_challenge(monkeypatch):
