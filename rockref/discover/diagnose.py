@@ -36,7 +36,7 @@ from rockref.discover.fit.search import FRESH, Setup, baseline
 from rockref.discover.looking.look import FAR, POLISH, TOO_FAR, Look, duel, look_further
 from rockref.discover.looking.presearch import STRONG, suspects
 from rockref.discover.looking.two import two_at_once
-from rockref.discover.looking.winning import exchanged, finished, second_alone, to_the_end, upheld, without
+from rockref.discover.looking.winning import exchanged, finished, to_the_end, upheld
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.plan import switches_of
 from rockref.discover.separating import separating_run
@@ -143,7 +143,6 @@ def diagnose(
         null = looks[0].kept
         if len(start.effects) == 2:
             start = exchanged(setup, looks[0], start, seed, say)
-            start, looks = second_alone(setup, looks, start, seed, say)
     if not start.effects:
         # Nothing was found: the baseline itself has to be taken down to what it can reach before that is said.
         null = start = refit(null, 2 * POLISH, seed)
@@ -268,6 +267,16 @@ def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look]
     on_held = held_gains(held(alone), held(pair), rules.SHOWN)
     say(f"  {second}: the loss falls by {on_fitted:.3f}, held out by {' '.join(f'{g:.3f}' for g in on_held)}")
     return pair if rules.is_proven(on_fitted, on_held) else alone
+
+
+def without(setup: Setup, family: Family, effect: str) -> Family:
+    """A pair less the effect that came to nothing, fitted afresh; the pair itself, where that is much worse."""
+    left = tuple(e for e in family.effects if e != effect)
+    own = [
+        zi for p, zi in zip(family.fit.parameters, family.point.z, strict=True) if not p.name.startswith(effect + ".")
+    ]
+    single = Family(left, *baseline(setup, left, np.array(own)))
+    return single if mean_loss(single) < rules.NO_LOSS * mean_loss(family) else family
 
 
 def conclude(

@@ -140,38 +140,3 @@ def exchanged(setup: Setup, look: Look, pair: Family, seed: int, say: Callable[[
         if gain > ahead + (-rules.CLOSE if fewer else rules.CLOSE):
             best, ahead = other, gain
     return best
-
-
-def second_alone(
-    setup: Setup, looks: list[Look], pair: Family, seed: int, say: Callable[[str], None]
-) -> tuple[Family, list[Look]]:
-    """The second effect of a pair by itself where the first gains next to nothing beside it; and the look that says so.
-
-    The first was found while the second was still missing, and may have stood in for it, as a drift for a push at the
-    release. It has to gain as much beside the second as a second effect has to beside a first.
-    """
-    first, second = pair.effects
-    alone = finished(setup, less(setup, pair, first), seed)
-    gain = gain_between(alone, pair)
-    say(f"  {first} beside {second}: gain {gain:.0f}")
-    if gain > rules.SECOND:
-        return pair, looks
-    look = looks[0]
-    gains = look.gains | {second: gain_between(look.kept, alone)}
-    others = [f for f in look.order if f.effects != alone.effects]
-    return alone, [Look(look.kept, [alone, *others], gains, look.in_full)]
-
-
-def without(setup: Setup, family: Family, effect: str) -> Family:
-    """A pair less the effect that came to nothing, fitted afresh; the pair itself, where that is much worse."""
-    single = less(setup, family, effect)
-    return single if mean_loss(single) < rules.NO_LOSS * mean_loss(family) else family
-
-
-def less(setup: Setup, family: Family, effect: str) -> Family:
-    """A family fitted afresh without one of its effects, from the numbers that it has for all else."""
-    left = tuple(e for e in family.effects if e != effect)
-    own = [
-        zi for p, zi in zip(family.fit.parameters, family.point.z, strict=True) if not p.name.startswith(effect + ".")
-    ]
-    return Family(left, *baseline(setup, left, np.array(own)))

@@ -8,7 +8,6 @@ import pytest
 from rockref.discover import diagnose
 from rockref.discover.diagnose import beginning, ranked_by, without
 from rockref.discover.fit.evidence import Losses
-from rockref.discover.looking import winning
 from rockref.discover.looking.look import Look
 from rockref.effects import catalogue
 from tests.unit.discover.bowls import WINDOWS, Bowl, family, series
@@ -24,7 +23,7 @@ def test_a_pair_loses_the_effect_that_came_to_nothing_unless_the_fit_suffers(mon
         asked.append((effects, tuple(z)))
         return single, single.point(z, np.zeros((WINDOWS, 5)))[0]
 
-    monkeypatch.setattr(winning, "baseline", baseline)
+    monkeypatch.setattr(diagnose, "baseline", baseline)
     assert without(None, pair, "rolling_resistance").effects == left
     assert asked == [(("quadratic_drag",), (0.1, 1.0))]
 
@@ -219,8 +218,6 @@ def whole(monkeypatch):
         monkeypatch.setattr(diagnose, "finished", noted("finished", lambda setup, f, seed: f))
         monkeypatch.setattr(diagnose, "without", noted("without", lambda setup, f, effect: left((effect,), 0.1)))
         monkeypatch.setattr(diagnose, "exchanged", noted("exchanged", lambda setup, look, pair, *a: pair))
-        alone = noted("second_alone", lambda setup, looks, pair, *a: (pair, looks))
-        monkeypatch.setattr(diagnose, "second_alone", alone)
         monkeypatch.setattr(diagnose, "refit", noted("refit", lambda f, iterations, seed: left((), 0.05)))
         monkeypatch.setattr(diagnose, "conclude", lambda setup, held, null, final, *a: (null, final))
         return (*diagnose.diagnose("folder"), done)
@@ -238,7 +235,7 @@ def test_of_a_pair_what_came_to_nothing_is_left_out_and_a_rival_of_the_first_is_
     looks = [Look(kept, [], {})]
     pair = left(BOTH, 0.0)
     null, final, done = whole(pair, looks)
-    assert null is kept and final is pair and done == ["exchanged", "second_alone"]
+    assert null is kept and final is pair and done == ["exchanged"]
     pair = left(BOTH, 0.0)
     pair.point.z[2] = 0.01
     _, final, done = whole(pair, looks)

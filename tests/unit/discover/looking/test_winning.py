@@ -15,7 +15,6 @@ from rockref.discover.looking.winning import (
     all_finished,
     exchanged,
     finished,
-    second_alone,
     to_the_end,
     upheld,
 )
@@ -191,33 +190,6 @@ def test_of_a_pair_the_first_effect_is_held_against_its_rivals(monkeypatch, firs
     # Begun where the rival had ended, with the second effect as large as in the pair.
     begun = (("other", "lever"), [*rival.point.z, pair.point.z[-1]])
     assert asked == ([] if behind else [begun])
-
-
-# 180 and 720 units: less than a second effect has to gain beside a first, and more.
-@pytest.mark.parametrize("floor, taken", [(1.05, True), (1.2, False)])
-def test_of_a_pair_the_first_effect_has_to_gain_beside_the_second(monkeypatch, floor, taken):
-    """It was found while the second was missing, and may have stood in for it."""
-    asked = []
-
-    def baseline(setup, effects, z):
-        asked.append((effects, list(z)))
-        end = at_its_bottom(effects, LEVER, floor)
-        return end.fit, end.point
-
-    monkeypatch.setattr(winning, "baseline", baseline)
-    pair = at_its_bottom(("sides", "lever"), (*SIDES, *LEVER))
-    kept, first = at_its_bottom((), (), 3.0), at_its_bottom(("sides",), SIDES, 2.0)
-    looks = [Look(kept, [first], {"sides": 3600.0}), Look(first, [pair], {"lever": 3600.0})]
-    final, seen = second_alone(ALONE, looks, pair, 0, quiet)
-    # Begun with what the pair has for all but its first effect.
-    assert asked == [(("lever",), [pair.point.z[0], pair.point.z[-1]])]
-    assert final.effects == (("lever",) if taken else pair.effects)
-    if not taken:
-        assert seen is looks
-        return
-    # The one look that is left shows the effect that stays beside the one that stood in for it.
-    assert [f.effects for f in seen[0].order] == [("lever",), ("sides",)] and seen[0].kept is kept
-    assert seen[0].gains["lever"] == pytest.approx(gain_over(kept, final)) and len(seen) == 1
 
 
 def test_a_plain_gain_needs_no_challenge(monkeypatch):
