@@ -58,8 +58,8 @@ def test_sixty_cases_are_no_worse_than_the_documentation_says(tmp_path):
     assert all(found["sealed"].values())
     rows = {row["score"]: row["value"] for row in found["scores"]}
     print("\n".join(found["failures"]))
-    # The worse ends of the intervals of two sets of sixty together (docs/explanation/blind_test.md).
+    # The set had three wrong names, and 25 of 31 first (docs/explanation/blind_test.md): one of these less, at most.
     assert rows["controls: false alarms"] == 0
     assert rows["gap closed on held-out runs, median"] > 0.95
-    assert rows["all: wrong name"] < 0.071
-    assert rows["single: truth first"] > 0.747
+    assert rows["all: wrong name"] < 0.061
+    assert rows["single: truth first"] > 0.75
