@@ -15,7 +15,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.errors import FIT_STRETCH
-from rockref.discover.fit.evidence import Losses, held_out, rms_deg_s
+from rockref.discover.fit.evidence import Losses, held_gains, held_out, rms_deg_s
 from rockref.discover.fit.families import (
     Family,
     amplitudes,
@@ -128,7 +128,7 @@ def diagnose(
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say, own=known)
     setup, sets, seen = suspects(setup)
     null, start, aside = beginning(setup, sets, seen)
-    start, looks = grown(setup, start, seed, say)
+    start, looks = (start, []) if blinded(seen, start) else grown(setup, start, seed, say)
     if aside is not None and room(start) > rules.SECOND_ROOM:
         start, looks = better_course(start, looks, *grown(setup, aside, seed, say), say)
     held = load_experiment(path, uses=(FIT, HOLDOUT))
@@ -179,6 +179,11 @@ def beginning(setup: Setup, sets: list[tuple[str, ...]], seen: dict) -> tuple[Fa
     else:
         better = mean_loss(start) * NO_WORSE < mean_loss(null)
     return (null, start, None) if better else (null, null, suspect)
+
+
+def blinded(seen: dict, start: Family) -> bool:
+    """Whether flat tops in the records leave so many windows without a state that no second effect could be told."""
+    return "flat_top" in seen and structured(start) > rules.UNEXPLAINED
 
 
 def better_course(
@@ -380,17 +385,3 @@ def to_be_sure(setup: Setup, null: Family, final: Family, decision: rules.Decisi
         if found := separating_run(setup, model, decision.effects, size):
             return found
     return rules.separating(decision)
-
-
-def held_gains(plain: Losses, other: Losses, most: float = 3.0) -> list[float]:
-    """By how much the loss falls on each run (1 is noise, `most` the most that a window counts).
-
-    The windows of the two fits may be cut differently.
-    """
-    found = []
-    for i in np.unique(plain.run_of):
-        a, b = plain.run_of == i, other.run_of == i
-        worse = np.minimum(2 * plain.loss[a] / plain.count[a], most)
-        better = np.minimum(2 * other.loss[b] / other.count[b], most)
-        found.append(float(np.mean(worse) - np.mean(better)))
-    return found

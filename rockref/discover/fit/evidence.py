@@ -64,3 +64,17 @@ def on_held_out(setup: Setup, model: Model, effects: tuple[str, ...], experiment
     free = Fit(windows(own, MIDDLE, model), model, parameters, log=setup.log)
     start = free.relax_states(approached(free, np.zeros(len(parameters))), 2)
     return free, free.run(start, 3, np.random.default_rng(1))
+
+
+def held_gains(plain: Losses, other: Losses, most: float = 3.0) -> list[float]:
+    """By how much the loss falls on each run (1 is noise, `most` the most that a window counts).
+
+    The windows of the two fits may be cut differently.
+    """
+    found = []
+    for i in np.unique(plain.run_of):
+        a, b = plain.run_of == i, other.run_of == i
+        worse = np.minimum(2 * plain.loss[a] / plain.count[a], most)
+        better = np.minimum(2 * other.loss[b] / other.count[b], most)
+        found.append(float(np.mean(worse) - np.mean(better)))
+    return found

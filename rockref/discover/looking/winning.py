@@ -95,7 +95,8 @@ def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int
 
 
 def with_kin(setup: Setup, ended: Look, seed: int, say: Callable[[str], None]) -> Look:
-    """The families at their ends, and the kin of the first of them, begun where it ended, less its effect, and afresh.
+    """The families at their ends, and the kin of the first and of those that come near it, begun where the first ended,
+    less its effect, and afresh.
 
     A look from nominal parameters fits in full what came nearest on short windows. Kin may have begun too far off there
     (a centre of mass 0.3 mm off was at 1.06, where the tilt of the plate, which hardly differs, had 1.00, and was left:
@@ -104,7 +105,9 @@ def with_kin(setup: Setup, ended: Look, seed: int, say: Callable[[str], None]) -
     """
     winner = ended.order[0]
     offered = {kind.id for kind in candidates_beside(setup, ended.kept.effects)} - set(ended.gains)
-    others = [(*winner.effects[:-1], id) for id in kin(winner.effects[-1]) if id in offered]
+    front = [f for f in ended.order if ended.gains[f.effects[-1]] > CONTENDS * ended.gains[winner.effects[-1]]]
+    alike = dict.fromkeys(id for f in front for id in kin(f.effects[-1]) if id in offered)
+    others = [(*winner.effects[:-1], id) for id in alike]
     if not others:
         return ended
     tried = in_the_valley_of(setup, winner, others, ended.kept)

@@ -291,3 +291,10 @@ def test_held_out_records_cut_at_the_same_rate_are_the_same_gyroscope_s(monkeypa
     monkeypatch.setattr(diagnose, "flat_tops", lambda experiment, runs: runs)
     assert diagnose.clipped(flat(held), {"flat_top": 0.5}) is same
     assert diagnose.clipped(flat(held), {}) is False
+
+
+@pytest.mark.parametrize("share, flat, looked", [(0.5, True, False), (0.1, True, True), (0.5, False, True)])
+def test_records_cut_to_pieces_are_searched_for_no_second_effect(share, flat, looked):
+    """Windows without a state to start from would be structured with any other effect, too."""
+    seen = {"flat_top": 0.5} if flat else {}
+    assert diagnose.blinded(seen, left(("gyro_saturation",), share)) is not looked

@@ -4,8 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from rockref.discover.diagnose import held_gains
-from rockref.discover.fit.evidence import held_out
+from rockref.discover.fit.evidence import held_gains, held_out
 
 
 def test_where_no_run_was_held_out_nothing_is_seen():
