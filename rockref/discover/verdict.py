@@ -272,6 +272,7 @@ def gates(facts: Facts, decision: Decision) -> dict[str, Any]:
     return {
         "windows_structured": round(facts.bad, 3),
         "median_loss": round(facts.median, 3),
+        "left_above_noise": round(facts.room, 1),
         "held_out_gain": [round(g, 4) for g in facts.held_gain],
         "passed": decision.verdict not in ("not_trustworthy",),
     }

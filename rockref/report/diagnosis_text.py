@@ -175,7 +175,11 @@ def limits_table(d: dict[str, Any]) -> Table:
         [name, quantity(row["value"]), "" if row["unit"] == "1" else row["unit"]]
         for name, row in d["detection_limits"].items()
     ]
-    return Table("Could have stayed unseen up to", ("number", "limit", "unit"), rows)
+    note = (
+        "Each number alone, the others of its effect at none. Numbers of one effect that make up for each other, such "
+        "as sides that are all a little short, can stay unseen together at more."
+    )
+    return Table("Could have stayed unseen up to", ("number", "limit", "unit"), rows, note)
 
 
 #: Cosine from which two candidates are listed as alike; decided: a fifth of either is then left for itself.

@@ -20,6 +20,8 @@ from rockref.discover.looking.winning import (
 )
 from rockref.effects.loads.quadratic_drag import QuadraticDrag
 from rockref.effects.sensor.gyro_scale import GyroScale
+from rockref.effects.shape.mass_eccentricity import MassEccentricity
+from rockref.effects.shape.rounded_feet import RoundedFeet
 from tests.unit.discover.bowls import ALONE, Bowl, family
 
 ROLLING, DRAG = ("rolling_resistance",), ("quadratic_drag",)
@@ -105,7 +107,7 @@ def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
 
 @pytest.mark.parametrize(
     "left, kin_at, afresh_at, best",
-    [(0.15, 0.0, None, DRAG), (0.15, 0.14, None, ROLLING), (0.02, 0.0, None, ROLLING), (0.15, 0.14, 0.0, DRAG)],
+    [(0.15, 0.0, None, DRAG), (0.15, 0.14, None, ROLLING), (-0.01, 0.0, None, ROLLING), (0.15, 0.14, 0.0, DRAG)],
     ids=["ahead", "far behind", "nothing is left", "in another valley"],
 )
 def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left, kin_at, afresh_at, best):
@@ -132,8 +134,8 @@ def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left
     monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (QuadraticDrag, GyroScale))
     look = looked(kept, winner)
     assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == best
-    assert asked == ([] if left == 0.02 else [(ROLLING, [DRAG], kept)])
-    assert begun == ([] if left == 0.02 else [({DRAG: "absent"}, kept)])
+    assert asked == ([] if left < 0 else [(ROLLING, [DRAG], kept)])
+    assert begun == ([] if left < 0 else [({DRAG: "absent"}, kept)])
     assert (kin.fit.iterations > 0) is (best == DRAG and afresh_at is None)
     if best == DRAG:
         assert look.gains["quadratic_drag"] > look.gains["rolling_resistance"] > rules.DETECTED
@@ -206,3 +208,21 @@ def test_a_winner_whose_kin_were_all_tried_stays_as_it_is(monkeypatch):
     kept = family((), Bowl(np.zeros(1), floor=1.3), np.zeros(1))
     ended = looked(kept, family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.1), np.array([0.0, 0.5])))
     assert winning.with_kin(ALONE, ended, 0, quiet) is ended
+
+
+def test_kin_of_all_who_come_near_the_front_are_tried(monkeypatch):
+    """A centre of mass is kin of the tilt of a plate, which was second, and had been left too far off."""
+    offered = (RoundedFeet, MassEccentricity, GyroScale)
+    asked = []
+    monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: offered)
+    monkeypatch.setattr(winning, "own_z", lambda setup, effects: np.zeros(1))
+    monkeypatch.setattr(winning, "in_the_valley_of", lambda setup, winner, others, kept: asked.extend(others) or [])
+    monkeypatch.setattr(winning, "fitted_anew", lambda setup, begun, kept, say: asked.extend(begun) or [])
+    kept = family((), Bowl(np.zeros(1), floor=1.3), np.zeros(1))
+    first, near, far = (
+        family((id,), Bowl(np.array([0.0, 0.5]), floor=floor), np.array([0.0, 0.5]))
+        for id, floor in (("inertia_deviation", 1.1), ("plate_tilt", 1.12), ("rounded_feet", 1.28))
+    )
+    winning.with_kin(ALONE, looked(kept, first, near, far), 0, quiet)
+    # The scale is kin of the inertia; round feet, whose kin it is, too, were fitted already.
+    assert set(asked) == {("gyro_scale",), ("mass_eccentricity",)}
