@@ -77,6 +77,20 @@ def test_z_comes_back_from_a_model(kind):
     np.testing.assert_allclose(start_from(parameters, model), z, atol=1e-9)
 
 
+@pytest.mark.parametrize("baseline", ["eight_points", "four_points"])
+def test_wherever_a_fit_goes_there_is_a_model(baseline):
+    """Steps of a search add up: on a blind case an inner point came to the other side of the base, and no verdict."""
+    model = TABLE if baseline == "eight_points" else Model.four_points()
+    for kind in kinds(baseline):
+        parameters = parameters_of(kind, 1)
+        for far in parameters:
+            for z in (-30.0, 30.0):
+                at = model
+                for p in parameters:
+                    at = p.set(at, p.value(z if p is far else 1.0))
+                assert at.body()[1].n == (8 if kind.id == "foot_defects" else model.body()[1].n)
+
+
 def test_value_and_z_are_inverse():
     for p in baseline_parameters(TABLE, 1, 0.0014):
         assert z_of(p, p.value(0.7)) == pytest.approx(0.7, abs=1e-12)
