@@ -15,6 +15,8 @@ from rockref.discover.fit.approach import (
     along_warp,
     approached,
     approached_beside,
+    best_for_all,
+    defects_together,
     heights_of,
     placed,
     same_release,
@@ -129,6 +131,24 @@ def test_four_points_have_no_warp():
     plain = fit.fit(series)
     assert heights_of([p.name for p in plain.parameters]) == []
     assert approached(plain, np.zeros(len(plain.parameters))).objective > 0
+
+
+def test_defects_of_half_their_size_are_found_from_the_typical_one():
+    """All of a four-point block's heights and their distance are off by one factor; no small step leads there."""
+    effect = "foot_defects:delta_long1=5e-6,delta_long2=2.1e-5,delta_long3=4.4e-5,delta_long4=2.9e-5,delta_diag=3e-3"
+    model = Model.four_points()
+    e = experiment(model.replace(effects=(parse(effect),)), [{}, {"turned": True}], duration=1.2, noisy=True)
+    setup = Setup(e, e.runs, model, end=1.2, workers=1)
+    fit = setup.fit(windows(setup, SHORT), ("foot_defects",))
+    names = [p.name for p in fit.parameters]
+    own = [*heights_of(names), names.index("foot_defects.delta_diag")]
+    start = np.array([float("." in name) for name in names])
+    start[[names.index(f"foot_defects.{ratio}_int") for ratio in ("mu", "beta")]] = 0.0
+    moves = defects_together(own, start)
+    assert np.all(moves[:, [i for i in range(len(names)) if i not in own]] == 0)
+    found = best_for_all(fit, placed(fit, start), moves)
+    np.testing.assert_allclose(found.z[own], 0.5, atol=0.04)  # the nearest of the factors is 0.51
+    assert approached(fit, start).objective <= found.objective < 0.7 * placed(fit, start).objective
 
 
 def test_a_gyroscope_is_turned_about_the_axis_that_no_release_shows():
