@@ -53,13 +53,13 @@ def test_an_effect_in_no_list_is_something_else(tmp_path):
 @pytest.mark.slow
 def test_sixty_cases_are_no_worse_than_the_documentation_says(tmp_path):
     """Hours of processor time. Interrupted, `rockref blind score` goes on in the folder that is left."""
-    make(tmp_path / "blind", 1313, 60)
+    make(tmp_path / "blind", 1414, 60)
     found = score(tmp_path / "blind", with_rivals=False)
     assert all(found["sealed"].values())
     rows = {row["score"]: row["value"] for row in found["scores"]}
     print("\n".join(found["failures"]))
-    # The set had three wrong names, and 25 of 31 first (docs/explanation/blind_test.md): one of these less, at most.
+    # The set had no wrong name, and 27 of 31 first, 28 since (docs/explanation/blind_test.md): one more, one less at most.
     assert rows["controls: false alarms"] == 0
     assert rows["gap closed on held-out runs, median"] > 0.95
-    assert rows["all: wrong name"] < 0.061
-    assert rows["single: truth first"] > 0.75
+    assert rows["all: wrong name"] < 0.017
+    assert rows["single: truth first"] > 0.87
