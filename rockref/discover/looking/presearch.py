@@ -13,6 +13,7 @@ from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup, release_windows
 from rockref.discover.verdict import LEAST_SIZE
 from rockref.discover.windows.clipped import flat_tops
+from rockref.effects import catalogue
 
 #: Sensor effects that spoil the reconstructed state, so that every window misfits whatever the physics.
 MISLEADING = ("gyro_misalignment", "gyro_scale", "gyro_drift", "gyro_bandwidth", "clock_error", "gyro_saturation")
@@ -168,6 +169,12 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
             seen.setdefault("starts", {})["base_vibration",] = trial.z
     if setup.experiment.baseline == "four_points" and setup.base.points == "four_points":
         sets.append(("foot_defects",))
-        typical = np.ones(len(setup.parameters(("foot_defects",))) - len(seen["z"]))
-        seen.setdefault("starts", {})["foot_defects",] = np.concatenate([seen["z"], typical])
+        seen.setdefault("starts", {})["foot_defects",] = np.concatenate([seen["z"], typical_defects(setup)])
     return setup, sets, seen
+
+
+def typical_defects(setup: Setup) -> np.ndarray:
+    """The z at which `foot_defects` is typical: one size from its absence, up or down."""
+    quantities = catalogue.find("foot_defects").quantities
+    own = [p for p in setup.parameters(("foot_defects",)) if p.name.startswith("foot_defects.")]
+    return np.array([(float(quantities[p.name.split(".")[1]].typical or 0.0) - p.centre) / p.spread for p in own])

@@ -10,6 +10,7 @@ from rockref.discover.fit.least_squares import Point
 from rockref.discover.fit.search import Setup
 from rockref.discover.looking import presearch
 from rockref.discover.looking.presearch import EXPLAINED, HELD, STRONG, release_fit, suspects
+from rockref.effects import catalogue
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 
@@ -139,12 +140,15 @@ def test_a_tone_is_a_shaking_base_where_that_explains_the_release(scripted, expl
 
 
 def test_the_feet_are_suspected_where_the_experimenter_knows_of_none(scripted):
-    _, sets, seen, _ = scripted({(): 0.0}, baseline="four_points")
+    setup, sets, seen, _ = scripted({(): 0.0}, baseline="four_points")
     assert sets == [(), ("foot_defects",)]
     # Begun at their typical size beside what the release says of the baseline.
     start = seen["starts"]["foot_defects",]
     n = len(seen["z"])
-    assert len(start) > n and np.all(start[:n] == 0.0) and np.all(start[n:] == 1.0)
+    assert len(start) > n and np.all(start[:n] == 0.0)
+    for p, z in zip(setup.parameters(("foot_defects",))[n:], start[n:], strict=True):
+        # Inner points rub more than outer ones, and damp less.
+        assert p.value(z) == pytest.approx(catalogue.find("foot_defects").quantities[p.name.split(".")[1]].typical)
 
 
 def test_flat_tops_are_the_stops_of_the_gyroscope_at_that_rate(scripted):
