@@ -47,9 +47,9 @@ HIGHER = (0.15, -0.15, 0.3, -0.3)
 #: Turns of a gyroscope about the axis of the release [rad]; decided: far beyond twice a typical one, in steps of an
 #: eighth of the valley's width at half its depth (a blind case of 0.11 rad: the misfit fell towards it from all turns).
 TURNS = np.arange(-0.24, 0.25, 0.03)
-#: Factors on heights and distance of a four-point block's defects together, from where they are begun. Decided: 8 % more
-#: each time; of seven sets of them at 0.5 to 2 times their typical size the misfit was least within 13 % of the right
-#: distance, by up to two fifths, and one at half of it, begun at the typical size, had ended elsewhere.
+#: Factors on heights and distance of a four-point block's defects together, from where they are begun. Decided: 8 %
+#: more each time; of seven sets of them at 0.5 to 2 times their typical size the misfit was least within 13 % of the
+#: right distance, by up to two fifths, and one at half of it, begun at the typical size, had ended elsewhere.
 DEFECTS = np.geomspace(0.3, 3.0, 31)
 #: Lines after which the effects' own parameters and the warp are looked at again.
 FOLLOWED = ("mu_ext", "delta_diag", "K_N", "beta_ext")
