@@ -71,9 +71,9 @@ SELDOM |= FORMS
 #: one whole size costs 50 log-likelihood units (decided; axes that are not square trade with a turned sensor, and with
 #: a prior like the others' they spoiled its angles by 8 % where there was nothing of the kind).
 SELDOM_PRIOR = 0.1
-#: Most that a fit makes of a number whose hard limit depends on the block: the plausible end of its range. Steps along
+#: Numbers whose hard limit depends on the block: a fit keeps them below the plausible end of their range. Steps along
 #: the inner points' distance added up to 74 mm on a blind case, where the middle of the base is 71 mm from its corner.
-FARTHEST = {("foot_defects", "delta_diag"): 0.02}
+PLAUSIBLE = {("foot_defects", "delta_diag")}
 #: Prior standard deviation in typical sizes; decided: what is five times the typical size is not expected.
 PRIOR = 3.0
 
@@ -143,7 +143,7 @@ def parameter_of(kind: type[Effect], key: str, q: Quantity) -> Parameter:
         return make(inverse_setter(kind, key), 0.0, 1 / typical, low=0.0, prior=PRIOR)
     # A user's own may have a parameter that is typically none: then a quarter of its plausible range.
     size = abs(typical - absent) or (q.high - q.low) / 4
-    high = FARTHEST.get((kind.id, key), q.most)
+    high = q.high if (kind.id, key) in PLAUSIBLE else q.most
     return make(setter(kind, key), absent, size, prior=PRIOR, low=low, high=high)
 
 
