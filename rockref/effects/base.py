@@ -131,7 +131,10 @@ class Effect:
         return {}
 
     def plate_motion(self, t, m):
-        """None, or displacement and velocity of the plate, two (..., 3) [m, m/s]."""
+        """None, or displacement and velocity of the plate, two (..., 3) [m, m/s].
+
+        Where it turns, its small turn about the origin and the rate of that follow, two (..., 3) [rad, rad/s].
+        """
         return None
 
     def normal_force(self, F, k, points, m):

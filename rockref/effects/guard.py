@@ -142,10 +142,15 @@ def look_at_start(where: str, arguments: tuple, result: Any) -> None:
             raise wrong(where, what, "Begin its shape as those of the problem's arrays, with np.zeros_like.")
 
 
+#: What a plate's motion holds; it may end with the velocity.
+MOTION = ("displacement", "velocity", "turn", "rate of turn")
+
+
 def look_at_plate_motion(where: str, arguments: tuple, result: Any) -> None:
-    """None, or displacement and velocity; how many runs there are is not known here."""
+    """None, or displacement and velocity, with turn and rate of turn or without; how many runs is not known here."""
     if result is not None:
-        for key, a in zip(("displacement", "velocity"), pair(where, result), strict=True):
+        given = result if isinstance(result, tuple) and len(result) == len(MOTION) else pair(where, result)
+        for key, a in zip(MOTION, given, strict=False):
             numbers(where, key, a, np.shape(a)[:-1] + (3,))
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.effects.base import Effect
-from rockref.effects.guard import numbers, wrong
+from rockref.effects.guard import MOTION, numbers, wrong
 from rockref.model.errors import InputError
 from rockref.model.geometry import EXTERNAL, INTERNAL, cuboid_inertia, eight_points
 from rockref.model.integrator import evaluate_contact
@@ -50,7 +50,7 @@ def probe_step(effect: Effect, spec: str, problem: Problem, m: dict[str, Any]) -
     """Try the hooks of the step."""
     s, points = problem.start, problem.points
     c = evaluate_contact(problem, s, s.x, s.Lambda, s.v, s.W, np.zeros_like(s.W), 0.0, ())
-    for key, a in zip(("displacement", "velocity"), effect.plate_motion(0.0, m) or (), strict=False):
+    for key, a in zip(MOTION, effect.plate_motion(0.0, m) or (), strict=False):
         numbers(f"{spec}.plate_motion", key, a, s.x.shape)
     effect.normal_force(points.K_N * c.k.xi, c.k, points, m)
     effect.friction_coefficient(points.mu_0, points.mu, c.F_N, c.k, points, m)

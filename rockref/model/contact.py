@@ -39,7 +39,8 @@ def point_kinematics(x, Lambda, v, W, P, radius=None, plate=None) -> Kinematics:
     P : (..., n, 3) contact points in body axes [m].
     radius : (..., n) foot radius [m], or None for the point feet of the source. A round foot is a sphere centred
         `radius` above its point on the body axis; the contact point is the lowest point of the sphere.
-    plate : None for the fixed plate of the source, or its displacement and velocity, two (..., 3) [m, m/s].
+    plate : None for the fixed plate of the source, or its displacement and velocity, two (..., 3) [m, m/s], and, where
+        it turns, its small turn about the origin and the rate of that, two (..., 3) [rad, rad/s].
 
     Returns
     -------
@@ -61,7 +62,19 @@ def point_kinematics(x, Lambda, v, W, P, radius=None, plate=None) -> Kinematics:
     if plate is not None:
         u = u - plate[0][..., None, :]
         u_rate = u_rate - plate[1][..., None, :]
+        if len(plate) > 2:
+            rise, rise_rate = lifted(plate[2], u), lifted(plate[3], u)
+            u[..., 2] -= rise
+            u_rate[..., 2] -= rise_rate
     return Kinematics(r, u, u_rate, -u[..., 2], -u_rate[..., 2], u_rate[..., :2])
+
+
+def lifted(turn: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """How far a small turn (..., 3) [rad] about the origin lifts the plate under points u (..., n, 3), (..., n) [m].
+
+    A rate of turn [rad/s] gives the speed [m/s]. Its slope under a sliding point, some microradians, is left out.
+    """
+    return turn[..., None, 0] * u[..., 1] - turn[..., None, 1] * u[..., 0]
 
 
 def kelvin_voigt(xi: np.ndarray, xi_rate: np.ndarray, K_N: np.ndarray, C_N: np.ndarray) -> np.ndarray:

@@ -118,11 +118,14 @@ def acting(problem: Problem, memory) -> tuple:
 def plate_motion(effects, t: float):
     """Displacement and velocity of the plate, two (..., 3), summed over the effects; None while it is fixed.
 
+    Where an effect turns it, its turn and the rate of that follow.
+
     effects : pairs of effect and memory; t : time [s].
     """
     motions = [effect.plate_motion(t, m) for effect, m in effects]
     motions = [motion for motion in motions if motion is not None]
-    return (sum(q for q, _ in motions), sum(q_rate for _, q_rate in motions)) if motions else None
+    most = max(map(len, motions), default=0)
+    return tuple(sum(motion[k] for motion in motions if k < len(motion)) for k in range(most)) or None
 
 
 def evaluate_contact(problem: Problem, state: State, x, Lambda, v, W, turn, t, memory) -> Contact:

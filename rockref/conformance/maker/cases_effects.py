@@ -64,6 +64,7 @@ LATER: dict[str, dict[str, float]] = {
     "hysteretic_contact": {"curved_share": 0.5},
     "gyro_saturation": {"softness": 0.5},
     "uneven_foot_damping": {"normal_share": 0.5},
+    "compliant_support": {"pitch": 0.5},
 }
 OF_ALL_FEET = ("uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals")
 #: A parameter is at work where this share less of it moves the vector by `LEAST` bars. Decided: small enough that the

@@ -65,6 +65,7 @@ FORMS = {
     ("hysteretic_contact", "curved_share"): 1.0,
     ("lingering_wire_pull", "evenness"): 1.0,
     ("gyro_saturation", "softness"): 1.0,
+    ("compliant_support", "pitch"): 1.0,
 }
 SELDOM |= FORMS
 #: Their prior standard deviation in such sizes: what the runs cannot tell from the rest of the effect stays none, and

@@ -9,16 +9,15 @@ from __future__ import annotations
 import numpy as np
 
 from rockref.api import Model
+from rockref.effects.support.compliant_support import CompliantSupport, Oscillator
 from rockref.model.problem import Problem
 
 
-def plate_of(model: Model) -> tuple[float, float, float] | None:
-    """Mass [kg], stiffness [N/m] and damping [N s/m] of a plate that yields; None where it is rigid."""
+def plate_of(model: Model) -> tuple[Oscillator, Oscillator] | None:
+    """How a plate that yields bounces [kg, N/m, N s/m] and pitches [kg m2, ...], zeros if not; None if it is rigid."""
     for e in model.active_effects():
-        if e.id == "compliant_support":
-            v = e.values()
-            stiffness = (2 * np.pi * v["frequency"]) ** 2 * v["mass"]
-            return v["mass"], stiffness, 2 * v["ratio"] * float(np.sqrt(stiffness * v["mass"]))
+        if isinstance(e, CompliantSupport):
+            return e.bouncing(), e.pitching() or (0.0, 0.0, 0.0)
     return None
 
 

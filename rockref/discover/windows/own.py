@@ -48,7 +48,7 @@ def known_own(names: Sequence[str]) -> tuple[str, ...]:
 
 
 def run_own(batch: Batch, problems: Sequence[Problem], run_of: np.ndarray, out: np.ndarray) -> np.ndarray:
-    """What `run_batch` gives, by the law's text: out (B, R, STATE), rates W and the plate's q and q_rate only.
+    """What `run_batch` gives, by the law's text: out (B, R, STATE), rates W and the plate's motion only.
 
     Parameters
     ----------
@@ -79,8 +79,9 @@ def stepped(problem: Problem, wanted: np.ndarray, rows: np.ndarray) -> np.ndarra
             lane, row = np.nonzero(wanted == count)
             rows[lane, row, col.W_ : col.W_ + 3] = state.W[lane]
             for effect, m in zip(problem.effects, state.memory, strict=True):
-                if "q_rate" in m and pack.knows(effect):
-                    rows[lane, row, col.Q], rows[lane, row, col.Q_RATE] = m["q"][lane], m["q_rate"][lane]
+                for key, column in pack.PLATE_MEMORY.items() if pack.knows(effect) else ():
+                    if key in m:
+                        rows[lane, row, column] = m[key][lane]
     return rows
 
 
@@ -118,5 +119,5 @@ def begun(effect: Effect, k: int, problems: Sequence[Problem], memory: np.ndarra
     m = {key: np.stack([np.asarray(p.start.memory[k][key]) for p in problems]) for key in problems[0].start.memory[k]}
     if pack.knows(effect):
         m |= {key: memory[:, :, column] for key, column in pack.POINT_MEMORY.items() if key in m}
-        m |= {key: state[:, at] for key, at in (("q", col.Q), ("q_rate", col.Q_RATE)) if key in m}
+        m |= {key: state[:, column] for key, column in pack.PLATE_MEMORY.items() if key in m}
     return m

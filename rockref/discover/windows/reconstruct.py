@@ -104,16 +104,20 @@ def yaw_since_touch(Lambda, W, P, starts, dt, most):
 
 
 @numba.njit(cache=True, nogil=True)
-def plate_motion(Lambda, W, P, dt, mass, plate_mass, stiffness, damping):
-    """Sinking q [m] and its rate [m/s] of a plate on a spring under the block, (N, 2), at every sample of a record.
+def plate_motion(Lambda, W, P, feet, dt, mass, g, bounce, pitch):
+    """Motion of a plate on a spring under the block at every sample of a record, (N, 4): sinking q [m] and its rate,
+    pitch phi [rad] and its rate.
 
     The block stands on its lowest point, which moves with the plate; so the plate feels -m dv_z/dt of the centre of
-    mass: (M + m) q'' = -m a_z - k q - c q', a_z against the plate. masses [kg], stiffness [N/m], damping [N s/m].
+    mass there, v_z against the plate, and the weight: M q'' = -m a_z - k q - c q' and J phi'' = m g y_0 - m (g + a_z) y
+    - k_p phi - c_p phi', with a_z + q'' + y phi'' in the place of a_z. feet : (n,) where each point stands, y [m];
+    mass [kg]; bounce, pitch : mass or inertia of the plate, stiffness and damping; an inertia of 0: it does not pitch.
     """
     n = Lambda.shape[0]
-    out = np.zeros((n, 2))
-    q, rate, before = 0.0, 0.0, 0.0
-    fine, total = 16, mass + plate_mass
+    out = np.zeros((n, 4))
+    q, rate, phi, turn, before, y_before, y_0 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    fine, total = 16, mass + bounce[0]
+    h = dt / fine
     for k in range(n):
         lowest, at = 1e9, 0
         for i in range(P.shape[0]):
@@ -125,12 +129,24 @@ def plate_motion(Lambda, W, P, dt, mass, plate_mass, stiffness, damping):
         cy = W[k, 2] * P[at, 0] - W[k, 0] * P[at, 2]
         cz = W[k, 0] * P[at, 1] - W[k, 1] * P[at, 0]
         v = -(Lambda[k, 2, 0] * cx + Lambda[k, 2, 1] * cy + Lambda[k, 2, 2] * cz)
-        push = -mass * (v - before) / total if k else 0.0
-        before = v
+        y = feet[at]
+        if k == 0:
+            before, y_before, y_0 = v, y, y
+        push = -mass * (v - before + turn * (y - y_before)) / fine
+        before, y_before = v, y
         for _ in range(fine):
-            rate += push / fine - dt / fine * (stiffness * q + damping * rate) / total
-            q += dt / fine * rate
-        out[k, 0], out[k, 1] = q, rate
+            force = push - h * (bounce[1] * q + bounce[2] * rate)
+            if pitch[0] == 0.0:
+                rate += force / total
+            else:
+                moment = y * push + h * (mass * g * (y_0 - y) - pitch[1] * phi - pitch[2] * turn)
+                lever, inertia = mass * y, pitch[0] + mass * y * y
+                det = total * inertia - lever * lever
+                rate += (inertia * force - lever * moment) / det
+                turn += (total * moment - lever * force) / det
+            q += h * rate
+            phi += h * turn
+        out[k] = q, rate, phi, turn
     return out
 
 

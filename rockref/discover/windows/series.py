@@ -204,7 +204,7 @@ class Series:
         self._rows = np.empty((0, col.STATE))
         self._prepared: tuple | None = None
         self._releases: list[Problem] = []
-        self._carried, self._pressed = np.zeros((self.B, 2)), np.zeros((self.B, 1))
+        self._carried, self._pressed = np.zeros((self.B, 4)), np.zeros((self.B, 1))
 
     def twin(self) -> Series:
         """The same windows for another thread: what is kept from call to call is its own."""
@@ -240,7 +240,7 @@ class Series:
         body, P, props = np.empty((B, col.BODY)), np.empty((B, n, 3)), np.empty((B, n, col.PROPS))
         effects, state = np.zeros((B, slots.SLOTS)), np.zeros((B, col.STATE))
         memory, Lambda, W = np.zeros((B, n, col.MEMORY)), np.empty((B, 3, 3)), np.empty((B, 3))
-        upright, place, yaw, plate = np.empty((B, 3, 3)), np.empty((B, 3)), np.zeros(B), np.zeros((B, 2))
+        upright, place, yaw, plate = np.empty((B, 3, 3)), np.empty((B, 3)), np.zeros(B), np.zeros((B, 4))
         releases: list[Problem] = []
         for i, run in enumerate(self.runs):
             turned = bool(run.block_turned)
@@ -264,10 +264,9 @@ class Series:
                 dt = sensor.clock / self.rate
                 yaw[at] = yaw_since_touch(L, w, problem.points.P, self.start[at], dt, most)
             if support := plate_of(models[i]):
-                dt = sensor.clock / self.rate
-                plate[at] = plate_motion(L, w, problem.points.P, dt, float(problem.block.mass), *support)[
-                    self.start[at]
-                ]
+                dt, mass, g = sensor.clock / self.rate, float(problem.block.mass), float(problem.block.g)
+                feet = np.ascontiguousarray((problem.points.P @ standing.T + place[at[0]])[:, 1])
+                plate[at] = plate_motion(L, w, problem.points.P, feet, dt, mass, g, *support)[self.start[at]]
         result = (body, P, props, effects, Lambda, W, upright, place, state, memory, yaw, plate)
         self._prepared, self._releases = (key, models, result), releases
         return result
@@ -297,9 +296,7 @@ class Series:
         plate = plate + self._carried[which]
         state, memory = np.empty_like(release), np.empty_like(release_memory)
         pressed = np.zeros(P.shape[:2]) + self._pressed[which]
-        standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, upright, place, state, memory)
-        state[:, col.Q : col.Q_RATE + 1] = plate
-        state[:, [col.X + 2, col.V + 2]] += plate
+        standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, upright, place, plate, state, memory)
         memory[:, :, col.YAW] = memory[:, :, col.ANCHORED] * yaw[:, None]
         state[:, col.TIME] = state[:, col.ORIGIN] = self.time[which] * sensor.clock
         first = self.first[which]
@@ -329,7 +326,7 @@ class Series:
             self._pressed[follows] = np.nan_to_num(memory[follows - 1, 0, :, col.XI_LARGEST])
         if plate is not None:
             began = self.prepared(models, tilt, sensor)[-1]
-            self._carried[follows] = np.nan_to_num(ends[follows - 1, 0, col.Q : col.Q_RATE + 1] - began[follows])
+            self._carried[follows] = np.nan_to_num(ends[follows - 1, 0, col.PLATE] - began[follows])
         return True
 
     def simulate(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None, upto=None) -> np.ndarray:

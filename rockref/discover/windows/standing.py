@@ -120,14 +120,14 @@ def held_share(F, turn, feet, loads, props):
 
 
 @numba.njit(cache=True, nogil=True)
-def standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, upright, place, state, memory):
+def standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, upright, place, plate, state, memory):
     """Start states of B windows on the feet that carry the block, quasi-statically.
 
     Lambda : (B, 3, 3), W : (B, 3) reconstructed attitude and rates; corrections : (B, 5) tilt and roll [rad, body
     axes], rates [rad/s]. body (B, BODY), P (B, n, 3), props (B, n, PROPS), effects (B, SLOTS) as in the compiled step;
     pressed : (B, n) depth to which each foot has been pressed since it touched [m]; upright : (B, 3, 3) orientation
-    and place : (B, 3) position of the standing block, which place the lowest foot on the plate [m]. Fills state
-    (B, STATE) and memory (B, n, MEMORY).
+    and place : (B, 3) position of the standing block, which place the lowest foot on the plate [m]; plate : (B, 4)
+    its motion under the block, q, q_rate, pitch, pitch_rate. Fills state (B, STATE) and memory (B, n, MEMORY).
 
     Turning about its lowest foot the block has a force there; the feet sink until they carry it, each by its own
     spring. They hold the block in their middle then, and, as far as friction goes, from turning about the vertical.
@@ -144,8 +144,9 @@ def standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, up
             centre[2] += props[b, i, col.RADIUS]
             r[i] = L @ centre
             r[i, 2] -= props[b, i, col.RADIUS]
-        pivot = np.argmin(r[:, 2])
-        heights[:] = r[:, 2] - r[pivot, 2]
+        heights[:] = r[:, 2] - plate[b, 2] * r[:, 1]
+        pivot = np.argmin(heights)
+        heights -= heights[pivot]
         inertia = L @ body[b, col.J : col.J + 9].copy().reshape(3, 3) @ L.T
         omega, mass, g = L @ w_body, body[b, col.MASS], body[b, col.GRAVITY]
         F, _ = held(r[pivot], omega, inertia, mass, g, 0.0)
@@ -167,8 +168,11 @@ def standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, up
         foot = upright[b] @ P[b, pivot] + place[b]
         state[b, :] = 0.0
         state[b, 0:2] = foot[:2] - r[pivot, :2]
-        state[b, 2] = -r[pivot, 2] - depth
-        state[b, col.V : col.V + 3] = _skew(middle) @ omega  # the middle is at rest: v = -omega x r = r x omega
+        state[b, 2] = plate[b, 0] + plate[b, 2] * foot[1] - r[pivot, 2] - depth
+        # The middle rests on the plate: v = -omega x r = r x omega, and the plate's own.
+        state[b, col.V : col.V + 3] = _skew(middle) @ omega
+        state[b, col.V + 2] += plate[b, 1] + plate[b, 3] * foot[1]
+        state[b, col.Q : col.Q + 4] = plate[b]
         for j in range(3):
             for k in range(3):
                 state[b, col.L + 3 * j + k] = L[j, k]

@@ -17,18 +17,20 @@ def make_evaluation(groups: int):
 
     @inlined
     def evaluate(
-        body, centres, props, memory, forces, e, on, timed, q, q_rate,
+        body, centres, props, memory, forces, e, on, timed, sunk,
         x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn,
     ):  # fmt: skip
-        """Acceleration (3), body moment (3) and the weight on the plate at one pose; forces and memories are written.
+        """Acceleration (3), body moment (3), and force and moment on the plate at one pose; forces and memories are
+        written. sunk : q, q_rate, pitch, pitch_rate of the plate.
 
         Points above the plate are passed over: their forces are zero, and adding zero changes no bit.
         """
         turn0, turn1, turn2 = turn
+        q, q_rate, pitch, pitch_rate = sunk
         ox = L0 * W0 + L1 * W1 + L2 * W2
         oy = L3 * W0 + L4 * W1 + L5 * W2
         oz = L6 * W0 + L7 * W1 + L8 * W2
-        Fx = Fy = Fz = Mx = My = Mz = 0.0
+        Fx = Fy = Fz = Mx = My = Mz = turning = 0.0
         if loads:
             resisting = resistance(on, e, v0, v1, v2, ox, oy, oz)
         if forces_too:
@@ -40,7 +42,7 @@ def make_evaluation(groups: int):
             rz = (L6 * Px + L7 * Py + L8 * Pz) - props[i, col.RADIUS]
             height = x2 + rz
             if plate:
-                height = height - q
+                height = height - q - pitch * (x1 + (L3 * Px + L4 * Py + L5 * Pz))
             if height > 0.0:  # not touching; lost numbers count as touching, so that they show
                 if memory[i, col.ANCHORED] != 0.0:
                     memory[i, col.ANCHORED] = memory[i, col.SLIDING] = 0.0  # T5
@@ -60,7 +62,7 @@ def make_evaluation(groups: int):
             vy = v1 + (oz * rx - ox * rz)
             vz = v2 + (ox * ry - oy * rx)
             if plate:
-                vz = vz - q_rate
+                vz = vz - q_rate - pitch_rate * (x1 + ry)
             mu_0, mu = props[i, col.MU_0], props[i, col.MU]
             fz = props[i, col.K_N] * -height + props[i, col.C_N] * -vz  # (3.5a)
             if contact:
@@ -78,6 +80,8 @@ def make_evaluation(groups: int):
             Fx += fx
             Fy += fy
             Fz += fz
+            if plate:
+                turning += (x1 + ry) * fz
             Mx += ry * fz - rz * fy  # A2
             My += rz * fx - rx * fz
             Mz += rx * fy - ry * fx
@@ -104,6 +108,7 @@ def make_evaluation(groups: int):
         if forces_too:
             if on.adhesion:
                 carried += pull[0]
+                turning += pull[1] + x1 * pull[0]
                 Fz += pull[0]
                 Mx += pull[1]
                 My += pull[2]
@@ -132,6 +137,6 @@ def make_evaluation(groups: int):
         Tx = L0 * Mx + L3 * My + L6 * Mz  # A3
         Ty = L1 * Mx + L4 * My + L7 * Mz
         Tz = L2 * Mx + L5 * My + L8 * Mz
-        return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz, carried
+        return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz, carried, turning
 
     return evaluate

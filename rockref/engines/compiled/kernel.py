@@ -83,8 +83,9 @@ def _make_begin(groups: int, evaluate):
         """a and T (6) at the start; forces and memories are written."""
         forces[:, :] = 0.0
         on = switches(e)
-        a0, a1, a2, T0, T1, T2, _ = evaluate(
-            body, centres, props, memory, forces, e, on, of_time(on, e, s[col.TIME]), s[col.Q], s[col.Q_RATE],
+        sunk = (s[col.Q], s[col.Q_RATE], s[col.PITCH], s[col.PITCH_RATE])
+        a0, a1, a2, T0, T1, T2, _, _ = evaluate(
+            body, centres, props, memory, forces, e, on, of_time(on, e, s[col.TIME]), sunk,
             s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14],
             s[15], s[16], s[17], (0.0, 0.0, 0.0),
         )  # fmt: skip
@@ -126,7 +127,8 @@ def _make_loop(groups: int, source: int):
             L0, L1, L2, L3, L4, L5 = state[6], state[7], state[8], state[9], state[10], state[11]
             L6, L7, L8, W0, W1, W2 = state[12], state[13], state[14], state[15], state[16], state[17]
             a0, a1, a2, T0, T1, T2 = state[18], state[19], state[20], state[21], state[22], state[23]
-            origin, count, q, q_rate = state[col.ORIGIN], state[col.COUNT], state[col.Q], state[col.Q_RATE]
+            origin, count = state[col.ORIGIN], state[col.COUNT]
+            sunk = (state[col.Q], state[col.Q_RATE], state[col.PITCH], state[col.PITCH_RATE])
             done, t = 0, state[col.TIME]
             if state[col.GIVEN] == 0.0:
                 a0, a1, a2, T0, T1, T2 = begin(body, centres, props, memory, forces, e, state)
@@ -161,13 +163,14 @@ def _make_loop(groups: int, source: int):
                     L0, L1, L2 = _turned(L0, L1, L2, E0, E1, E2, E3, E4, E5, E6, E7, E8)  # I3
                     L3, L4, L5 = _turned(L3, L4, L5, E0, E1, E2, E3, E4, E5, E6, E7, E8)
                     L6, L7, L8 = _turned(L6, L7, L8, E0, E1, E2, E3, E4, E5, E6, E7, E8)
-                    b0, b1, b2, N0, N1, N2, carried = evaluate(
-                        body, centres, props, memory, forces, e, on, timed, q, q_rate,
+                    b0, b1, b2, N0, N1, N2, carried, turning = evaluate(
+                        body, centres, props, memory, forces, e, on, timed, sunk,
                         x0, x1, x2, v0 + h * a0, v1 + h * a1, v2 + h * a2, L0, L1, L2, L3, L4, L5, L6, L7, L8,
                         W0 + h * A0, W1 + h * A1, W2 + h * A2, (turn0, turn1, turn2),
                     )  # fmt: skip
                     if plate and on.support:
-                        q, q_rate = advance_support(e, body[col.MASS] * body[col.GRAVITY], h, carried, q, q_rate)
+                        weight = body[col.MASS] * body[col.GRAVITY]
+                        sunk = advance_support(e, weight, h, carried, turning, sunk)
                     v0 = v0 + half * (a0 + b0)  # I4
                     v1 = v1 + half * (a1 + b1)
                     v2 = v2 + half * (a2 + b2)
@@ -187,7 +190,9 @@ def _make_loop(groups: int, source: int):
                 for j in range(24):
                     rows_state[row, j] = pose[j]
                 rows_state[row, col.GIVEN], rows_state[row, col.TIME], rows_state[row, col.ORIGIN] = 1.0, t, origin
-                rows_state[row, col.COUNT], rows_state[row, col.Q], rows_state[row, col.Q_RATE] = count, q, q_rate
+                rows_state[row, col.COUNT] = count
+                for j in range(4):
+                    rows_state[row, col.Q + j] = sunk[j]
                 if full:
                     for i in range(centres.shape[0]):
                         for j in range(3):

@@ -76,8 +76,13 @@ def add_loads(on, e, load, timed, resisting, mass, g, x0, x1, v0, v1, v2, L2, L5
 
 
 @inlined
-def advance_support(e, weight, h, carried, q, q_rate):
-    """The plate on its spring, one step on: q, q_rate."""
-    k = slots.SUPPORT
+def advance_support(e, weight, h, carried, turning, plate):
+    """The plate on its spring, one step on: q, q_rate, pitch, pitch_rate."""
+    k, (q, q_rate, pitch, pitch_rate) = slots.SUPPORT, plate
     q_rate = q_rate + h * ((weight - carried) - e[k + 2] * q - e[k + 3] * q_rate) / e[k + 1]
-    return q + h * q_rate, q_rate
+    q = q + h * q_rate
+    if e[k + 4] != 0.0:
+        load = e[k + 7] - turning
+        pitch_rate = pitch_rate + h * (load - e[k + 5] * pitch - e[k + 6] * pitch_rate) / e[k + 4]
+        pitch = pitch + h * pitch_rate
+    return q, q_rate, pitch, pitch_rate

@@ -64,6 +64,8 @@ def memory_rows(state: State) -> np.ndarray:
 
 #: Names in an effect's memory and the columns of the compiled point memory in which they stand.
 POINT_MEMORY: dict[str, int | slice] = {"xi_largest": 4, "yaw": 5, "held": slice(6, 8)}
+#: The same for what a plate that yields remembers, in the columns of the state.
+PLATE_MEMORY = {"q": col.Q, "q_rate": col.Q_RATE, "pitch": col.PITCH, "pitch_rate": col.PITCH_RATE}
 
 
 def state_row(problem: Problem) -> np.ndarray:
@@ -77,8 +79,9 @@ def state_row(problem: Problem) -> np.ndarray:
     counted = s.h == problem.step
     row[col.ORIGIN], row[col.COUNT] = (s.origin, s.count) if counted else (s.t, 0)
     for m in s.memory:
-        if "q" in m:
-            row[col.Q], row[col.Q_RATE] = m["q"], m["q_rate"]
+        for key, column in PLATE_MEMORY.items():
+            if key in m:
+                row[column] = m[key]
     return row
 
 
@@ -142,8 +145,10 @@ def _height(problem: Problem) -> float:
 
 
 def _support(row, e, problem):
-    k = (2 * math.pi * e.frequency) ** 2 * e.mass
-    _put(row, slots.SUPPORT, e.mass, k, 2 * e.ratio * math.sqrt(k * e.mass))
+    _put(row, slots.SUPPORT, *e.bouncing())
+    if (pitching := e.pitching()) is not None:
+        m = with_memory(problem).start.memory[problem.effects.index(e)]
+        row[slots.SUPPORT + 4 : slots.SUPPORT + 8] = *pitching, m["moment"]
 
 
 def _normals(row, e, problem):
@@ -189,8 +194,7 @@ def final_state(problem: Problem, row: np.ndarray, memory: np.ndarray, forces: n
     for effect, m in zip(problem.effects, problem.start.memory or tuple({} for _ in problem.effects), strict=True):
         started = m or effect.start(problem)
         kept = {k: memory[:, POINT_MEMORY[k]].copy() for k in started if k in POINT_MEMORY}
-        if "q" in started:
-            kept |= {"q": np.array(row[col.Q]), "q_rate": np.array(row[col.Q_RATE])}
+        kept |= {key: np.array(row[column]) for key, column in PLATE_MEMORY.items() if key in started}
         own.append({**started, **kept})
     return replace(
         problem.start,

@@ -32,7 +32,7 @@ CABLE = _block(6)  # on, k, c, height of attachment, its place at the start (x, 
 WIRE = _block(5)  # on, force, tau, height of attachment, evenness
 VIBRATION = _block(6)  # on, amplitude, angular frequency, phase, sine and cosine of the direction
 TILT = _block(3)  # on, x, y
-SUPPORT = _block(4)  # on, mass, stiffness, damping
+SUPPORT = _block(8)  # on, mass, stiffness, damping, the same three of pitching, moment at rest; inertia 0: none
 SLOTS = _next
 
 #: Which effects are on, read once per run.

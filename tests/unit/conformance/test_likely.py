@@ -120,6 +120,7 @@ def test_what_is_left_out_is_named():
         ("spin_friction", "sliding_share"),
         ("hysteretic_contact", "curved_share"),
         ("gyro_saturation", "softness"),
+        ("compliant_support", "pitch"),
         ("inertia_deviation", "xz"),
         ("gyro_misalignment", "yz"),
         ("gyro_bandwidth", "delay"),

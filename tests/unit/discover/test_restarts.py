@@ -77,8 +77,9 @@ def settled(fit: Fit, point, times: int):
         point = fit.carried(point)
 
 
-def test_plate_under_the_block_is_handed_on_from_window_to_window():
-    fit, point = at_truth("compliant_support:frequency=60")
+@pytest.mark.parametrize("pitch", [0.0, 0.5])
+def test_plate_under_the_block_is_handed_on_from_window_to_window(pitch):
+    fit, point = at_truth(f"compliant_support:frequency=60,pitch={pitch}")
     shares = [out_of_step(fit, p) for p in settled(fit, point, 6)]
     assert shares[0] > 0.3 and shares[-1] < 0.1
 

@@ -172,6 +172,10 @@ def test_a_plate_moves_along_three_axes_or_not_at_all(runs):
     assert looked("plate_motion", (0.0, {}), (short, good)) == (f"displacement {said}", AXES)
     assert looked("plate_motion", (0.0, {}), (good, short)) == (f"velocity {said}", AXES)
     assert looked("plate_motion", (0.0, {}), good)[0] == "gives back ndarray"
+    assert passes("plate_motion", (0.0, {}), (good,) * 4)
+    assert looked("plate_motion", (0.0, {}), (good, good, short, good)) == (f"turn {said}", AXES)
+    assert looked("plate_motion", (0.0, {}), (good, good, good, short)) == (f"rate of turn {said}", AXES)
+    assert looked("plate_motion", (0.0, {}), (good,) * 3)[0] == "gives back tuple"
 
 
 def test_a_normal_force_has_a_number_for_each_point():

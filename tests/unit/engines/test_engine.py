@@ -12,6 +12,7 @@ pytest.importorskip("numba")
 import rockref
 from rockref import engines
 from rockref.effects.catalogue import EFFECTS
+from rockref.effects.support.compliant_support import CompliantSupport
 from rockref.engines.compiled import engine, kernel, slots, sources
 from rockref.model.errors import InputError, NumericalError
 from rockref.model.problem import stack
@@ -19,6 +20,8 @@ from rockref.model.simulate import simulate as law
 from tests.property.engines.problems import inertia, similar_problem, state
 
 MODEL = rockref.Model.table_3_1()
+#: A plate that bounces and pitches, so that all that a plate remembers is at work.
+PITCHING = CompliantSupport(100.0, 60.0, 0.03, 0.5)
 KEYS = ("t", "x", "v", "Lambda", "W", "F", "anchored", "sliding")
 
 
@@ -42,7 +45,7 @@ def test_the_law_s_bits_through_a_landing():
 def test_restart_is_bitwise_with_every_memory():
     """Cut anywhere, the run goes on as if it had not been cut; effects with a memory of their own included."""
     ids = ("hysteretic_contact", "spin_friction", "rolling_resistance", "compliant_support")
-    model = MODEL.replace(effects=tuple(EFFECTS[id].typical() for id in ids))
+    model = MODEL.replace(effects=tuple(EFFECTS[id].typical() for id in ids[:-1]) + (PITCHING,))
     whole = engine.simulate(model.problem(0.54))
     first = engine.simulate(model.problem(0.51))
     rest = engine.simulate(model.problem(0.03, start=first.final_state))

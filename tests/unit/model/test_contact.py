@@ -49,6 +49,18 @@ class TestK1:
         assert np.array_equal(moved.r, fixed.r)
         assert np.array_equal(moved.xi, -moved.u[:, 2])
 
+    def test_a_plate_that_turns_rises_under_the_point(self):
+        """About X it rises with y, about Y it falls with x; a lever of 2 m and 1 m, of where the points stand on it."""
+        s = moving_block()
+        still = np.zeros(3)
+        turn, rate = np.array([2.0**-10, 2.0**-12, 7.0]), np.array([2.0**-8, -(2.0**-9), 5.0])
+        fixed, moved = contact.point_kinematics(**s), contact.point_kinematics(**s, plate=(still, still, turn, rate))
+        x, y = fixed.u[:, 0], fixed.u[:, 1]
+        assert np.array_equal(moved.u[:, :2], fixed.u[:, :2])
+        assert np.array_equal(moved.v_slide, fixed.v_slide)
+        assert np.array_equal(moved.u[:, 2], fixed.u[:, 2] - (2.0**-10 * y - 2.0**-12 * x))
+        assert np.array_equal(moved.xi_rate, -(fixed.u_rate[:, 2] - (2.0**-8 * y + 2.0**-9 * x)))
+
     def test_round_foot_touches_with_its_lowest_point(self):
         s, radius = moving_block(), np.linspace(0.001, 0.008, 8)
         k = contact.point_kinematics(**s, radius=radius)

@@ -23,6 +23,13 @@ class Shaken:
         return np.array([m["rate"] * t, 0, 0]), np.array([m["rate"], 0, 0])
 
 
+class Turning:
+    """A plate that turns about X as its memory says."""
+
+    def plate_motion(self, t, m):
+        return np.zeros(3), np.zeros(3), np.array([m["turn"], 0, 0]), np.array([2 * m["turn"], 0, 0])
+
+
 class Still:
     def plate_motion(self, t, m):
         return None
@@ -42,6 +49,11 @@ class TestPlateMotion:
         q, q_rate = integrator.plate_motion(effects, 3.0)
         assert np.array_equal(q, [7.5, 0, 0])
         assert np.array_equal(q_rate, [2.5, 0, 0])
+
+    def test_turns_add_up_and_follow_the_motion(self):
+        effects = [(Shaken(), {"rate": 2.0}), (Turning(), {"turn": 1.0}), (Turning(), {"turn": 0.5})]
+        motion = integrator.plate_motion(effects, 3.0)
+        assert np.array_equal(motion, [[6.0, 0, 0], [2.0, 0, 0], [1.5, 0, 0], [3.0, 0, 0]])
 
     def test_without_one_the_plate_is_fixed(self):
         assert integrator.plate_motion([(Still(), {})], 3.0) is None

@@ -18,6 +18,7 @@ from rockref.discover.fit.approach import (
     best_for_all,
     defects_together,
     heights_of,
+    pitching,
     placed,
     same_release,
     shares_of,
@@ -107,6 +108,16 @@ def test_a_ringing_plate_is_looked_for_at_every_tone():
     looked = shares_of(compliance)
     for bottom in np.linspace((60 / 115) ** 2, (60 / 35) ** 2, 200):
         assert np.min(np.abs(looked / bottom - 1)) < 0.06
+
+
+def test_pitches_are_looked_for_about_the_tone_of_a_plate_that_yields():
+    names = ["K_N", "compliant_support.frequency", "compliant_support.pitch"]
+    assert len(pitching(names, np.zeros(3))) == 0
+    places = np.array([0.3, 2.0, 0.1]) + pitching(names, np.array([0.3, 2.0, 0.1]))
+    assert np.all(places[:, 0] == 0.3)
+    assert sorted(set(places[:, 2].round(12))) == [0.25, 0.5, 0.9, 1.4, 2.0]
+    # A pitch that yields makes the tone lower, so that the plate itself is stiffer than it seemed.
+    assert places[:, 1].min() == pytest.approx(1.72) and places[:, 1].max() == pytest.approx(2.16)
 
 
 def test_switches_are_what_brings_an_effect_in():

@@ -17,7 +17,7 @@ H, ROWS = 1e-5, 801
 RISING = np.array([0.25, 0.0, 0.0])
 
 
-def begun(model: Model, roll: float, rates=RISING, pressed: float = 0.0):
+def begun(model: Model, roll: float, rates=RISING, pressed: float = 0.0, plate=None):
     """Table 3.1's block tilted by 0.08 rad and rolled, at the start of a window: a batch of one for 8 ms."""
     problem = pack.with_memory(model.problem(duration=1.0, theta_0=0.08))
     Lambda = (problem.start.Lambda @ exponential(np.array([0.0, roll, 0.0])))[None].copy()
@@ -28,7 +28,8 @@ def begun(model: Model, roll: float, rates=RISING, pressed: float = 0.0):
     place = standing_place(problem.points.P, np.eye(3), problem.start.x, problem.start.Lambda)[None]
     deep = np.full((1, n), pressed)
     none = np.zeros((1, 5))
-    standing_starts(Lambda, rates[None], none, body, P, props, effects, deep, np.eye(3)[None], place, state, memory)
+    upright, plate = np.eye(3)[None], np.zeros((1, 4)) if plate is None else np.array(plate)[None]
+    standing_starts(Lambda, rates[None], none, body, P, props, effects, deep, upright, place, plate, state, memory)
     return Batch(body, P, props, memory, effects, state, H, np.arange(ROWS)[None].astype(np.int64))
 
 
@@ -148,3 +149,24 @@ def test_in_a_dent_the_block_stands_lower_by_it_and_as_firmly(share):
     total = forces[:, :, 2].sum(axis=1)
     assert np.abs(total / total[0] - 1).max() < 0.03
     assert total[0] == pytest.approx(run(fresh)[1][0, :, 2].sum(), rel=1e-3)
+
+
+def test_corner_stands_as_deep_on_a_plate_that_moves():
+    """On a plate that has sunk, pitched and goes on, the carrying corner is as deep, and rests on it as it did."""
+    plate = np.array([1e-5, 2e-3, 1e-4, -3e-2])
+    rates = np.array([0.25, 0.01, 0.0])
+    still, moving = (begun(Model.table_3_1(), 0.002, rates, plate=p) for p in (None, plate))
+    np.testing.assert_array_equal(moving.state[0, col.PLATE], plate)
+    pivot = int(np.argmax(still.memory[0, :, col.ANCHORED]))
+    assert moving.memory[0, pivot, col.ANCHORED] == 1.0
+
+    def corner(batch: Batch) -> tuple[np.ndarray, np.ndarray]:
+        s = batch.state[0]
+        L = s[col.L : col.L + 9].reshape(3, 3)
+        r = L @ batch.P[0, pivot]
+        return s[:3] + r, s[col.V : col.V + 3] + np.cross(L @ s[col.W_ : col.W_ + 3], r)
+
+    (place, speed), (shifted, faster) = corner(still), corner(moving)
+    y = place[1]
+    np.testing.assert_allclose(shifted, place + [0, 0, 1e-5 + 1e-4 * y], atol=1e-12)
+    np.testing.assert_allclose(faster, speed + [0, 0, 2e-3 - 3e-2 * y], atol=1e-9)

@@ -246,6 +246,41 @@ def test_the_plate_moves_up_and_down_alone():
     assert start == {"q": 0.0, "q_rate": 0.0} and all(np.shape(a) == () for a in start.values())
 
 
+PITCHING = CompliantSupport(5.0, 2.0, 0.1, 0.25)
+
+
+@pytest.mark.parametrize("pull", [0.0, 2.0])
+def test_the_plate_pitches_by_the_moment_of_what_it_carries(pull):
+    """J phi'' = moment at rest - sum F y - k phi - c phi' with J = M 0.6^2/12 and twice the frequency, for 1/4."""
+    effects = [Adhesion(pull, 1e-5), PITCHING]
+    problem = body(points_at([(0, 0, 0)] * 2), effects, mass=3.0, g=10.0)
+    phi, rate, h, omega, J = 1e-3, -0.02, 1e-3, 2 * np.pi * 4.0, 5.0 * 0.03
+    m = {k: np.array(a) for k, a in {"q": 0.0, "q_rate": 0.0, "pitch": phi, "pitch_rate": rate, "moment": 2.5}.items()}
+    c = contact([1e-6, 1e-6], r=[[0.0, 0.1, 0.0], [0.0, -0.2, 0.0]], F_N=[12.0, 7.0])
+    c.k.u[:, 1] += 0.5  # the centre of mass is half a metre along y
+    PITCHING.advance(problem, c, h, m)
+    carried = (12.0 - pull) * 0.6 + (7.0 - pull) * 0.3
+    after = rate + h * ((2.5 - carried) / J - omega**2 * phi - 2 * 0.1 * omega * rate)
+    assert m["pitch_rate"] == pytest.approx(after, rel=ROUNDED)
+    assert m["pitch"] == pytest.approx(phi + h * after, rel=ROUNDED)
+
+
+def test_a_plate_that_pitches_is_level_under_the_weight_at_release():
+    problem = body(points_at([(0, 0.3, 0.1), (0, -0.2, -0.1)]), [PITCHING], mass=3.0, g=10.0, x=(0, 0.5, 0))
+    start = PITCHING.start(problem)
+    # The second point is the lowest, at y = 0.5 m - 0.2 m.
+    assert start == {"q": 0.0, "q_rate": 0.0, "pitch": 0.0, "pitch_rate": 0.0, "moment": pytest.approx(30.0 * 0.3)}
+    motion = PITCHING.plate_motion(0.0, start | {"pitch": np.array(1e-3), "pitch_rate": np.array(2e-3)})
+    assert np.array_equal(motion, [(0, 0, 0), (0, 0, 0), (1e-3, 0, 0), (2e-3, 0, 0)])
+
+
+@pytest.mark.parametrize("pitch, pitches", [(0.0, False), (0.01, False), (0.0101, True)])
+def test_a_trifle_of_pitch_is_none(pitch, pitches):
+    effect = CompliantSupport(5.0, 2.0, 0.1, pitch)
+    assert (effect.pitching() is not None) == pitches
+    assert ("pitch" in effect.start(body(points_at([(0, 0, 0)]), [effect]))) == pitches
+
+
 def test_a_rigid_plate_does_not_move():
     rigid, m = CompliantSupport(5.0, 0.0, 0.1), {}
     assert rigid.plate_motion(0.0, m) is None and rigid.advance(None, None, 1e-3, m) is None and m == {}
