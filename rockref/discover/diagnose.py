@@ -55,6 +55,9 @@ NO_WORSE = 1.1
 DOUBTFUL, FAR_WORSE = 0.2, 2.0
 #: Prior deviations beyond which nothing is begun that the releases suggest (decided).
 FARTHEST = 3.0
+#: What must be left for a suspect that was set aside to get a course of its own, and by how much that has to do better
+#: (decided: of a push beside another contact the plain course left 1585 units).
+ANOTHER_COURSE, BETTER_COURSE = 350.0, 300.0
 
 
 @dataclass
@@ -129,7 +132,7 @@ def diagnose(
     setup, sets, seen = suspects(setup)
     null, start, aside = beginning(setup, sets, seen)
     start, looks = (start, []) if blinded(seen, start) else grown(setup, start, seed, say)
-    if aside is not None and room(start) > rules.SECOND_ROOM:
+    if aside is not None and room(start) > ANOTHER_COURSE:
         start, looks = better_course(start, looks, *grown(setup, aside, seed, say), say)
     held = load_experiment(path, uses=(FIT, HOLDOUT))
     start = proven(setup, held, start, looks, say)
@@ -192,11 +195,11 @@ def better_course(
     """Of what grew from the plain baseline and from a suspect that was set aside the one that explains more.
 
     A release that is pushed explains the releases, and nothing of what follows where the contact is another one, too;
-    from the baseline a drift took its place, and left 1585 units (decided: as much as a second effect has to gain).
+    from the baseline a drift took its place.
     """
     gain = gain_between(start, other)
     say(f"  {' + '.join(other.effects)} in the place of {' + '.join(start.effects) or 'nothing'}: gain {gain:.0f}")
-    return (other, others) if gain > rules.SECOND else (start, looks)
+    return (other, others) if gain > BETTER_COURSE else (start, looks)
 
 
 def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) -> tuple[Family, list[Look]]:
