@@ -315,7 +315,7 @@ def conclude(
         off=checks["off_bounds"].value,
         agree=checks["runs_agree"].passed,
         far_fetched=far_fetched(look.order, final),
-        odds=checks["runs_agree"].value,
+        odds=checks["runs_agree"].value if checks["gradient_small"].value < rules.UNENDED else 0.0,
     )
     decision = rules.decide(facts)
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()

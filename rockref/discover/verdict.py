@@ -89,6 +89,10 @@ BELIEVED = 4.5
 #: beyond both, a magnet as a wire (9.7 and 5.1) and a wire beside which a clock was missing (4.5); the next had 3.4
 #: and was right, as were those with up to 18.9 where more windows were structured.
 AT_ODDS, CALM = 4.0, 0.05
+#: What one more step promises per shared parameter above which such a disagreement is that of a fit that has not ended
+#: (decided: of a plate that pitches, fitted to the noise, it promised 159, and the runs were 37 variances apart; of two
+#: more such plates and one that does not pitch 4 to 10, and they were 1.5 to 2.4 apart).
+UNENDED = 50.0
 #: Held-out mean loss must fall by this much to prove an effect; below it the held-out runs were at their floor before.
 HELD_OUT = 0.01
 
