@@ -17,8 +17,9 @@ MOST_EFFECTS = 2
 DETECTED = 100.0
 #: The same for a second effect that the held-out runs show, and for one that stands without them: what the first fit
 #: left unfinished gains something for everyone. Its least size. Decided: four second effects that were there gained
-#: 277 (drag beside a cable) to 1070; of fourteen single ones, most of another law than the name's, seven left 130 to
-#: 800 units, beside which nothing gained more than 105, and that at 0.15 of its typical size.
+#: 277 (drag beside a cable) to 1070. Beside eighteen single ones of another law than the name's, which left up to 2650
+#: units, nothing of that size gained 150 to 300; what gained more in two of them, up to 1673, did not settle what was
+#: left, or was not told apart from its rivals.
 SECOND, PLAIN_SECOND, SECOND_SIZE = 150.0, 900.0, 0.25
 #: What must be left to gain for a second effect to be looked for at all: a little more than it has to gain.
 SECOND_ROOM = 170.0
