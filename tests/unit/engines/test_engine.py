@@ -55,6 +55,23 @@ def test_restart_is_bitwise_with_every_memory():
             np.testing.assert_array_equal(mine[key], other[key])
 
 
+def test_a_pull_lifts_and_turns_a_plate_that_pitches_as_in_the_law():
+    """Over the first main impact, where other feet come within the reach of the pull."""
+    falling = engine.simulate(MODEL.problem(0.507)).final_state
+    start = replace(falling, memory=(), a=None, T=None, F=None)
+    pulled, free = (
+        MODEL.replace(effects=effects).problem(0.01, output_rate=1e4, start=start)
+        for effects in ((EFFECTS["adhesion"](force=20.0), PITCHING), (PITCHING,))
+    )
+    found = engine.simulate(pulled)
+    # The law has the centre of mass from a point and its lever arm: one rounding more, some 1e-16 a step.
+    np.testing.assert_allclose(found.W, law(pulled).W, rtol=0, atol=1e-10)
+    pitches = [float(r.final_state.memory[-1]["pitch"]) for r in (found, law(pulled), engine.simulate(free))]
+    assert pitches[0] == pytest.approx(pitches[1], rel=1e-6)
+    # Without the pull it is 3e-4 of it off, three hundred times the bar.
+    assert abs(pitches[0] - pitches[2]) > 1e-4 * abs(pitches[0])
+
+
 def test_results_do_not_depend_on_the_number_of_workers():
     problems = [MODEL.replace(theta_0=0.1 + 0.001 * i).problem(0.05) for i in range(5)]
     one, three = (engine.simulate_many(problems, workers=k) for k in (1, 3))

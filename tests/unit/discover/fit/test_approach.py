@@ -20,6 +20,7 @@ from rockref.discover.fit.approach import (
     heights_of,
     pitching,
     placed,
+    plainly_best,
     same_release,
     shares_of,
     switches,
@@ -118,6 +119,18 @@ def test_pitches_are_looked_for_about_the_tone_of_a_plate_that_yields():
     assert sorted(set(places[:, 2].round(12))) == [0.25, 0.5, 0.9, 1.4, 2.0]
     # A pitch that yields makes the tone lower, so that the plate itself is stiffer than it seemed.
     assert places[:, 1].min() == pytest.approx(1.72) and places[:, 1].max() == pytest.approx(2.16)
+
+
+def test_a_place_that_is_a_little_better_is_not_plainly_so(monkeypatch):
+    fit = started()
+    move = np.zeros((1, len(fit.parameters)))
+    move[0, [p.name for p in fit.parameters].index("tilt_offset[0]")] = 0.1
+    moved, point = placed(fit, np.zeros(len(fit.parameters))), placed(fit, -move[0])
+    assert moved.objective < point.objective
+    share = moved.objective / point.objective
+    for plainly, wins in ((share * 1.001, True), (share * 0.999, False)):
+        monkeypatch.setattr(approach, "PLAINLY", plainly)
+        assert (plainly_best(fit, point, move).objective < point.objective) == wins
 
 
 def test_switches_are_what_brings_an_effect_in():
