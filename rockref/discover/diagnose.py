@@ -261,6 +261,8 @@ def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look]
     gain = gains[second]
     if gain > rules.PLAIN_SECOND:
         return pair
+    if rules.is_small(gain, room(alone)):
+        return alone
     if rivals := [id for id, g in gains.items() if id not in pair.effects and g > rules.told_apart(gain)]:
         say(f"  {second} is not told apart from {', '.join(rivals)}")
         return alone

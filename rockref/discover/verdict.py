@@ -21,6 +21,9 @@ DETECTED = 100.0
 #: units, nothing of that size gained 150 to 300; what gained more in two of them, up to 1673, did not settle what was
 #: left, or was not told apart from its rivals.
 SECOND, PLAIN_SECOND, SECOND_SIZE = 150.0, 900.0, 0.25
+#: Below the gain SMALL a second effect has to take this part of what the first one left (decided: drag beside a cable
+#: gained 277 of 485; an inertia beside a plate that pitches, where there was none, 207 of 1388).
+SMALL, OF_WHAT_IS_LEFT = 300.0, 0.4
 #: What must be left to gain for a second effect to be looked for at all: a little more than it has to gain.
 SECOND_ROOM = 170.0
 #: Share of the fall of the loss on fitted runs that the held-out runs have to show of such a second effect, each of
@@ -138,6 +141,11 @@ class Decision:
 def is_detected(gain: float, size: float, second: bool = False) -> bool:
     """Whether an effect is there: enough gain, and not a trifle of it."""
     return gain > (SECOND if second else DETECTED) and size > (SECOND_SIZE if second else LEAST_SIZE)
+
+
+def is_small(gain: float, left: float) -> bool:
+    """Whether a second effect gains little, and little of what the first one left."""
+    return gain < min(SMALL, OF_WHAT_IS_LEFT * left)
 
 
 def is_proven(fitted: float, held: Sequence[float]) -> bool:

@@ -206,3 +206,8 @@ def test_a_run_that_contradicts_all_others_is_named_before_anything_is_said(by_r
     decision = decide(replace(facts(), by_run=by_run))
     assert (decision.verdict == "not_trustworthy") is (named is not None)
     assert named is None or (f"Run {named} contradicts the others: 90%" in decision.sentence and decision.effects == ())
+
+
+def test_a_small_second_effect_has_to_take_a_part_of_what_was_left():
+    assert not rules.is_small(277, 485) and rules.is_small(207, 1388)
+    assert not rules.is_small(rules.SMALL, 5000) and rules.is_small(rules.SMALL - 1, 5000)
