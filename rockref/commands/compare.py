@@ -28,7 +28,10 @@ def compare(
     ] = None,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself) or numba (compiled).")] = "auto",
     check: Annotated[
-        bool, typer.Option("--check", help="End with 1 if a model leaves the band before the second main impact.")
+        bool,
+        typer.Option(
+            "--check", help="End with 1 if a model leaves the band, or falls over, before the second main impact."
+        ),
     ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
 ) -> None:
