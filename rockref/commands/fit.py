@@ -20,7 +20,9 @@ def fit(
         list[str] | None,
         typer.Option("--effect", "-e", help="An effect to fit along, id or file.py:Class; may be repeated."),
     ] = None,
-    model: Annotated[str | None, typer.Option("--model", "-m", help="Start from this model.toml.")] = None,
+    model: Annotated[
+        str | None, typer.Option("--model", "-m", help="Start from this model.toml, effects and all.")
+    ] = None,
     gates: Annotated[bool, typer.Option("--gates/--no-gates", help="Check the fit; costs as much again.")] = True,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,

@@ -22,6 +22,7 @@ from rockref.discover.fitting import started_family, usable
 from rockref.discover.looking.presearch import MISLEADING, release_fit, tone
 from rockref.discover.looking.resized import resized
 from rockref.discover.looking.screen import screen
+from rockref.discover.windows.on_time import on_time
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, Experiment, load_experiment
 from rockref.model.errors import InputError
@@ -142,6 +143,7 @@ def add(
     own = tuple(e.id for e in base.active_effects())
     if effect in own:
         raise InputError("E-EFFECT", f"argument {effect}", "is in the model already", "Add another one.")
+    experiment = on_time(experiment)
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say)
     setup = with_tone(setup, (*own, effect))
     say(f"the model without {effect}")
@@ -165,7 +167,7 @@ def add(
         after=states[1],
         model=fitted_model(after.fit, after.point, numbers, origin),
         estimates=numbers,
-        spread=spread_of(load_experiment(path), end),
+        spread=spread_of(on_time(load_experiment(path)), end),
         history=history,
         end=end,
         seconds=time.perf_counter() - begun,
@@ -188,7 +190,7 @@ def with_tone(setup: Setup, effects: tuple[str, ...]) -> Setup:
             return replace(setup, frequency=float(e.values()["frequency"]))
     plain = replace(setup, base=setup.base.replace(effects=()))
     fit, point = release_fit(plain)
-    return replace(setup, frequency=tone(plain, fit, point)[0])
+    return replace(setup, frequency=tone(fit, point)[0])
 
 
 def with_one_more(setup: Setup, before: Family, effect: str, seed: int) -> Family:

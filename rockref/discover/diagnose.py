@@ -42,8 +42,8 @@ from rockref.discover.plan import switches_of
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows.clipped import flat_tops
+from rockref.discover.windows.on_time import gyro_of, on_time
 from rockref.discover.windows.own import known_own
-from rockref.discover.windows.series import gyro_of
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
 
@@ -126,18 +126,19 @@ def diagnose(
     begun = time.perf_counter()
     say = progress or (lambda line: None)
     known = known_own(own)
-    experiment = load_experiment(path, uses=(FIT,))
+    experiment = on_time(load_experiment(path, uses=(FIT,)))
     base = baseline_model(experiment, model)
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say, own=known)
     setup, sets, seen = suspects(setup)
     null, start, aside = beginning(setup, sets, seen)
+    begun_with = (start, aside)
     start, looks = (start, []) if blinded(seen, start) else grown(setup, start, seed, say)
     if aside is not None and room(start) > ANOTHER_COURSE:
         start, looks = better_course(start, looks, *grown(setup, aside, seed, say), say)
-    held = load_experiment(path, uses=(FIT, HOLDOUT))
+    held = on_time(load_experiment(path, uses=(FIT, HOLDOUT)))
     start = proven(setup, held, start, looks, say)
-    if start.effects and not looks:
-        # What the release named leaves no room for a look, in which it would have been fitted to its end.
+    if start.effects and any(start is family for family in begun_with):
+        # What the release named, and no look has added to, has not been fitted to its end.
         start = finished(setup, start, seed)
     if len(start.effects) == 2 and (needless := [e for e in start.effects if size_of(start, e) < rules.LEAST_SIZE]):
         start = without(setup, start, needless[0])

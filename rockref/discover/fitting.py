@@ -19,6 +19,7 @@ from rockref.discover.fit.gates import Gate, gates, other_start, starts_agree
 from rockref.discover.fit.information import Information, covariance, information
 from rockref.discover.fit.search import Setup, baseline
 from rockref.discover.looking.presearch import suspects
+from rockref.discover.windows.on_time import on_time
 from rockref.effects import catalogue
 from rockref.measure.experiment import FIT, Experiment, load_experiment
 from rockref.model.errors import InputError
@@ -100,8 +101,8 @@ def fit_experiment(
     Parameters
     ----------
     path : experiment folder; model : starts from it in place of the nominal baseline
-    effects : to be fitted along, ids or file.py:Class; None lets the release decide whether a sensor error or a shaking
-        base comes along
+    effects : to be fitted along with those that `model` has, ids or file.py:Class; None lets the release decide whether
+        a sensor error or a shaking base comes along
     seed : of the random restarts; workers : threads; end : seconds used of each run
     check : go through the gates (costs about as much as the fit); progress : called with a line at every stage.
 
@@ -112,7 +113,7 @@ def fit_experiment(
     """
     begun = time.perf_counter()
     say = progress or (lambda line: None)
-    experiment = usable(load_experiment(path, uses=(FIT,)))
+    experiment = on_time(usable(load_experiment(path, uses=(FIT,))))
     base = baseline_model(experiment, model)
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say)
     say("release windows")
@@ -120,7 +121,7 @@ def fit_experiment(
         setup, family = chosen_family(setup)
     else:
         setup, _, seen = suspects(setup)
-        family = started_family(setup, known_effects(effects), start_of(seen, effects))
+        family = started_family(setup, beside(setup, known_effects(effects)), start_of(setup, seen, effects))
     other = None
     if check:
         family, other, found = begun_again(replace(setup, base=family.fit.base), family, seed, say)
@@ -200,17 +201,32 @@ def started_family(
     return Family(effects, fit, point)
 
 
-def start_of(seen: dict[str, Any], effects: tuple[str, ...]) -> np.ndarray | None:
-    """Where the release windows say that a set of effects begins; None where they say nothing of it."""
+def beside(setup: Setup, effects: tuple[str, ...]) -> tuple[str, ...]:
+    """The effects that the setup's own model has, which are fitted again, and these."""
+    return tuple(dict.fromkeys((*(e.id for e in setup.base.active_effects()), *effects)))
+
+
+def start_of(setup: Setup, seen: dict[str, Any], effects: tuple[str, ...]) -> np.ndarray | None:
+    """Where the release windows say that a set of effects begins, beside those of the setup's own model, of which they
+    say nothing; None where they say nothing of the set."""
     starts = seen.get("starts", {})
-    return starts.get(effects, None if starts else seen["z"])
+    z = starts.get(effects, None if starts else seen["z"])
+    if z is None:
+        return None
+    law, own = len(setup.parameters()), len(setup.parameters(beside(setup, ())))
+    return np.concatenate([z[:law], np.zeros(own - law), z[law:]])
 
 
 def chosen_family(setup: Setup) -> tuple[Setup, Family]:
     """The plain baseline, or the one with what the release windows suspect, whichever is clearly nearer."""
     setup, sets, seen = suspects(setup)
     families = [
-        started_family(setup, effects, start_of(seen, effects), ITERATIONS if effects or len(sets) == 1 else FEW)
+        started_family(
+            setup,
+            beside(setup, effects),
+            start_of(setup, seen, effects),
+            ITERATIONS if effects or len(sets) == 1 else FEW,
+        )
         for effects in sets
     ]
     best = min(families, key=mean_loss)

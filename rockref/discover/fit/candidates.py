@@ -75,6 +75,8 @@ SELDOM_PRIOR = 0.1
 #: Numbers whose hard limit depends on the block: a fit keeps them below the plausible end of their range. Steps along
 #: the inner points' distance added up to 74 mm on a blind case, where the middle of the base is 71 mm from its corner.
 PLAUSIBLE = {("foot_defects", "delta_diag")}
+#: Share of half a small base's diagonal that inner points stay within (decided: at one they meet in the middle).
+NEARLY = 0.9
 #: Prior standard deviation in typical sizes; decided: what is five times the typical size is not expected.
 PRIOR = 3.0
 
@@ -148,6 +150,13 @@ def parameter_of(kind: type[Effect], key: str, q: Quantity) -> Parameter:
     return make(setter(kind, key), absent, size, prior=PRIOR, low=low, high=high)
 
 
+def within_base(p: Parameter, model: Model) -> Parameter:
+    """A parameter of an effect that keeps inner points on their side of the middle of a model's base."""
+    if p.name != "foot_defects.delta_diag":
+        return p
+    return replace(p, high=min(p.high, NEARLY * math.hypot(model.width, model.depth) / 2))
+
+
 def is_inverse(name: str) -> bool:
     """Whether a parameter, by its name in a fit ("gyro_bandwidth.frequency"), is found as its inverse."""
     id, _, key = name.partition(".")
@@ -215,9 +224,9 @@ def value_of(parameter: Parameter, z: float) -> float:
     return v
 
 
-def kinds(baseline: str, leave_out: Iterable[str] = (), own: Iterable[str] = ()) -> tuple[type[Effect], ...]:
-    """The candidates for an experiment; foot defects only where the baseline has none. own : a user's, by id."""
+def kinds(points: str, leave_out: Iterable[str] = (), own: Iterable[str] = ()) -> tuple[type[Effect], ...]:
+    """The candidates beside a model with these points; foot defects only where it has none. own : a user's, by id."""
     left = set(leave_out)
-    if baseline == "eight_points":
+    if points != "four_points":
         left.add("foot_defects")
     return tuple(k for k in (*catalogue.IN_STEP_ORDER, *map(catalogue.find, own)) if k.id not in left)

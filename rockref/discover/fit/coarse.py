@@ -15,10 +15,10 @@ import numpy as np
 
 from rockref.discover.fit.least_squares import Fit, Point
 
-#: Samples averaged and most iterations, one stage after the other; each a quarter of the one before. Decided on ended
-#: fits of six blind cases: from 48 samples on they came down by 730, 360, 300, 1970, 15 and 0 units, from 12 and 4 by
-#: 500, 270, 130, -90, -70 and 0; two more stages between these three gained no more.
-STAGES = ((48, 6), (12, 6), (3, 4))
+#: Seconds averaged and most iterations, one stage after the other; each a quarter of the one before. Decided on ended
+#: fits of six blind cases: from 48 ms on they came down by 730, 360, 300, 1970, 15 and 0 units, from 12 and 4 by 500,
+#: 270, 130, -90, -70 and 0; two more stages between these three gained no more.
+STAGES = ((48e-3, 6), (12e-3, 6), (3e-3, 4))
 
 
 def coarse_to_fine(fit: Fit, point: Point, seed: int = 0, relative: float = 0.0) -> Point:
@@ -27,7 +27,7 @@ def coarse_to_fine(fit: Fit, point: Point, seed: int = 0, relative: float = 0.0)
     relative : share of the objective that two iterations must gain for a stage to go on.
     """
     rng = np.random.default_rng(seed)
-    for samples, iterations in STAGES:
-        wide = replace(fit, averaged=samples)
+    for seconds, iterations in STAGES:
+        wide = replace(fit, averaged=max(2, round(seconds * fit.series.rate)))
         point = wide.run(wide.point(point.z, point.corrections)[0], iterations, rng, relative=relative)
     return fit.relax_states(fit.point(point.z, point.corrections)[0])

@@ -12,6 +12,7 @@ from rockref.discover.compare.stretches import AXES
 from rockref.discover.fit.evidence import TRIMMED, on_held_out
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup
+from rockref.discover.windows.on_time import on_time
 from rockref.measure.experiment import HOLDOUT, Experiment, load_experiment
 from rockref.measure.impacts import main_impacts
 from rockref.measure.repeatability import repeat_groups, repeatability
@@ -83,7 +84,7 @@ def holdout_errors(setup: Setup, model: Model, effects: tuple[str, ...]) -> Erro
     experiment = load_experiment(setup.experiment.path, uses=(HOLDOUT,))
     if not experiment.holdout_runs():
         return None
-    return errors_of(*on_held_out(setup, model, effects, experiment))
+    return errors_of(*on_held_out(setup, model, effects, on_time(experiment)))
 
 
 def spread_of(experiment: Experiment, end: float) -> np.ndarray | None:

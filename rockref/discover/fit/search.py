@@ -11,11 +11,12 @@ from rockref.api import Model
 from rockref.discover.fit.approach import along_ridge, approached, placed
 from rockref.discover.fit.baseline import baseline_parameters, roll_parameters
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.candidates import parameters_of
+from rockref.discover.fit.candidates import parameters_of, within_base
 from rockref.discover.fit.coarse import coarse_to_fine
 from rockref.discover.fit.least_squares import Fit, Point, out_of_step
 from rockref.discover.fit.parameter import Parameter
-from rockref.discover.windows.series import Cut, Series, gyro_of, refinement, sensor_of, series
+from rockref.discover.windows.on_time import gyro_of
+from rockref.discover.windows.series import Cut, Series, refinement, sensor_of, series
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
 from rockref.measure.impacts import main_impacts
@@ -65,7 +66,7 @@ class Setup:
         """Baseline, tilts and rolls, and those of the effects."""
         own = baseline_parameters(self.base, len(self.runs), self.experiment.tilt_uncertainty or TILT_UNCERTAINTY)
         extra = [p for e in effects for p in parameters_of(catalogue.find(e), len(self.runs), self.frequency)]
-        return (*own, *roll_parameters(len(self.runs)), *extra)
+        return (*own, *roll_parameters(len(self.runs)), *(within_base(p, self.base) for p in extra))
 
     def fit(self, windows: Series, effects: tuple[str, ...] = ()) -> Fit:
         """A fit of the baseline with these effects over windows."""

@@ -11,8 +11,8 @@ from rockref.measure.checks import growth_rate, tilts
 from rockref.measure.experiment import Experiment, Run
 from rockref.measure.running import sample_step
 
-#: Samples at the top that make it flat (decided: a cusp has two or three, at 1 kHz).
-FLAT = 12
+#: Seconds at the top that make it flat (decided: a cusp has two or three samples, at 1 kHz).
+FLAT = 12e-3
 #: Seconds before and after a flat top that its missing part is continued from (decided: a twelfth of an arc), and the
 #: least number of samples that will do (decided: three for each of the arc's two numbers).
 BESIDE, LEAST = 0.04, 6
@@ -24,15 +24,15 @@ TOLD, PLACES = 3.0, 1501
 
 
 def flat_tops(experiment: Experiment, runs: Sequence[Run]) -> float | None:
-    """Rate [rad/s] at which the records of two runs and of half of them are clipped, or None."""
+    """Rate [rad/s] at which the records of two runs (of the only one) and of half of them are clipped, or None."""
     assert experiment.gyro is not None
     limits, resolution = [], experiment.gyro.resolution
     for run in runs:
         assert run.crv is not None
         x = np.abs(run.crv)
-        if np.sum(np.any(x > x.max() - ROUNDED * resolution, axis=1)) >= FLAT:
+        if np.sum(np.any(x > x.max() - ROUNDED * resolution, axis=1)) >= round(FLAT * experiment.gyro.sample_rate):
             limits.append(x.max())
-    if len(limits) < max(2, len(runs) // 2) or np.ptp(limits) > 2 * resolution:
+    if len(limits) < max(min(2, len(runs)), len(runs) // 2, 1) or np.ptp(limits) > 2 * resolution:
         return None
     return float(np.median(limits))
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numba
 import numpy as np
 
@@ -10,9 +12,9 @@ from rockref.effects.sensor.gyro_bandwidth import natural_frequency
 #: Noise-to-signal power of the regularised inverse filter. Decided: the white noise of a gyroscope is some 1e-3 of
 #: the clatter's amplitude, 1e-6 of its power, in the band that matters; above that band the inverse is cut.
 REGULARISATION = 1e-3
-#: Half width of the quadratic through the rates at a window's start [samples]; decided: 17 ms of noise are averaged,
-#: and the clatter between two corner impacts (20 to 40 ms) is still a parabola.
-HALF_WIDTH = 8
+#: Half width of the quadratic through the rates at a window's start [s]; decided: 17 ms of noise are averaged, and the
+#: clatter between two corner impacts (20 to 40 ms) is still a parabola.
+HALF_WIDTH = 8e-3
 
 
 def undo_low_pass(crv: np.ndarray, rate: float, filters: tuple[tuple[float, float], ...]) -> np.ndarray:
@@ -63,19 +65,24 @@ def attitudes(Lambda_0, W, dt):
     return out
 
 
-def local_rates(crv: np.ndarray) -> np.ndarray:
-    """Rates by a quadratic through 2 HALF_WIDTH + 1 samples, (N, 3) -> (N, 3)."""
+def smoothed_over(rate: float) -> int:
+    """Samples within HALF_WIDTH of one, itself among them; a quadratic through them leaves two at least."""
+    return 2 * max(2, round(HALF_WIDTH * rate)) + 1
+
+
+def local_rates(crv: np.ndarray, rate: float) -> np.ndarray:
+    """Rates by a quadratic through the samples within HALF_WIDTH, (N, 3) -> (N, 3); rate [Hz]: of the samples."""
     from scipy.signal import savgol_filter
 
-    return savgol_filter(crv, 2 * HALF_WIDTH + 1, 2, axis=0)
+    return savgol_filter(crv, smoothed_over(rate), 2, axis=0)
 
 
-def roughness(crv: np.ndarray) -> np.ndarray:
+def roughness(crv: np.ndarray, rate: float) -> np.ndarray:
     """How far the record is from a local quadratic, (N,) [rad/s]: small in the free flights between corner impacts."""
     from scipy.ndimage import uniform_filter1d
 
-    rest = np.sum((crv - local_rates(crv)) ** 2, axis=1)
-    return np.sqrt(uniform_filter1d(rest, 2 * HALF_WIDTH + 1, mode="nearest"))
+    rest = np.sum((crv - local_rates(crv, rate)) ** 2, axis=1)
+    return np.sqrt(uniform_filter1d(rest, smoothed_over(rate), mode="nearest"))
 
 
 @numba.njit(cache=True, nogil=True)
@@ -112,11 +119,15 @@ def plate_motion(Lambda, W, P, feet, dt, mass, g, bounce, pitch):
     mass there, v_z against the plate, and the weight: M q'' = -m a_z - k q - c q' and J phi'' = m g y_0 - m (g + a_z) y
     - k_p phi - c_p phi', with a_z + q'' + y phi'' in the place of a_z. feet : (n,) where each point stands, y [m];
     mass [kg]; bounce, pitch : mass or inertia of the plate, stiffness and damping; an inertia of 0: it does not pitch.
+    Steps are a sixteenth of a sample, or so short that no swing of the plate runs away.
     """
     n = Lambda.shape[0]
     out = np.zeros((n, 4))
     q, rate, phi, turn, before, y_before, y_0 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    fine, total = 16, mass + bounce[0]
+    fastest = bounce[1] / bounce[0]
+    if pitch[0] > 0.0:
+        fastest = max(fastest, pitch[1] / pitch[0])
+    fine, total = max(16, math.ceil(dt * math.sqrt(fastest))), mass + bounce[0]
     h = dt / fine
     for k in range(n):
         lowest, at = 1e9, 0

@@ -17,6 +17,7 @@ from rockref.api import Model
 from rockref.discover.threads import threads_left
 from rockref.discover.windows.clipped import let_go, unclipped
 from rockref.discover.windows.handed_on import leaves_dents, plate_of, spin_slip
+from rockref.discover.windows.on_time import gyro_of
 from rockref.discover.windows.own import own_of, run_own
 from rockref.discover.windows.reconstruct import (
     attitudes,
@@ -33,7 +34,7 @@ from rockref.effects.sensor.gyro_bandwidth import DAMPING
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
-from rockref.measure.experiment import Experiment, Gyro
+from rockref.measure.experiment import Experiment
 from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
@@ -43,18 +44,10 @@ from rockref.model.simulate import largest_step
 #: Step inside windows [s]; decided: 16 steps a millisecond; halving it changes the residual by less than a hundredth
 #: of the noise (the gate measures it again on every experiment).
 STEP = 1e-3 / 16
-#: Samples after a restart that do not count: the filter of the gyroscope settles (300 Hz: 0.75 ms).
-SETTLE = 4
+#: Seconds after a restart whose samples do not count: the filter of the gyroscope settles (300 Hz: 0.75 ms).
+SETTLE = 4e-3
 #: Corrections of a window's start: tilt, roll [rad], three rates [rad/s].
 STATES = 5
-
-
-def gyro_of(experiment: Experiment) -> Gyro:
-    """The data sheet of an experiment's gyroscope. Raises InputError (E-GYRO) where it has none."""
-    if experiment.gyro is None:
-        cure = "Windows are restarted from gyroscope records; state [gyro] in experiment.toml."
-        raise InputError("E-GYRO", f"{experiment.path}: [gyro]", "is missing", cure)
-    return experiment.gyro
 
 
 def refinement(model: Model) -> int:
@@ -79,7 +72,7 @@ def cut(crv: np.ndarray, rate: float, shortest: float, longest: float, first_end
 
     crv : (N, 3) [rad/s], with the gyroscope's filter undone; rate [Hz]; end [s]: what lies beyond is not used.
     """
-    rough = roughness(crv)
+    rough = roughness(crv, rate)
     last = min(len(crv), int(end * rate))
     marks = [0]
     low, high = int(first_end * rate), int((first_end + longest - shortest + 0.02) * rate)
@@ -193,7 +186,8 @@ class Series:
         self.B, self.M = len(self.start), int(self.length.max())
         self.time = self.start / self.rate
         k = np.arange(self.M)
-        self.valid = (k[None, :] < self.length[:, None]) & ((k[None, :] >= SETTLE) | self.first[:, None])
+        settled = k[None, :] >= max(2, round(SETTLE * self.rate))
+        self.valid = (k[None, :] < self.length[:, None]) & (settled | self.first[:, None])
         self.count = 3 * self.valid.sum(axis=1)
         self.measured = np.zeros((self.B, self.M, 3))
         for b in range(self.B):
@@ -223,7 +217,7 @@ class Series:
                 self._rates.clear()
             run = self.runs[i]
             w = true_rates(self._unclipped[i], run.t, self.rate, self.bandwidth, sensor)
-            self._rates[key] = (np.ascontiguousarray(w), local_rates(w))
+            self._rates[key] = (np.ascontiguousarray(w), local_rates(w, self.rate))
         return self._rates[key]
 
     def prepared(self, models, tilt: np.ndarray, sensor: Sensor) -> tuple[np.ndarray, ...]:
@@ -293,7 +287,8 @@ class Series:
         """Windows `which` as one batch. models: one a run; tilt (runs,) [rad]; corrections (len(which), STATES)."""
         arrays = [a[which] for a in self.prepared(models, tilt, sensor)]
         body, P, props, effects, Lambda, W, upright, place, release, release_memory, yaw, plate = arrays
-        plate = plate + self._carried[which]
+        if plate_of(models[0]) is not None:
+            plate = plate + self._carried[which]
         state, memory = np.empty_like(release), np.empty_like(release_memory)
         pressed = np.zeros(P.shape[:2]) + self._pressed[which]
         standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, upright, place, plate, state, memory)
@@ -301,7 +296,8 @@ class Series:
         state[:, col.TIME] = state[:, col.ORIGIN] = self.time[which] * sensor.clock
         first = self.first[which]
         state[first], memory[first] = release[first], release_memory[first]
-        per_sample = int(round(1 / self.rate / (STEP / self.refine)))
+        # As many steps for each row of a sample, none longer than STEP; but for rounding of the quotient.
+        per_sample = self.ROWS_PER_SAMPLE * math.ceil(self.refine / self.rate / STEP / self.ROWS_PER_SAMPLE - 1e-9)
         rows = np.arange(int(length.max()) * self.ROWS_PER_SAMPLE + 1) * (per_sample // self.ROWS_PER_SAMPLE)
         wanted = np.where(rows <= length[:, None] * per_sample, rows, -1).astype(np.int64)
         return Batch(body, P, props, memory, effects, state, sensor.clock / self.rate / per_sample, wanted)

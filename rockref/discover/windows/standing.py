@@ -153,7 +153,7 @@ def standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, up
         middle, turn, depth = r[pivot].copy(), 0.0, 0.0
         loads[:] = 0.0
         memory[b, :, :] = 0.0
-        if F[2] > 0.0:
+        if F[2] > 0.0 and math.isfinite(heights[0]):
             depth = depth_under(F[2], heights, props[b], memory[b], pressed[b], effects[b], loads)
             share = loads / np.sum(loads)
             middle[0], middle[1] = np.sum(share * r[:, 0]), np.sum(share * r[:, 1])

@@ -203,7 +203,7 @@ def test_effects_that_the_release_shows_need_no_other_proof():
 def whole(monkeypatch):
     """A diagnosis whose every step is made up; returns the null, the end, and what was done between."""
 
-    def prepare(start, looks, null=None):
+    def prepare(start, looks, null=None, begun=None):
         done = []
         null = null or left((), 0.9)
 
@@ -211,9 +211,10 @@ def whole(monkeypatch):
             return lambda *a, **k: (done.append(name), result(*a))[1]
 
         monkeypatch.setattr(diagnose, "load_experiment", lambda path, uses: SimpleNamespace(fit_runs=lambda: ()))
+        monkeypatch.setattr(diagnose, "on_time", lambda experiment: experiment)
         monkeypatch.setattr(diagnose, "baseline_model", lambda experiment, model: None)
         monkeypatch.setattr(diagnose, "suspects", lambda setup: (setup, [()], {}))
-        monkeypatch.setattr(diagnose, "beginning", lambda setup, sets, seen: (null, null, None))
+        monkeypatch.setattr(diagnose, "beginning", lambda setup, sets, seen: (null, begun or null, None))
         monkeypatch.setattr(diagnose, "grown", lambda setup, begun, seed, say: (start or begun, looks))
         monkeypatch.setattr(diagnose, "finished", noted("finished", lambda setup, f, seed: f))
         monkeypatch.setattr(diagnose, "without", noted("without", lambda setup, f, effect: left((effect,), 0.1)))
@@ -225,9 +226,13 @@ def whole(monkeypatch):
     return prepare
 
 
-def test_what_the_release_named_and_no_look_was_at_is_fitted_to_its_end(whole):
-    null, final, done = whole(left(LEVER, 0.0), [])
-    assert (null.effects, final.effects, done) == ((), LEVER, ["finished"])
+def test_what_the_release_named_and_no_look_added_to_is_fitted_to_its_end(whole):
+    named = left(LEVER, 0.0)
+    for looks in ([], [Look(named, [], {})]):
+        null, final, done = whole(named, looks, begun=named)
+        assert (null.effects, final.effects, done) == ((), LEVER, ["finished"])
+    # What a look has found was fitted to its end there.
+    assert whole(left(LEVER, 0.0), [Look(named, [], {})])[2] == []
 
 
 def test_of_a_pair_what_came_to_nothing_is_left_out_and_a_rival_of_the_first_is_tried(whole):
@@ -283,7 +288,8 @@ def test_a_class_is_told_apart_by_a_run_that_was_simulated_for_it(monkeypatch, v
 
 def flat(held):
     """An experiment whose held-out records are cut at this rate."""
-    return SimpleNamespace(gyro=SimpleNamespace(resolution=0.01), holdout_runs=lambda: held)
+    gyro = SimpleNamespace(resolution=0.01, sample_rate=1000.0)
+    return SimpleNamespace(path="folder", gyro=gyro, holdout_runs=lambda: held)
 
 
 @pytest.mark.parametrize("held, same", [(0.505, True), (0.55, False), (None, False)])

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from rockref import Model
 from rockref.discover import fitting
 from rockref.discover.fit.families import Family
 from rockref.discover.fit.search import SHORT, Setup, windows
@@ -84,16 +85,25 @@ def test_a_block_more_slender_than_table_3_1_is_begun_with_all_the_same(model):
     assert base.active_effects() == (model.active_effects() if model else ())
 
 
-@pytest.mark.parametrize(
-    "seen, start",
-    [
-        ({"z": "plain"}, "plain"),
-        ({"z": "plain", "starts": {("gyro_scale",): "scale"}}, "scale"),
-        ({"z": "plain", "starts": {("gyro_drift",): "drift"}}, None),
-    ],
-)
-def test_effects_begin_where_the_release_says_if_it_says_something_of_them(seen, start):
-    assert fitting.start_of(seen, ("gyro_scale",)) == start
+@pytest.mark.parametrize("base, own", [(Model.table_3_1(), 0), (fakes.DRAG, 2)], ids=["plain", "with drag"])
+def test_effects_begin_where_the_release_says_if_it_says_something_of_them(base, own):
+    """Beside those of the model, of which it says nothing: they begin where the model has them."""
+    setup = Setup(fakes.made_experiment(0.1), (None,), base)
+    law = len(setup.parameters())
+    plain, scale = np.arange(1.0, law + 1), np.arange(1.0, law + 4)
+    assert len(setup.parameters(fitting.beside(setup, ()))) == law + own
+    for seen, start in (
+        ({"z": plain}, [*plain, *[0.0] * own]),
+        ({"z": plain, "starts": {("gyro_scale",): scale}}, [*plain, *[0.0] * own, *scale[-3:]]),
+        ({"z": plain, "starts": {("gyro_drift",): plain}}, None),
+    ):
+        found = fitting.start_of(setup, seen, ("gyro_scale",))
+        assert found is None if start is None else found.tolist() == start
+
+
+def test_effects_of_the_model_are_fitted_again_with_those_that_are_named():
+    setup = Setup(fakes.made_experiment(0.1), (None,), fakes.DRAG)
+    assert fitting.beside(setup, ("gyro_scale", "quadratic_drag")) == ("quadratic_drag", "gyro_scale")
 
 
 @pytest.mark.parametrize("floor, kept", [(1.2, ("gyro_scale",)), (1.1, ())])
@@ -106,7 +116,7 @@ def test_a_suspect_is_taken_along_where_it_lowers_the_mean_loss_clearly(monkeypa
 
     monkeypatch.setattr(fitting, "suspects", lambda setup: (setup, [(), ("gyro_scale",)], {"z": np.zeros(1)}))
     monkeypatch.setattr(fitting, "started_family", started_family)
-    assert fitting.chosen_family(ALONE)[1].effects == kept
+    assert fitting.chosen_family(Setup(fakes.made_experiment(0.1), (), Model.table_3_1(), workers=1))[1].effects == kept
     # A baseline that the release refutes gets few iterations.
     assert asked == [((), fitting.FEW), (("gyro_scale",), fitting.ITERATIONS)]
 

@@ -36,6 +36,7 @@ def test_a_stretch_without_a_window_has_no_error(first, known):
 def test_without_held_out_runs_there_is_no_error_of_them(monkeypatch):
     made = SimpleNamespace(holdout_runs=lambda: ())
     monkeypatch.setattr(erring, "load_experiment", lambda path, uses: made)
+    monkeypatch.setattr(erring, "on_time", lambda experiment: experiment)
     monkeypatch.setattr(erring, "on_held_out", lambda *a: pytest.fail("fitted"))
     setup = SimpleNamespace(experiment=SimpleNamespace(path="folder"))
     assert holdout_errors(setup, Model.table_3_1(), ()) is None

@@ -28,6 +28,12 @@ def test_records_that_are_cut_at_one_rate_have_flat_tops(two_runs):
     assert flat_tops(two_runs, clipped(two_runs, (LIMIT, LIMIT))) == pytest.approx(LIMIT)
 
 
+def test_of_one_run_alone_a_flat_top_is_enough(two_runs):
+    one = clipped(two_runs, (LIMIT, LIMIT))[:1]
+    assert flat_tops(two_runs, one) == pytest.approx(LIMIT)
+    assert flat_tops(two_runs, two_runs.runs[:1]) is None and flat_tops(two_runs, ()) is None
+
+
 def test_records_that_are_not_cut_have_none(two_runs):
     assert flat_tops(two_runs, two_runs.runs) is None
 

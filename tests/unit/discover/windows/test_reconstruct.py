@@ -97,6 +97,20 @@ def test_plate_rings_with_the_block_on_it():
     assert motion[10:, 0].max() == pytest.approx(jump / omega, rel=0.02)
 
 
+@pytest.mark.parametrize("dt", [DT, 2 * DT])
+def test_a_plate_that_hardly_yields_does_not_run_away(dt):
+    """Bouncing at 2 kHz and pitching at ten times that, with a block that comes down on its edge."""
+    corners = np.array([[0.0, 0.1, -0.5]])
+    W = np.zeros((200, 3))
+    W[10:, 0] = 0.5
+    J, k = 8.0, (2 * np.pi * 2e4) ** 2 * 8.0
+    stiff = (100.0, (2 * np.pi * 2e3) ** 2 * 100.0, 0.0)
+    upright = np.tile(np.eye(3), (200, 1, 1))
+    motion = plate_motion(upright, W, corners, corners[:, 1], dt, 50.0, 9.81, stiff, (J, k, 0.0))
+    # Free vibration after a jump of the velocity by 0.05 m/s sinks by no more than its quotient by the frequency.
+    assert np.abs(motion[:, 0]).max() < 0.05 / (2 * np.pi * 1e3)
+
+
 def test_plate_pitches_where_the_block_stands():
     """The weight goes over to another corner: both motions begin at rest, and swing about where they are balanced."""
     mass, (M, k), (J, k_p), y = 50.0, (100.0, 1.5e7), (3.0, 8e5), np.array([-0.1, 0.06])

@@ -151,6 +151,12 @@ def test_in_a_dent_the_block_stands_lower_by_it_and_as_firmly(share):
     assert total[0] == pytest.approx(run(fresh)[1][0, :, 2].sum(), rel=1e-3)
 
 
+def test_on_a_plate_that_is_lost_the_block_is_lost_too():
+    """No depth carries it there, and none is looked for."""
+    lost = begun(Model.table_3_1(), 0.002, plate=[0.0, 0.0, np.nan, 0.0])
+    assert np.isnan(lost.state[0, 2]) and not lost.memory[0, :, col.ANCHORED].any()
+
+
 def test_corner_stands_as_deep_on_a_plate_that_moves():
     """On a plate that has sunk, pitched and goes on, the carrying corner is as deep, and rests on it as it did."""
     plate = np.array([1e-5, 2e-3, 1e-4, -3e-2])
