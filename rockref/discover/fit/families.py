@@ -93,21 +93,22 @@ def gain_between(kept: Family, other: Family) -> float:
     """
     if same_windows(kept, other):
         return gain_over(kept, other)
-    worse, better = by_sample(kept), by_sample(other)
-    return clipped_gain(worse, better, np.full(len(worse), 3.0)) - (other.point.penalty - kept.point.penalty)
+    worse, better = by_sample(kept, kept.point.loss), by_sample(other, other.point.loss)
+    count = by_sample(kept, kept.fit.series.count)
+    return clipped_gain(worse, better, count) - (other.point.penalty - kept.point.penalty)
 
 
-def by_sample(family: Family) -> np.ndarray:
-    """Loss of each sample of the runs, one after the other: that of its window, shared out evenly."""
+def by_sample(family: Family, of_windows: np.ndarray) -> np.ndarray:
+    """What the windows of a family have, shared out evenly over the samples of the runs, one after the other."""
     series = family.fit.series
-    return np.repeat(3 * family.point.loss / series.count, series.length)
+    return np.repeat(of_windows / series.length, series.length)
 
 
 def size_of(family: Family, effect: str | None = None) -> float:
     """Largest switch of an effect (by default the last one) in typical sizes; what only shapes it does not count."""
     effect = effect or family.effects[-1]
     z = [
-        abs(zi)
+        abs(max(zi, p.least))
         for p, zi in zip(family.fit.parameters, family.point.z, strict=True)
         if p.name.startswith(effect + ".")
         and tuple(p.name.split(".")) not in SHAPES | FORMS

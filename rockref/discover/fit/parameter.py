@@ -41,6 +41,13 @@ class Parameter:
         ratio = self.high / self.centre if self.log else self.high - self.centre
         return float((np.log(ratio) if self.log else ratio) / self.spread)
 
+    @property
+    def least(self) -> float:
+        """z at which the lower bound is reached; further down nothing changes."""
+        if self.log:
+            return float(np.log(self.low / self.centre) / self.spread) if self.low > 0 else -np.inf
+        return (self.low - self.centre) / self.spread
+
     def step_from(self, z: float) -> float:
         """The step of the finite difference at z: downwards where the upper bound leaves no room above."""
         return self.step if z + self.step <= self.most else -self.step

@@ -16,11 +16,13 @@ ALONE = Setup(None, (), None, workers=1)
 
 
 def series(shift: int = 0):
-    """Forty windows of sixty samples; with `shift` all cuts but the first and the last stand elsewhere."""
+    """Forty windows of sixty samples, of which the first four do not count; with `shift` all cuts but the first and the
+    last stand elsewhere."""
     cuts = np.arange(WINDOWS + 1) * SAMPLES
     cuts[1:-1] += shift
     length = np.diff(cuts)
-    return SimpleNamespace(start=cuts[:-1], stop=cuts[1:], length=length, count=3 * length, run_of=np.zeros(WINDOWS))
+    count, run_of = 3 * (length - 4), np.zeros(WINDOWS)
+    return SimpleNamespace(start=cuts[:-1], stop=cuts[1:], length=length, count=count, run_of=run_of, rate=1000.0)
 
 
 @dataclass

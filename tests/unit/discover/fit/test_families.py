@@ -33,8 +33,9 @@ def test_gains_over_moved_windows_are_clipped_like_all_others():
 
 def test_the_loss_by_sample_sums_to_the_loss():
     one = family((), Bowl(np.array([0.0]), floor=1.3, series=series(5)), [0.2])
-    assert by_sample(one).sum() == pytest.approx(one.point.loss.sum())
-    assert len(by_sample(one)) == WINDOWS * SAMPLES
+    shared = by_sample(one, one.point.loss)
+    assert shared.sum() == pytest.approx(one.point.loss.sum())
+    assert len(shared) == WINDOWS * SAMPLES
 
 
 def test_a_form_of_a_law_is_no_size_of_it():
@@ -44,6 +45,13 @@ def test_a_form_of_a_law_is_no_size_of_it():
     for pull in (0.0, 0.4):
         wire = Family(("lingering_wire_pull",), fit, Point(np.array([pull, 2.0, 1.0]), None, np.ones(1)))
         assert size_of(wire) == pull
+
+
+def test_what_stands_below_its_absence_has_no_size():
+    """A fit may leave z there, where nothing changes; what may be of either sign has a size on both sides."""
+    for name, low, size in (("quadratic_drag.c", 0.0, 0.0), ("mass_eccentricity.x", -np.inf, 1.2)):
+        fit = SimpleNamespace(parameters=(Parameter(name, None, 0.0, 0.1, low=low),))
+        assert size_of(Family((name.split(".")[0],), fit, Point(np.array([-1.2]), None, np.ones(1)))) == size
 
 
 @pytest.mark.parametrize("scale, found", [(2.5, {"dimension_deviation"}), (4.2, set())])
