@@ -20,7 +20,7 @@ def seen_by(
     has : effects that the fit holds already. A limit is the size whose gain reaches what the verdict demands, and at
     least the least size that it names; a cosine near one means that these runs cannot tell two effects apart.
     """
-    effects = kinds(setup.experiment.baseline, (*LEFT_OUT, *has), setup.own)
+    effects = kinds(setup.base.points, (*LEFT_OUT, *has), setup.own)
     own = [switches_of(kind) for kind in effects]
     wide = Fit(fit.series, fit.base, (*fit.parameters, *(p for block in own for p in block)))
     at, blocks = len(fit.parameters), []

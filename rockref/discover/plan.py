@@ -20,11 +20,11 @@ import numpy as np
 from rockref.api import Model, simulate
 from rockref.discover import verdict as rules
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.candidates import FORMS, LEFT_OUT, SHAPES, kinds, parameters_of, value_of
+from rockref.discover.fit.candidates import FORMS, LEFT_OUT, SHAPES, is_inverse, kinds, parameters_of, value_of
 from rockref.discover.fit.information import eliminated, information, own_parameters
 from rockref.discover.fit.least_squares import Fit
 from rockref.discover.fit.parameter import Parameter
-from rockref.discover.fit.search import MIDDLE
+from rockref.discover.fit.search import MIDDLE, TILT_UNCERTAINTY
 from rockref.discover.looking.screen import PROBE
 from rockref.discover.windows.series import Cut, Series, refinement, series
 from rockref.effects.base import Effect
@@ -34,9 +34,8 @@ from rockref.measure.impacts import main_impacts
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 
-#: The gyroscope and the tilt uncertainty of a plan without an experiment: those of the shipped experiments.
+#: The gyroscope of a plan without an experiment: that of the shipped experiments.
 GYRO = Gyro(sample_rate=1000.0, noise=0.05 / DEGREES, bandwidth=300.0, resolution=0.01 / DEGREES)
-TILT_UNCERTAINTY = 0.0014
 #: Seconds of each run that are simulated and used; decided: what the diagnosis uses.
 DURATION = 3.0
 #: Finite differences over a whole run are smaller by this factor; decided: what is a small change over a window is
@@ -258,7 +257,7 @@ def outlook(
     model: Model, known: dict[Release, Says], runs: Sequence[Release], effects: Sequence[type[Effect]]
 ) -> Outlook:
     """Add up what the runs say, eliminate the shared nuisances, and read limits and cosines off what is left."""
-    shared = [p for p in baseline_parameters(model, 0, TILT_UNCERTAINTY)]
+    shared = baseline_parameters(model, 0, TILT_UNCERTAINTY)
     parameters = (*shared, *(p for kind in effects for p in switches_of(kind)))
     H = sum(count * known[release].H for release, count in Counter(runs).items())
     nuisance = np.arange(len(parameters)) < len(shared)
@@ -280,7 +279,7 @@ def outlook(
 
 def amplitude(p: Parameter, size: float) -> float:
     """How far a number is from its absence at this size; the number itself where it is absent at infinity or rigid."""
-    if p.name in ("compliant_support.frequency", "gyro_bandwidth.frequency"):
+    if p.name == "compliant_support.frequency" or is_inverse(p.name):
         return value_of(p, size)
     return abs(p.value(size) - p.value(0.0))
 
@@ -295,6 +294,9 @@ def cosines(S: np.ndarray, blocks: Sequence[np.ndarray]) -> np.ndarray:
     roots = []
     for b in blocks:
         value, vector = np.linalg.eigh(S[np.ix_(b, b)])
+        if not value.max() > 0.0:  # it changes nothing here, and is like nothing
+            roots.append(np.zeros_like(vector))
+            continue
         value = np.maximum(value, 1e-9 * value.max())
         roots.append(vector / np.sqrt(value) @ vector.T)
     found = np.eye(len(blocks))
@@ -342,9 +344,11 @@ def plan(
     say = progress or (lambda line: None)
     if not runs:
         raise InputError("E-RUNS", "argument runs", "is empty", "Plan one release at least.")
-    baseline = "four_points" if model.points == "four_points" else "eight_points"
     has = {e.id for e in model.effects}
-    chosen = kinds(baseline, (*LEFT_OUT, *has)) if effects is None else catalogue.of_releases(effects)
+    chosen = kinds(model.points, (*LEFT_OUT, *has)) if effects is None else catalogue.of_releases(effects)
+    if any(kind.id == "base_vibration" for kind in chosen):
+        what = "base_vibration has a phase of its own in every run, and no derivative foretells it"
+        raise InputError("E-EFFECT", "argument effects", what, "Leave it out.")
     wanted = alternatives(runs)
     every = sorted({*runs, *wanted})
     known, whole = {}, {}

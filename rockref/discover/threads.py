@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from threading import Lock
 from typing import TypeVar
@@ -49,8 +49,12 @@ def on_threads(
             return do(item)
 
     with ThreadPoolExecutor(threads) as pool, _crew.more(-1):
+        futures = [pool.submit(done, item) for item in items]
         try:
-            return list(pool.map(done, items))
+            over, waiting = wait(futures, return_when=FIRST_EXCEPTION)
+            if waiting:  # for those that are over one has failed, and says so
+                futures = [future for future in futures if future in over]
+            return [future.result() for future in futures]
         except BaseException:
             failed()
             pool.shutdown(wait=False, cancel_futures=True)

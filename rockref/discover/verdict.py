@@ -135,7 +135,6 @@ class Decision:
     verdict: str
     effects: tuple[str, ...]
     sentence: str
-    reasons: list[str] = field(default_factory=list)
 
 
 def is_detected(gain: float, size: float, second: bool = False) -> bool:

@@ -14,6 +14,7 @@ from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnose import Diagnosis
 from rockref.discover.diagnosis_record import plain
+from rockref.discover.fit.fitted import OF_ONE_RELEASE
 from rockref.effects import catalogue
 from rockref.report import blocks, diagnosis_text, style, tables
 from rockref.report.comparison_page import add_runs
@@ -42,7 +43,7 @@ def compared(d: Diagnosis) -> Comparison:
 
 def without_notes(model: Model) -> Model:
     """The model without the notes of a fit about one release."""
-    return model.replace(origin={k: v for k, v in model.origin.items() if k != "tilt_offset"})
+    return model.replace(origin={k: v for k, v in model.origin.items() if k not in OF_ONE_RELEASE})
 
 
 def found_name(d: Diagnosis) -> str:

@@ -51,7 +51,7 @@ class World:
     points : (n, 3) contact points from the centre of mass, m. props : (n, POINT). foot : (n,) foot of each point, 0-3.
     mass : kg. J : (3, 3) kg m2. g : (GLOBALS,), see :mod:`rockref.discover.blind.slots`.
     kick : (3,) body rates at release, rad/s; kick_at : height above the feet about which the block turns with them, m.
-    hung : whether a mass hangs inside. sensor : the gyroscope.
+    sensor : the gyroscope.
     each_run : functions (world, rng, run number) that change a copy of the world for one run.
     """
 

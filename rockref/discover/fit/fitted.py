@@ -16,8 +16,8 @@ from rockref.discover.provenance import versions
 from rockref.effects.base import Effect
 from rockref.measure.experiment import Experiment
 
-#: What is a note about one release, not a property of the block.
-OF_ONE_RELEASE = "tilt_offset"
+#: What are notes about one release, not properties of the block.
+OF_ONE_RELEASE = ("tilt_offset", "roll_offset")
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def in_file_order(found: list[Estimate]) -> list[Estimate]:
 def fitted_model(fit: Fit, point: Point, found: list[Estimate], origin: dict[str, Any]) -> Model:
     """The model of a fit with its uncertainty (shared numbers only) and its origin; absent effects left out."""
     model = fit.models(point.z)[0][0]
-    kept = {k: v for k, v in model.origin.items() if k not in (OF_ONE_RELEASE, "source")}
+    kept = {k: v for k, v in model.origin.items() if k not in (*OF_ONE_RELEASE, "source")}
     uncertainty = {e.name: finite(e.to_dict()) for e in found if e.of_run is None}
     return model.replace(effects=model.active_effects(), uncertainty=uncertainty, origin={**kept, **origin})
 

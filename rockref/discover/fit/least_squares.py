@@ -299,9 +299,9 @@ class Fit:
         Js = self.state_jacobian(z, c, r)
         Jg = self.parameter_jacobian(z, c, r, Js)
         w = self.weights(r)
-        return self.reduced(r, Js, Jg, w, c, z)
+        return self.reduced(r, Js, Jg, w, c)
 
-    def reduced(self, r, Js, Jg, w, c, z):
+    def reduced(self, r, Js, Jg, w, c):
         """The reduction itself, from residuals, Jacobians and weights."""
         B, G = self.series.B, Jg.shape[1]
         root = np.sqrt(w)[:, None]

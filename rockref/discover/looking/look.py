@@ -62,7 +62,7 @@ class Look:
 def candidates_beside(setup: Setup, effects: tuple[str, ...]) -> tuple[type[Effect], ...]:
     """What could be missing beside these effects and those of the model that was given."""
     had = (e.id for e in setup.base.active_effects())
-    return kinds(setup.experiment.baseline, (*effects, *had, *LEFT_OUT), setup.own)
+    return kinds(setup.base.points, (*effects, *had, *LEFT_OUT), setup.own)
 
 
 def look_further(setup: Setup, start: Family, seed: int, say) -> Look:

@@ -97,7 +97,7 @@ def two_at_once(setup: Setup, ranked: list, whole: float) -> list:
     return [best] if best[0] > TOGETHER else []
 
 
-def tone(setup: Setup, fit: Fit, point: Point, low: float = 2.0, high: float = 60.0) -> tuple[float, float]:
+def tone(fit: Fit, point: Point, low: float = 2.0, high: float = 60.0) -> tuple[float, float]:
     """Frequency [Hz] of the strongest tone in the residuals of the release, and its power against the median one.
 
     The power counts as far as it is as strong in the second half as in the first: a block that settles rings down.
@@ -156,10 +156,10 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
         starts = {(id,): trial.z[: len(setup.parameters((id,)))] for _, id, _, trial in taken}
         seen.setdefault("starts", {}).update(starts)
         best = taken[0][2:] if taken else best
-    frequency, strength = tone(setup, *best)
+    frequency, strength = tone(*best)
     seen |= {"tone_hz": frequency, "tone_strength": strength}
     setup.log(f"  release: strongest tone {frequency:.2f} Hz, {strength:.1f} times the median")
-    if strength > TONE:
+    if strength > TONE and "base_vibration" not in had:
         setup = replace(setup, frequency=frequency)
         other, trial = release_fit(setup, ("base_vibration",), iterations=12)
         share = 1 - excess(other, trial) / max(excess(fit, point), 1e-9)
@@ -167,7 +167,7 @@ def suspects(setup: Setup) -> tuple[Setup, list[tuple[str, ...]], dict]:
         if share > EXPLAINED:
             sets.append(("base_vibration",))
             seen.setdefault("starts", {})["base_vibration",] = trial.z
-    if setup.experiment.baseline == "four_points" and setup.base.points == "four_points":
+    if setup.experiment.baseline == setup.base.points == "four_points" and "foot_defects" not in had:
         sets.append(("foot_defects",))
         seen.setdefault("starts", {})["foot_defects",] = np.concatenate([seen["z"], typical_defects(setup)])
     return setup, sets, seen

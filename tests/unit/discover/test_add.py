@@ -60,7 +60,7 @@ def test_without_one_in_the_model_it_is_that_of_the_strongest_tone_of_the_plain_
         return "fit", "point"
 
     monkeypatch.setattr(adding, "release_fit", release_fit)
-    monkeypatch.setattr(adding, "tone", lambda setup, fit, point: (17.3, 40.0))
+    monkeypatch.setattr(adding, "tone", lambda fit, point: (17.3, 40.0))
     setup = setup_of(TABLE.replace(effects=(parse("quadratic_drag:c=0.4"),)))
     assert with_tone(setup, ("quadratic_drag", "base_vibration")).frequency == 17.3
     assert asked == [()]

@@ -86,6 +86,26 @@ def test_cosines_do_not_depend_on_the_scale_of_a_number():
     )
 
 
+def test_what_changes_nothing_is_like_nothing():
+    found = cosines(np.diag([1.0, 0.0, 0.0]), [np.array([0]), np.array([1, 2])])
+    np.testing.assert_array_equal(found, np.eye(2))
+
+
+def test_a_number_that_is_absent_at_infinity_is_its_own_limit():
+    """Stops at twice the typical rate are half a size; a scale factor is told by how far it is from one."""
+    (stops,) = (p for p in planning.switches_of(catalogue.find("gyro_saturation")) if p.name.endswith("range"))
+    typical = catalogue.find("gyro_saturation").quantities["range"].typical
+    assert planning.amplitude(stops, 0.5) == pytest.approx(2 * typical)
+    scale = planning.switches_of(catalogue.find("gyro_scale"))[0]
+    assert planning.amplitude(scale, 0.5) == pytest.approx(0.5 * abs(scale.spread))
+
+
+def test_a_shaking_base_is_in_no_plan():
+    with pytest.raises(InputError, match="phase of its own") as error:
+        planning.plan(TABLE, [A], ["base_vibration"])
+    assert error.value.code == "E-EFFECT"
+
+
 def test_comparison_is_between_as_many_runs():
     wanted = alternatives([A, B])
     assert len(wanted) == len(set(wanted)) == 6 and wanted[0] == A

@@ -10,7 +10,7 @@ import pytest
 from rockref import Model
 from rockref.discover.fit.beside import Stopped, side_by_side
 from rockref.discover.fit.search import Setup, early
-from rockref.discover.threads import threads_left
+from rockref.discover.threads import on_threads, threads_left
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 
@@ -61,6 +61,19 @@ def test_who_works_beside_others_has_the_threads_that_they_leave():
     side_by_side(setup_of(2), job, [0, 1])
     assert left == {(0, "beside"): 2, (1, "beside"): 2, (0, "alone"): 3, (0, "handed on"): [3]}
     assert threads_left(9, 3) == 3
+
+
+def test_who_waits_for_others_hears_at_once_that_one_has_failed():
+    """The first works until it is told to stop; the second fails meanwhile."""
+    stop = threading.Event()
+
+    def job(k):
+        if k:
+            raise ValueError("no fit")
+        assert stop.wait(10)
+
+    with pytest.raises(ValueError, match="no fit"):
+        on_threads(job, [0, 1], 2, failed=stop.set)
 
 
 def test_after_a_failure_all_threads_are_free_again():

@@ -46,7 +46,7 @@ def test_reduced_step_is_the_step_of_everything(problem):
     fit, r, Js, Jg, w, c = problem
     H, g = dense(*problem)
     step = -np.linalg.solve(H, g)
-    h, k, (H_ss, H_sg, g_s, _) = fit.reduced(r, Js, Jg, w, c, np.zeros(G))
+    h, k, (H_ss, H_sg, g_s, _) = fit.reduced(r, Js, Jg, w, c)
     dz = -np.linalg.solve(h, k)
     dc = -np.linalg.solve(H_ss, (g_s + H_sg @ dz)[..., None])[..., 0]
     # Both solve the same linear system; it is well conditioned.
@@ -57,13 +57,13 @@ def test_reduced_step_is_the_step_of_everything(problem):
 def test_uncertainty_of_parameters_includes_that_of_the_starts(problem):
     fit, r, Js, Jg, w, c = problem
     H, _ = dense(*problem)
-    h, _, _ = fit.reduced(r, Js, Jg, w, c, np.zeros(G))
+    h, _, _ = fit.reduced(r, Js, Jg, w, c)
     np.testing.assert_allclose(np.linalg.inv(h), np.linalg.inv(H)[B * STATES :, B * STATES :], rtol=1e-9)
 
 
 def test_runs_add_up_to_the_whole(problem):
     fit, r, Js, Jg, w, c = problem
-    h, k, _ = fit.reduced(r, Js, Jg, w, c, np.zeros(G))
+    h, k, _ = fit.reduced(r, Js, Jg, w, c)
     found = by_run(fit, r, Js, Jg, w, c)
     assert found.H.shape == (3, G, G)
     np.testing.assert_allclose(found.total, h, rtol=1e-10, atol=1e-12)
@@ -72,7 +72,7 @@ def test_runs_add_up_to_the_whole(problem):
 
 def test_eliminating_a_parameter_leaves_the_step_of_the_others(problem):
     fit, r, Js, Jg, w, c = problem
-    h, k, _ = fit.reduced(r, Js, Jg, w, c, np.zeros(G))
+    h, k, _ = fit.reduced(r, Js, Jg, w, c)
     out, prior = np.array([False, True, False, False]), np.array([np.inf, 0.5, np.inf, np.inf])
     H, g = eliminated(h, k, out, prior)
     whole = np.linalg.solve(h + np.diag(1 / prior**2), k)

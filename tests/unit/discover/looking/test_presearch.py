@@ -96,7 +96,7 @@ def test_axes_askew_are_begun_with_where_they_and_a_velocity_explain_the_release
 def scripted(monkeypatch):
     """Release fits whose excess is given by effect, and a tone; the sets of effects that are suspected come back."""
 
-    def prepare(left, strength=1.0, baseline="eight_points", flat=None, size=1.0):
+    def prepare(left, strength=1.0, baseline="eight_points", flat=None, size=1.0, had=()):
         asked = []
 
         def release_fit(setup, effects=(), iterations=6):
@@ -109,9 +109,10 @@ def scripted(monkeypatch):
 
         monkeypatch.setattr(presearch, "release_fit", release_fit)
         monkeypatch.setattr(presearch, "flat_tops", lambda experiment, runs: flat)
-        monkeypatch.setattr(presearch, "tone", lambda setup, fit, point: (17.0, strength))
+        monkeypatch.setattr(presearch, "tone", lambda fit, point: (17.0, strength))
         monkeypatch.setattr(presearch, "size_of", lambda family: size)
         model = Model.table_3_1() if baseline == "eight_points" else Model.four_points()
+        model = model.replace(effects=tuple(parse(text) for text in had))
         setup = Setup(SimpleNamespace(baseline=baseline, tilt_uncertainty=0.0014), (), model)
         setup, sets, seen = suspects(setup)
         return setup, sets, seen, asked
@@ -149,6 +150,14 @@ def test_the_feet_are_suspected_where_the_experimenter_knows_of_none(scripted):
     for p, z in zip(setup.parameters(("foot_defects",))[n:], start[n:], strict=True):
         # Inner points rub more than outer ones, and damp less.
         assert p.value(z) == pytest.approx(catalogue.find("foot_defects").quantities[p.name.split(".")[1]].typical)
+
+
+def test_what_a_model_has_is_not_suspected_again(scripted):
+    defects = "foot_defects:delta_long1=5e-5,delta_diag=0.006"
+    assert scripted({(): 0.0}, baseline="four_points", had=[defects])[1] == [()]
+    shaking = "base_vibration:amplitude=0.05,frequency=17"
+    left = {(): 1.0, ("base_vibration",): 0.1}
+    assert ("base_vibration",) not in scripted(left, strength=2 * presearch.TONE, had=[shaking])[1]
 
 
 def test_flat_tops_are_the_stops_of_the_gyroscope_at_that_rate(scripted):
