@@ -221,6 +221,8 @@ def _check_release(t: np.ndarray, crv: np.ndarray, duration: float, where: str) 
     )
     if not len(early) or not len(before):
         return
+    if not len(first):  # the record begins late
+        first = crv[:1]
     # A single wild sample must not pass for the size of the motion.
     size = float(np.percentile(np.abs(crv), 99.0, axis=0).max())
     reached = np.abs(early.mean(axis=0)).max()

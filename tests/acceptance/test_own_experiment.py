@@ -121,6 +121,8 @@ MISTAKES = [
     ("E-RUN-TWICE", toml('file = "run02.csv"', 'file = "run01.csv"')),
     ("E-NO-FIT", toml('use = "fit"', 'use = "holdout"', count=0)),
     ("W-NO-HOLDOUT", toml('use = "holdout"', 'use = "fit"')),
+    ("W-RATE", toml("sample_rate_hz = 500", "sample_rate_hz = 502")),
+    ("W-START", table(lambda rows: rows[20:])),
     ("W-AXES", text("wy_deg_s,wz_deg_s", "wz_deg_s,wy_deg_s", count=1)),
     ("W-MOVING", table(lambda rows: rows + [0, 3, 0, 0])),
     ("W-FIRST-IMPACT", toml("height_m = 0.6", "height_m = 0.5")),

@@ -215,6 +215,18 @@ def late_with_a_bias(t, w):
     return t, w + 0.1
 
 
+@pytest.mark.parametrize("change", [lambda t, w: (t, w), lingering], ids=["plain", "lingering"])
+def test_a_record_that_begins_late_was_released(folder, as_table, good_signal, change):
+    """Its first sample stands for the rest that is missing."""
+
+    def late_start(t, w):
+        t, w = change(t, w)
+        return t[30:], w[30:]
+
+    codes = [n.code for n in load_experiment(edited(folder, as_table, good_signal, late_start), uses=("fit",)).notices]
+    assert "W-START" in codes
+
+
 def test_a_block_that_creeps_was_released(folder, as_table, good_signal):
     """A wire that lingers holds it back; one that lies still until later was started at another time."""
     experiment = load_experiment(edited(folder, as_table, good_signal, lingering), uses=("fit",))
