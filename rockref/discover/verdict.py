@@ -45,8 +45,10 @@ LEAST_SIZE = 0.2
 #: end within some ten units of their best place, or, where the feet stand elsewhere and rates of another scale look the
 #: same, within 130 of 3140, or 152 of 2855 (sides that were off under the stated inertia).
 RIVAL, CLOSE = 0.94, 30.0
-#: A rival that has to be so many times its typical size is none of a winner that is less (decided: sides that are 2.2 %
-#: off do what a scale of 4 to 5 % does, 4.5 and 2.5 typical sizes; blind effects are made at up to twice theirs).
+#: A rival that has to be so many times its typical size is none of a winner that is less, unless it ends CLOSE.
+#: Decided: sides that are 2.2 % off do what a scale of 4 to 5 % does, 4.5 and 2.5 typical sizes; blind effects are made
+#: at up to twice theirs. But sides that were twice theirs were found at 6.3, as they make up for each other, 15 units
+#: ahead of a scale of 2, and such a fit was 25 behind a scale of 1.5.
 FAR_FETCHED = 4.0
 #: A winner that ends above the noise has not arrived, and what is left to gain may be a rival's: rivals are told apart
 #: by more than that, up to this many units (decided: half a typical drag, stopped in a side valley, was left 110 behind
@@ -240,8 +242,10 @@ def decide(facts: Facts) -> Decision:
             "none", (),
             f"{name} gains {best:.0f} units where {facts.room:.0f} are left, and {unproven}: not accepted.",
         )  # fmt: skip
-    least = told_apart(best, apart)
-    rivals = tuple(id for id, g in facts.gains.items() if id != name and g > least and id not in facts.far_fetched)
+    least, close = told_apart(best, apart), best - CLOSE
+    rivals = tuple(
+        id for id, g in facts.gains.items() if id != name and g > (close if id in facts.far_fetched else least)
+    )
     if rivals:
         members = (name, *sorted(rivals, key=lambda id: -facts.gains[id]))[:3]
         return Decision(
