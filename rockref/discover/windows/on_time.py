@@ -14,7 +14,7 @@ from rockref.measure.impacts import main_impacts
 from rockref.measure.timebase import RATE_WARNING
 from rockref.model.errors import InputError
 
-#: Samples a second below which no state can be read off a window (decided: a parabola over 17 ms needs four samples).
+#: Samples a second below which no state can be read off a window (decided: a parabola takes five, here 20 ms).
 SLOWEST = 200.0
 #: By how many samples a record may begin late and be taken as it is, and be used at all (decided: half a sample is the
 #: rounding of its stamps; what W-START is said of, a sample and a half and more, lacks a part of the release).
