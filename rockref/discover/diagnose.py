@@ -321,6 +321,9 @@ def conclude(
         odds=checks["runs_agree"].value if checks["gradient_small"].value < rules.UNENDED else 0.0,
     )
     decision = rules.decide(facts)
+    if unfruitful and decision.verdict in ("named", "indicated"):
+        others = {e: gain for e, gain in looks[-1].gains.items() if e not in final.effects}
+        decision.sentence += rules.left_over(others, facts.room)
     kept = decision.effects if decision.verdict in ("named", "indicated", "pair", "class") else ()
     card = signature(null.fit, null.point, final.fit, final.point)
     noise = float(np.degrees(gyro_of(setup.experiment).noise))

@@ -258,6 +258,20 @@ def decide(facts: Facts) -> Decision:
     return Decision("named", (name,), f"{name} is missing: the error falls on fitted and held-out runs.")
 
 
+def left_over(gains: dict[str, float], left: float) -> str:
+    """A sentence on what would take up most of what a named effect left, where no second one was proven, or "".
+
+    gains : of the candidates on top of it; left : units above the noise.
+    """
+    best = max(gains.values(), default=0.0)
+    if best < SMALL or best < OF_WHAT_IS_LEFT * left:
+        return ""
+    near = sorted((id for id, gain in gains.items() if gain > told_apart(best)), key=lambda id: -gains[id])
+    said = " or ".join(near[:3])
+    what = f"{said} would take up {best:.0f} of the {left:.0f} units that are left above the noise"
+    return f" A second effect is not proven, but {what}."
+
+
 def ranking(gains: dict[str, float]) -> list[dict[str, Any]]:
     """Candidates by gain, with the gain as a number of standard deviations and a weight."""
     all_gains = {id: float(gain) for id, gain in gains.items()}

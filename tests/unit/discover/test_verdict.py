@@ -212,3 +212,20 @@ def test_a_run_that_contradicts_all_others_is_named_before_anything_is_said(by_r
 def test_a_small_second_effect_has_to_take_a_part_of_what_was_left():
     assert not rules.is_small(277, 485) and rules.is_small(207, 1388)
     assert not rules.is_small(rules.SMALL, 5000) and rules.is_small(rules.SMALL - 1, 5000)
+
+
+@pytest.mark.parametrize(
+    "gains, left, said",
+    [
+        pytest.param(
+            {"a": 811.0, "b": 789.0, "c": 376.0}, 940.0, "but a or b would take up 811 of the 940", id="two alike"
+        ),
+        pytest.param({"b": 811.0, "a": 376.0}, 940.0, "but b would take up 811", id="one"),
+        pytest.param({"a": rules.SMALL - 1}, 310.0, "", id="little"),
+        pytest.param({"a": 500.0, "b": 490.0}, 1500.0, "", id="little of what was left"),
+        pytest.param({}, 1500.0, "", id="nobody"),
+    ],
+)
+def test_what_a_second_effect_would_take_up_is_said_where_it_is_much(gains, left, said):
+    sentence = rules.left_over(gains, left)
+    assert said in sentence and bool(sentence) == bool(said)
