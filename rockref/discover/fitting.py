@@ -176,14 +176,12 @@ def begun_again(
 
 
 def usable(experiment: Experiment) -> Experiment:
-    """The experiment, if it has releases, a gyroscope and fit runs. Raises InputError (E-KIND, E-NO-FIT, E-TILT)."""
+    """The experiment, if it has releases, a gyroscope and fit runs. Raises InputError (E-KIND, E-NO-FIT)."""
     where = f"{experiment.path}"
     if experiment.kind != "release" or experiment.gyro is None:
         raise InputError("E-KIND", where, f"is a {experiment.kind}, or has no gyroscope", "Give releases.")
     if not experiment.fit_runs():
         raise InputError("E-NO-FIT", where, "has no fit run", 'Mark runs with use = "fit".')
-    if not experiment.tilt_uncertainty:
-        raise InputError("E-TILT", where, "states no uncertainty of the tilt", "Give [release] tilt_uncertainty_rad.")
     return experiment
 
 

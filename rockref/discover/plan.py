@@ -24,11 +24,11 @@ from rockref.discover.fit.candidates import FORMS, LEFT_OUT, SHAPES, is_inverse,
 from rockref.discover.fit.information import eliminated, information, own_parameters
 from rockref.discover.fit.least_squares import Fit
 from rockref.discover.fit.parameter import Parameter
-from rockref.discover.fit.search import MIDDLE, TILT_UNCERTAINTY
+from rockref.discover.fit.search import MIDDLE
 from rockref.discover.looking.screen import PROBE
 from rockref.discover.windows.series import Cut, Series, refinement, series
 from rockref.effects.base import Effect
-from rockref.measure.experiment import Experiment, Gyro, Run
+from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment, Gyro, Run
 from rockref.measure.gyroscope import record
 from rockref.measure.impacts import main_impacts
 from rockref.model.channel import DEGREES

@@ -16,10 +16,11 @@ from rockref.api import Model
 from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.fit.candidates import LEFT_OUT
 from rockref.discover.fit.information import eliminated
-from rockref.discover.fit.search import TILT_UNCERTAINTY, Setup
+from rockref.discover.fit.search import Setup
 from rockref.discover.plan import Release, alternatives, says, switches_of
 from rockref.discover.windows.on_time import gyro_of
 from rockref.effects import catalogue
+from rockref.measure.experiment import TILT_UNCERTAINTY
 
 #: Mass that an experimenter would add, as a share of the block's (decided: two discs of a barbell on 54 kg).
 ADDED = 0.25

@@ -27,6 +27,8 @@ KINDS = ("release", "toss")
 BASELINES = ("eight_points", "four_points")
 # kg/m3: osmium, the densest element, has 22590 (CRC Handbook of Chemistry and Physics).
 DENSEST = 23e3
+# rad, where a release states none; decided: 1 mm of wire (the source's "±0.08°").
+TILT_UNCERTAINTY = 1.4e-3
 # decided: a campaign of more runs than this is several experiments.
 MAX_RUNS = 1000
 # decided: ids and names become parts of file names in reports.
@@ -44,7 +46,7 @@ _BLOCK = (
     Number("width", _LENGTH, 1e-3, 100.0),
     Number("height", _LENGTH, 1e-3, 100.0),
 )
-_RELEASE = (Number("tilt_uncertainty", _ANGLE, 0.0, 0.5),)
+_RELEASE = (Number("tilt_uncertainty", _ANGLE, 0.0, 0.5, required=False),)
 _GYRO = (
     Number("sample_rate", _HZ, 10.0, 1e6),
     Number("noise", _RATE, 0.0, 2.0),
@@ -183,7 +185,7 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
     document, sha256 = read_toml(source)
     experiment = replace(_head(document, folder, str(source)), toml_sha256=sha256)
     runs = _listed_runs(document["run"], experiment, str(source))
-    notices = _density(experiment, str(source))
+    notices = _density(experiment, str(source)) + _tilt(experiment, str(source))
     if not any(run.use == HOLDOUT for run in runs):
         cure = "Keep one run in four back, with another tilt or side."
         notices.append(Notice("W-NO-HOLDOUT", str(source), "no run is marked holdout", cure))
@@ -235,6 +237,14 @@ def _density(experiment: Experiment, source: str) -> list[Notice]:
         return []
     what = f"a block of {experiment.mass:g} kg and this size has {density:.3g} kg/m3, and no matter has more than 23000"
     return [Notice("W-DENSITY", f"{source}, [block]", what, "Check mass, width and height, and their units.")]
+
+
+def _tilt(experiment: Experiment, source: str) -> list[Notice]:
+    """Look whether the release says how far a stated tilt may be off."""
+    if experiment.kind == "toss" or experiment.tilt_uncertainty:
+        return []
+    what = f"states no uncertainty of the tilt; fits let it be {TILT_UNCERTAINTY:g} rad off"
+    return [Notice("W-TILT", f"{source}, [release]", what, "Give tilt_uncertainty_rad: 1 mm of wire is 0.0014 rad.")]
 
 
 def _bad_name(where: str, name: str) -> InputError:

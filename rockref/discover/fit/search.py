@@ -18,14 +18,12 @@ from rockref.discover.fit.parameter import Parameter
 from rockref.discover.windows.on_time import gyro_of
 from rockref.discover.windows.series import Cut, Series, refinement, sensor_of, series
 from rockref.effects import catalogue
-from rockref.measure.experiment import Experiment
+from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment
 from rockref.measure.impacts import main_impacts
 
 #: Stages: window lengths [s] and most iterations; decided: short windows pull the parameters near, longer ones weigh
 #: what accumulates (drag, cable, eccentricity).
 SHORT, MIDDLE = (0.025, 0.05), (0.05, 0.09)
-#: Where an experiment states none [rad]; decided: 1 mm of wire (the source's "±0.08°").
-TILT_UNCERTAINTY = 1.4e-3
 #: Most iterations of both stages.
 FRESH = (12, 6)
 #: Iterations after which the better of two starts is kept, and the share of the objective that an iteration must gain

@@ -64,7 +64,6 @@ def test_the_nearest_start_is_kept_and_the_one_that_agrees_confirms_it(ends_at, 
         ({"kind": "toss"}, "E-KIND"),
         ({"gyro": None}, "E-KIND"),
         ({"runs": ()}, "E-NO-FIT"),
-        ({"tilt_uncertainty": 0.0}, "E-TILT"),
     ],
 )
 def test_what_cannot_be_fitted_is_refused(change, code):

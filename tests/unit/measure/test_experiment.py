@@ -240,6 +240,14 @@ def test_a_folder_of_tosses_is_told_from_releases(tmp_path):
         load_experiment(tmp_path)
 
 
+@pytest.mark.parametrize("said", ["[release]\ntilt_uncertainty_rad = 0.0", "[release]"])
+def test_a_tilt_of_which_nobody_says_how_far_it_is_off_is_remarked_on(folder, said):
+    stated = (folder / "experiment.toml").read_text(encoding="utf-8").split("tilt_uncertainty_rad = ")[1].split()[0]
+    rewrite(folder, f"[release]\ntilt_uncertainty_rad = {stated}", said)
+    (notice,) = load_experiment(folder, uses=()).notices
+    assert notice.code == "W-TILT" and "0.0014 rad off" in notice.what
+
+
 @pytest.mark.parametrize("old, new", [("mass_kg = 54.0", "mass_kg = 54000.0"), ("height_m = 0.688", "height_m = 0.1")])
 def test_a_block_denser_than_any_matter_is_remarked_on(folder, old, new):
     """Grams called kilograms; or the width typed again for the height: 54 kg in a litre, twice as dense as osmium."""
