@@ -301,8 +301,8 @@ def conclude(
         else held_out(setup, final.fit, final.point, experiment, final.effects)
     )
     looks = looks or [Look(final, [], {})]
-    unfruitful = len(looks) > 1 and looks[-1].kept.effects != () and final.effects == looks[-1].kept.effects
-    look = looks[-2] if unfruitful else looks[-1]
+    unfruitful = looks[-1].kept.effects != () and final.effects == looks[-1].kept.effects
+    look = looks[-2] if unfruitful and len(looks) > 1 else looks[-1]
     checks = checked(final)
     facts = rules.Facts(
         effects=final.effects,
