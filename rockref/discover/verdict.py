@@ -264,11 +264,11 @@ def left_over(gains: dict[str, float], left: float) -> str:
     gains : of the candidates on top of it; left : units above the noise.
     """
     best = max(gains.values(), default=0.0)
-    if best < SMALL or best < OF_WHAT_IS_LEFT * left:
+    if min(best, left) < SMALL or best < OF_WHAT_IS_LEFT * left:
         return ""
     near = sorted((id for id, gain in gains.items() if gain > told_apart(best)), key=lambda id: -gains[id])
     said = " or ".join(near[:3])
-    what = f"{said} would take up {best:.0f} of the {left:.0f} units that are left above the noise"
+    what = f"{said} would gain {best:.0f} units where {left:.0f} are left above the noise"
     return f" A second effect is not proven, but {what}."
 
 

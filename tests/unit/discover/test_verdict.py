@@ -218,11 +218,12 @@ def test_a_small_second_effect_has_to_take_a_part_of_what_was_left():
     "gains, left, said",
     [
         pytest.param(
-            {"a": 811.0, "b": 789.0, "c": 376.0}, 940.0, "but a or b would take up 811 of the 940", id="two alike"
+            {"a": 811.0, "b": 789.0, "c": 376.0}, 940.0, "but a or b would gain 811 units where 940", id="two alike"
         ),
-        pytest.param({"b": 811.0, "a": 376.0}, 940.0, "but b would take up 811", id="one"),
+        pytest.param({"b": 811.0, "a": 376.0}, 940.0, "but b would gain 811", id="one"),
         pytest.param({"a": rules.SMALL - 1}, 310.0, "", id="little"),
         pytest.param({"a": 500.0, "b": 490.0}, 1500.0, "", id="little of what was left"),
+        pytest.param({"a": 343.0}, 164.0, "", id="taken up since"),
         pytest.param({}, 1500.0, "", id="nobody"),
     ],
 )
