@@ -33,9 +33,9 @@ from rockref.discover.fit.families import (
 from rockref.discover.fit.gates import Gate, gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.fit.information import information
 from rockref.discover.fit.search import FRESH, Setup, baseline
-from rockref.discover.looking.look import FAR, POLISH, TOO_FAR, Look, duel, look_further
+from rockref.discover.looking.look import POLISH, TOO_FAR, Look, duel, look_further
 from rockref.discover.looking.presearch import STRONG, suspects
-from rockref.discover.looking.two import two_at_once
+from rockref.discover.looking.two import leaves_too_much, settled_by_two
 from rockref.discover.looking.winning import exchanged, finished, to_the_end, upheld
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.plan import switches_of
@@ -217,7 +217,7 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         if found is None:
             break
         alone = not second and leaves_too_much(look, found)
-        if alone and (pair := settled_by_two(setup, look, found, say)) is not None:
+        if alone and (pair := settled_by_two(setup, look, found, seed, say)) is not None:
             look, found, second, alone = pair, pair.order[0], True, False
             looks.append(look)
         wider = to_the_end(setup, look, found, second, seed, say)
@@ -230,25 +230,6 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         if nothing_settles or rules.is_hopeless(structured(start), look.gains[start.effects[-1]], room(start)):
             break
     return start, looks
-
-
-def leaves_too_much(look: Look, found: Family) -> bool:
-    """Whether a first effect leaves so many windows structured that it was found in the place of two, and some hope."""
-    left = structured(found)
-    return left > FAR and not rules.is_hopeless(left, look.gains[found.effects[-1]], room(found))
-
-
-def settled_by_two(setup: Setup, look: Look, found: Family, say: Callable[[str], None]) -> Look | None:
-    """A look whose pair settles the windows of which its first effect, not yet taken to its end, leaves too many."""
-    pair = two_at_once(setup, look, found, say)
-    if pair is None:
-        return None
-    best = pair.order[0]
-    first, second = best.effects
-    sizes = size_of(best, first), size_of(best, second)
-    # What this is counted over was not taken to its end.
-    there = pair.gains[second] > rules.PLAIN_SECOND and min(sizes) > rules.SECOND_SIZE
-    return pair if there and rules.settles(structured(found), structured(best)) else None
 
 
 def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look], say: Callable[[str], None]) -> Family:

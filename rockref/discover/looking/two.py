@@ -13,12 +13,13 @@ from itertools import combinations
 
 import numpy as np
 
+from rockref.discover import verdict as rules
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.families import Family, mean_loss, refit_all
+from rockref.discover.fit.families import Family, mean_loss, refit_all, room, size_of, structured
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup
 from rockref.discover.looking.far import FAR_OFF, LOOKS, in_full, nominal_beside
-from rockref.discover.looking.look import Look, candidates_beside, ranked
+from rockref.discover.looking.look import FAR, Look, candidates_beside, look_further, ranked
 from rockref.discover.looking.screen import SHARES, own_columns, with_priors
 from rockref.effects.base import Effect
 
@@ -34,6 +35,39 @@ class Promise:
     effects: tuple[str, str]
     gain: float
     dz: np.ndarray
+
+
+def leaves_too_much(look: Look, found: Family) -> bool:
+    """Whether a first effect leaves so many windows structured that it was found in the place of two, and some hope."""
+    left = structured(found)
+    return left > FAR and not rules.is_hopeless(left, look.gains[found.effects[-1]], room(found))
+
+
+def settled_by_two(setup: Setup, look: Look, found: Family, seed: int, say: Callable[[str], None]) -> Look | None:
+    """A look whose pair settles the windows of which its first effect, not yet taken to its end, leaves too many.
+
+    One step sees little of an effect that has to be there for its derivative to show (beside uneven dampers, a contact
+    stiffer with depth came twentieth of 27, and uneven friction first). Where a pair leaves some windows structured,
+    what is found on top of its first effect alone may take its place.
+    """
+    pair = two_at_once(setup, look, found, say)
+    if pair is None or not settles(pair, found):
+        return None
+    if structured(pair.order[0]) <= rules.FEW_LEFT:
+        return pair
+    other = look_further(setup, pair.kept, seed, say)
+    better = bool(other.order) and mean_loss(other.order[0]) < mean_loss(pair.order[0])
+    return other if better and settles(other, found) else pair
+
+
+def settles(pair: Look, found: Family) -> bool:
+    """Whether the pair that leads a look is there, both of it, and explains most of what `found` left structured."""
+    best = pair.order[0]
+    first, second = best.effects
+    sizes = size_of(best, first), size_of(best, second)
+    # What this is counted over was not taken to its end.
+    there = pair.gains[second] > rules.PLAIN_SECOND and min(sizes) > rules.SECOND_SIZE
+    return there and rules.settles(structured(found), structured(best))
 
 
 def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], None]) -> Look | None:

@@ -8,6 +8,7 @@ import pytest
 from rockref.discover import diagnose
 from rockref.discover.diagnose import beginning, ranked_by, without
 from rockref.discover.fit.evidence import Losses
+from rockref.discover.looking import two
 from rockref.discover.looking.look import Look
 from rockref.effects import catalogue
 from tests.unit.discover.bowls import WINDOWS, Bowl, family, series
@@ -123,7 +124,7 @@ def course(monkeypatch):
     monkeypatch.setattr(diagnose, "look_further", look_further)
     monkeypatch.setattr(diagnose, "duel", duel)
     monkeypatch.setattr(diagnose, "upheld", lambda look, wider, *a: None if wider.effects == ("adhesion",) else wider)
-    monkeypatch.setattr(diagnose, "two_at_once", lambda setup, look, found, say: asked.pair)
+    monkeypatch.setattr(two, "two_at_once", lambda setup, look, found, say: asked.pair)
     monkeypatch.setattr(diagnose, "to_the_end", lambda setup, look, winner, *a: winner)
     return asked
 
@@ -167,7 +168,7 @@ def test_without_such_a_pair_a_first_that_leaves_most_windows_is_the_last(course
 @pytest.mark.parametrize("gain, rest, taken", [(3000.0, 0.0, True), (500.0, 0.0, False), (3000.0, 0.6, False)])
 def test_a_pair_has_to_be_there_and_to_settle(course, gain, rest, taken):
     pair = course.pair = Look(left(LEVER, 0.7), [left(BOTH, rest)], {"quadratic_drag": gain})
-    found = diagnose.settled_by_two(None, None, left(LEVER, 0.7), lambda line: None)
+    found = two.settled_by_two(None, None, left(LEVER, 0.7), 0, lambda line: None)
     assert found is (pair if taken else None)
 
 

@@ -161,6 +161,27 @@ def test_where_no_look_leads_anywhere_one_is_fitted_in_full(stages, losses, fitt
     assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
 
 
+@pytest.mark.parametrize(
+    "room, structured, fitted",
+    [
+        pytest.param(1400.0, 0.1, 5, id="none arrives: the next get their turn"),
+        pytest.param(100.0, 0.0, 3, id="one has arrived"),
+        pytest.param(1400.0, 0.5, 3, id="another effect is missing"),
+    ],
+)
+def test_where_none_of_the_nearest_arrives_the_next_are_fitted_in_full(stages, monkeypatch, room, structured, fitted):
+    ids = ("adhesion", "spin_friction", "clock_error", "gyro_scale", "plate_tilt")
+    stages(dict(zip(ids, (1.03, 1.11, 1.13, 1.14, 1.15), strict=True)))
+    monkeypatch.setattr(far, "room", lambda family: room)
+    monkeypatch.setattr(far, "structured", lambda family: structured)
+    kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
+    found = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None)
+    assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
+    # Who is sure is fitted with the first, and once.
+    again = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None, sure=("gyro_scale",))
+    assert sorted(f.effects[0] for f in again) == sorted({*ids[:fitted], "gyro_scale"})
+
+
 def test_rivals_begun_where_the_winner_ended_are_compared_in_its_valley():
     setup, kept = far_from("quadratic_drag:c=0.8")
     wide = setup.fit(kept.fit.series, ("cable_restraint",))

@@ -98,17 +98,17 @@ def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
 )
 def test_two_are_looked_for_where_one_leaves_too_much(monkeypatch, alone, gain, expected):
     """It explains most windows, or next to nothing; where nearly all are left, less than half will not do."""
-    monkeypatch.setattr(diagnose, "room", lambda family: 3000.0)
+    monkeypatch.setattr(two, "room", lambda family: 3000.0)
     look = Look(left((), 0.9), [], {"rolling_resistance": gain})
-    assert diagnose.leaves_too_much(look, left(("rolling_resistance",), alone)) == expected
+    assert two.leaves_too_much(look, left(("rolling_resistance",), alone)) == expected
 
 
 @pytest.mark.parametrize(
     "pair, sizes, taken",
     [
-        pytest.param(0.1, (1.0, 1.0), True, id="they settle what one leaves"),
+        pytest.param(0.0, (1.0, 1.0), True, id="they settle what one leaves"),
         pytest.param(0.5, (1.0, 1.0), False, id="they do not"),
-        pytest.param(0.1, (1.0, 0.1), False, id="one of them is a trifle"),
+        pytest.param(0.0, (1.0, 0.1), False, id="one of them is a trifle"),
         pytest.param(None, (1.0, 1.0), False, id="no pair comes near"),
     ],
 )
@@ -117,9 +117,37 @@ def test_a_pair_is_taken_if_it_settles_what_one_leaves(monkeypatch, pair, sizes,
     both = family(effects, Bowl(np.array([0.0, *sizes])), [0.0, *sizes])
     both.point.loss[: round((pair or 0) * WINDOWS)] *= 4.0
     found = Look(left(effects[:1], 0.6), [both], {effects[1]: 2000.0}, in_full=True)
-    monkeypatch.setattr(diagnose, "two_at_once", lambda *_: None if pair is None else found)
-    look = diagnose.settled_by_two(ALONE, Look(left((), 0.9), [], {}), left(effects[:1], 0.6), lambda line: None)
+    monkeypatch.setattr(two, "two_at_once", lambda *_: None if pair is None else found)
+    look = two.settled_by_two(ALONE, Look(left((), 0.9), [], {}), left(effects[:1], 0.6), 0, lambda line: None)
     assert look is (found if taken else None)
+
+
+@pytest.mark.parametrize(
+    "other, size, taken",
+    [
+        pytest.param(0.0, 1.0, True, id="it settles more"),
+        pytest.param(0.15, 1.0, False, id="it settles less"),
+        pytest.param(0.0, 0.1, False, id="it is a trifle"),
+        pytest.param(None, 1.0, False, id="nothing is found"),
+    ],
+)
+def test_where_a_pair_leaves_some_windows_one_more_look_on_top_of_its_first_may_win(monkeypatch, other, size, taken):
+    """One step of two effects does not see what has no derivative where it is absent."""
+
+    effects = ("rolling_resistance", "quadratic_drag")
+
+    def pair(share, size=1.0):
+        found = family(effects, Bowl(np.array([0.0, 1.0, size])), [0.0, 1.0, size])
+        found.point.loss[: round(share * WINDOWS)] *= 4.0
+        return Look(left(effects[:1], 0.6), [found], {effects[1]: 2000.0}, in_full=True)
+
+    raced = pair(0.1)
+    looked = pair(other, size) if other is not None else Look(raced.kept, [], {})
+    asked = []
+    monkeypatch.setattr(two, "two_at_once", lambda *_: raced)
+    monkeypatch.setattr(two, "look_further", lambda setup, start, *_: asked.append(start) or looked)
+    found = two.settled_by_two(ALONE, Look(left((), 0.9), [], {}), raced.kept, 0, lambda line: None)
+    assert found is (looked if taken else raced) and asked == [raced.kept]
 
 
 @pytest.mark.parametrize("alone, looked", [(0.6, ["one", "two"]), (0.4, ["one", "two", "one"]), (0.1, ["one", "one"])])
