@@ -21,9 +21,10 @@ def register(app: typer.Typer) -> None:
 
 
 def reproduce(
-    what: Annotated[str, typer.Argument(metavar="[STUDY] FOLDER", help="The study (default: source) ...")],
+    what: Annotated[str, typer.Argument(metavar="STUDY|FOLDER", help="The study, or the folder to make `source` in.")],
     folder: Annotated[
-        Path | None, typer.Argument(parser=folder_name, metavar="", help="... and the folder that it is made in.")
+        Path | None,
+        typer.Argument(parser=folder_name, metavar="FOLDER", help="The folder that a named study is made in."),
     ] = None,
     data: Annotated[
         Path | None, typer.Option("--data", help="The measured input of the study; by default the shipped one.")
