@@ -233,7 +233,8 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
 
 
 def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look], say: Callable[[str], None]) -> Family:
-    """A pair, or its first effect alone where the second gains little and a rival or the held-out runs say no.
+    """A pair, or its first effect alone where the second leaves more than it gains, or gains little and a rival or the
+    held-out runs say no.
 
     Effects that were found together at the release are left as they are.
     """
@@ -241,6 +242,9 @@ def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look]
         return pair
     alone, gains, second = looks[-1].kept, looks[-1].gains, pair.effects[-1]
     gain = gains[second]
+    if rules.is_not_it(gain, room(pair)):
+        say(f"  {second} gains {gain:.0f} units and leaves {room(pair):.0f}")
+        return alone
     if gain > rules.PLAIN_SECOND:
         return pair
     if rules.is_small(gain, room(alone)):

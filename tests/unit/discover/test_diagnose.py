@@ -194,6 +194,15 @@ def test_a_second_effect_that_gains_little_has_to_be_shown_by_the_held_out_runs(
     assert diagnose.proven(None, None, pair, [look], lambda line: None).effects == ends
 
 
+@pytest.mark.parametrize("left_by_both, ends", [(2405.0, LEVER), (1200.0, BOTH), (1450.0, BOTH)])
+def test_a_second_effect_that_leaves_more_than_it_gains_is_not_the_cause(monkeypatch, left_by_both, ends):
+    """Uneven friction gained 1305 units and left 2405, where the contact was another one."""
+    alone, pair = left(LEVER, 0.3), left(BOTH, 0.1)
+    monkeypatch.setattr(diagnose, "room", lambda family: left_by_both)
+    look = Look(alone, [pair], {"quadratic_drag": 1305.0})
+    assert diagnose.proven(None, None, pair, [look], lambda line: None).effects == ends
+
+
 def test_effects_that_the_release_shows_need_no_other_proof():
     pair = left(BOTH, 0.0)
     assert diagnose.proven(None, None, pair, [], lambda line: None) is pair
