@@ -48,10 +48,10 @@ AHEAD, ALIKE = 0.4, 1.15
 #: 2.7 to 6.7; a right one that began as far off left 0.6). Of pairs that are raced none is fitted in full that leaves
 #: as much (decided: five right ones left 1.1 to 1.5, the best where a gyroscope had soft stops 5.5).
 FAR_OFF, ALL_THE_SAME = 2.0, 0.9
-#: What the best of those that were fitted in full may leave above the noise before as many of the next are, too, and
-#: the share of structured windows above which another effect is missing beside it, and they are not. Decided: a plate
-#: that tilts was the last of six within 1.12 of the best on the short windows; the three before it left 1400 units, and
-#: the tilt, fitted in full, left nothing.
+#: What the best of those that were fitted in full may leave above the noise, though it gains less, before as many of
+#: the next are fitted, too, and the share of structured windows above which another effect is missing beside it, and
+#: they are not. Decided: a plate that tilts was the last of six within 1.12 of the best on the short windows; the three
+#: before it gained up to 1044 units and left 1400, and the tilt, fitted in full, left nothing.
 ARRIVES, ANOTHER = 300.0, 0.2
 #: Mean loss of a first look up to which its start needs no second search (decided: 1 is noise; where friction fell
 #: with speed, the right look ended at 1.04, wrong ones at 1.55 and more).
@@ -89,7 +89,7 @@ def from_far(
         raced[f.effects] = min(raced.get(f.effects, f), f, key=mean_loss)
     for f in raced.values():
         say(f"  from nominal: {f.effects[-1]} {mean_loss(f):.2f}")
-    return nearest_in_full(setup, list(raced.values()), sure)
+    return nearest_in_full(setup, list(raced.values()), kept, sure)
 
 
 def fitted_anew(
@@ -106,13 +106,14 @@ def fitted_anew(
         say(f"  from nominal: {effects[-1]} {mean_loss(family):.2f}")
         return family
 
-    return nearest_in_full(setup, side_by_side(setup, look, begun), sure)
+    return nearest_in_full(setup, side_by_side(setup, look, begun), kept, sure)
 
 
-def nearest_in_full(setup: Setup, looked: list[Family], sure: tuple[str, ...]) -> list[Family]:
+def nearest_in_full(setup: Setup, looked: list[Family], kept: Family, sure: tuple[str, ...]) -> list[Family]:
     """Of families on the short windows those that come nearest, and the set that is sure, through both stages.
 
     Where none of them arrives those that follow get their turn: in a side valley the right one looks like the others.
+    kept : the family over which they gain.
     """
     looked = sorted(looked, key=mean_loss)
     best, middle = mean_loss(looked[0]), mean_loss(looked[len(looked) // 2])
@@ -121,10 +122,15 @@ def nearest_in_full(setup: Setup, looked: list[Family], sure: tuple[str, ...]) -
     near = [f for f in looked if mean_loss(f) <= most][: 1 if nowhere else 2 * FITTED]
     ahead = near[:FITTED] + [f for f in looked if f.effects == sure and all(f is not other for other in near[:FITTED])]
     ended = side_by_side(setup, in_full, ahead)
-    nearest = min(ended, key=mean_loss)
-    if room(nearest) > ARRIVES and structured(nearest) <= ANOTHER:
+    if nobody_arrives(min(ended, key=mean_loss), kept):
         ended += side_by_side(setup, in_full, [f for f in near[FITTED:] if f.effects != sure])
     return ended
+
+
+def nobody_arrives(nearest: Family, kept: Family) -> bool:
+    """Whether the nearest of some families leaves much, and more than it gains, where not too much is structured."""
+    left = room(nearest)
+    return left > ARRIVES and structured(nearest) <= ANOTHER and left > gain_between(kept, nearest)
 
 
 def in_full(setup: Setup, looked: Family) -> Family:

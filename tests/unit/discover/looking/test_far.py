@@ -162,18 +162,22 @@ def test_where_no_look_leads_anywhere_one_is_fitted_in_full(stages, losses, fitt
 
 
 @pytest.mark.parametrize(
-    "room, structured, fitted",
+    "room, gain, structured, fitted",
     [
-        pytest.param(1400.0, 0.1, 5, id="none arrives: the next get their turn"),
-        pytest.param(100.0, 0.0, 3, id="one has arrived"),
-        pytest.param(1400.0, 0.5, 3, id="another effect is missing"),
+        pytest.param(1400.0, 1000.0, 0.1, 5, id="none arrives: the next get their turn"),
+        pytest.param(1400.0, 1600.0, 0.1, 3, id="one is on its way"),
+        pytest.param(100.0, 50.0, 0.0, 3, id="one has arrived"),
+        pytest.param(1400.0, 1000.0, 0.5, 3, id="another effect is missing"),
     ],
 )
-def test_where_none_of_the_nearest_arrives_the_next_are_fitted_in_full(stages, monkeypatch, room, structured, fitted):
+def test_where_none_of_the_nearest_arrives_the_next_are_fitted_in_full(
+    stages, monkeypatch, room, gain, structured, fitted
+):
     ids = ("adhesion", "spin_friction", "clock_error", "gyro_scale", "plate_tilt")
     stages(dict(zip(ids, (1.03, 1.11, 1.13, 1.14, 1.15), strict=True)))
     monkeypatch.setattr(far, "room", lambda family: room)
     monkeypatch.setattr(far, "structured", lambda family: structured)
+    monkeypatch.setattr(far, "gain_between", lambda kept, family: gain)
     kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
     found = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None)
     assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
