@@ -253,14 +253,21 @@ def decide(facts: Facts) -> Decision:
     )
     if rivals:
         members = (name, *sorted(rivals, key=lambda id: -facts.gains[id]))[:3]
-        return Decision(
-            "class", members, f"One of these is missing, and these runs cannot say which: {', '.join(members)}."
-        )
+        said = f"One of these is missing, and these runs cannot say which: {', '.join(members)}."
+        return Decision("class", members, said + stuck(best, facts.room))
     if proof < -HELD_OUT:
         return Decision("none", (), f"{name} helps on the fitted runs and harms on the held-out ones: not accepted.")
     if proof < HELD_OUT:
         return Decision("indicated", (name,), f"{name} is indicated by the fitted runs; {unproven}.")
     return Decision("named", (name,), f"{name} is missing: the error falls on fitted and held-out runs.")
+
+
+def stuck(gain: float, left: float) -> str:
+    """A sentence where the first of a class leaves more above the noise than it gains, or ""."""
+    if left <= max(gain, UNFINISHED):
+        return ""
+    what = f"The first of them gains {gain:.0f} units and leaves {left:.0f} above the noise"
+    return f" {what}: fits may have stopped in side valleys, so diagnose again with another seed."
 
 
 def left_over(gains: dict[str, float], left: float) -> str:

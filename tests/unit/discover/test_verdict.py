@@ -75,6 +75,14 @@ def test_what_leaves_more_than_it_gains_has_to_show_on_held_out_runs(held, verdi
     assert decide(replace(unsettled, room=400.0)).verdict == "class"
 
 
+@pytest.mark.parametrize("left, said", [(1024.0, True), (400.0, False)])
+def test_a_class_whose_fits_seem_stuck_asks_for_another_seed(left, said):
+    gains = {"uneven_foot_stiffness": 462.0, "uneven_contact_normals": 445.0}
+    found = decide(replace(facts(("uneven_foot_stiffness",), gains), room=left))
+    assert found.verdict == "class" and ("leaves 1024 above the noise" in found.sentence) == said
+    assert ("another seed" in found.sentence) == said
+
+
 def test_harm_on_held_out_runs_is_not_accepted():
     assert decide(facts(held=(-0.5, -0.5))).verdict == "none"
 
