@@ -69,6 +69,11 @@ def room(family: Family) -> float:
     return clipped_gain(family.point.loss, rules.NOISE * count / 2, count)
 
 
+def at_noise(family: Family) -> bool:
+    """Whether a family leaves nothing above the noise that any further effect could gain."""
+    return room(family) <= 0
+
+
 def mean_loss(family: Family) -> float:
     """Mean over the windows of the loss; 1 is noise."""
     return float(np.mean(2 * family.point.loss / family.fit.series.count))

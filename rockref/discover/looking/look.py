@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,16 +11,18 @@ from rockref.discover import verdict as rules
 from rockref.discover.fit.candidates import LEFT_OUT, kinds
 from rockref.discover.fit.families import (
     Family,
+    at_noise,
     gain_between,
     gain_over,
     mean_loss,
     refit,
     refit_all,
+    room,
     same_windows,
     size_of,
     structured,
 )
-from rockref.discover.fit.search import Setup
+from rockref.discover.fit.search import LITTLE, Setup
 from rockref.discover.looking.far import fitted_anew, from_far, in_the_valley_of, kin, own_z
 from rockref.discover.looking.screen import screen
 from rockref.effects.base import Effect
@@ -147,9 +149,10 @@ def challenge(look: Look, wider: Family, seed: int) -> None:
 
 def duel(setup: Setup, look: Look, say) -> Family:
     """The winner of a look, its near rivals and its kin, each fitted once more from the nominal parameters, and, where
-    the gain is not plain, from where the winner ended.
+    the gain is not plain, from where the winner ended; from there alone, if it leaves nothing above the noise.
 
-    A name is not given before the effects that are most easily taken for it were fitted in full. Gains are mended.
+    A name is not given before the effects that are most easily taken for it were fitted in full, or as near to the
+    truth as the records show. Gains are mended.
     """
     winner = look.order[0]
     gain = look.gains[winner.effects[-1]]
@@ -160,11 +163,26 @@ def duel(setup: Setup, look: Look, say) -> Family:
     offered = [k.id for k in candidates_beside(setup, look.kept.effects)]
     relatives = [(*look.kept.effects, id) for id in kin(winner.effects[-1]) if id in offered]
     begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
-    anew = fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
-    fought = [*(f for f in look.order if f.effects in near), *anew]
-    mended = ranked(look.kept, fought, say)
-    if mended.gains[mended.order[0].effects[-1]] < PLAIN:
-        others = [effects for effects in begun if effects != mended.order[0].effects]
-        mended = ranked(look.kept, [*fought, *in_the_valley_of(setup, mended.order[0], others, look.kept)], say)
+    winner = look.order[0] = taken_on(setup, winner, gain)
+    fought = [f for f in look.order if f.effects in near]
+    mended = in_its_valley(setup, look, fought, begun, say) if at_noise(winner) else look
+    if not at_noise(winner) or mended.order[0].effects != winner.effects:
+        fought += fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
+        mended = ranked(look.kept, fought, say)
+        if mended.gains[mended.order[0].effects[-1]] < PLAIN:
+            mended = in_its_valley(setup, mended, fought, begun, say)
     look.order, look.gains = mended.order, look.gains | {id: max(g, 0.0) for id, g in mended.gains.items()}
     return look.order[0]
+
+
+def taken_on(setup: Setup, winner: Family, gain: float) -> Family:
+    """The winner of a look, some iterations further, where that may bring it down to the noise."""
+    if at_noise(winner) or room(winner) > gain or structured(winner) > FAR:
+        return winner
+    return refit_all(setup, [winner], POLISH, setup.seed, relative=LITTLE / 5)[0]
+
+
+def in_its_valley(setup: Setup, look: Look, fought: list[Family], entered: Iterable[tuple[str, ...]], say) -> Look:
+    """The look when all others that entered a duel have begun where its winner ended, too."""
+    others = [effects for effects in entered if effects != look.order[0].effects]
+    return ranked(look.kept, [*fought, *in_the_valley_of(setup, look.order[0], others, look.kept)], say)

@@ -71,6 +71,7 @@ class Stages:
     """The stages of a fit, each ending at a loss that is known beforehand; what was asked of which."""
 
     losses: dict[str, float]
+    arrived: str = ""
     asked: list[tuple] = field(default_factory=list)
 
     def fitted(self, effects, z):
@@ -92,13 +93,16 @@ class Stages:
 
     def late(self, setup, effects, z, iterations):
         self.asked.append(("late", effects, tuple(z), iterations))
-        return self.fitted(effects, z)
+        fit, point = self.fitted(effects, z)
+        return fit, replace(point, loss=0.9 * fit.series.count / 2) if effects[-1] == self.arrived else point
 
 
 @pytest.fixture
 def stages(monkeypatch):
-    def put(losses):
-        stages = Stages(losses)
+    """Stages that end at given losses; `arrived` : the effect whose last stage ends below the noise."""
+
+    def put(losses, arrived=""):
+        stages = Stages(losses, arrived)
         for stage in ("early", "baseline", "onward", "late"):
             monkeypatch.setattr(far, stage, getattr(stages, stage))
         return stages
@@ -159,6 +163,33 @@ def test_where_no_look_leads_anywhere_one_is_fitted_in_full(stages, losses, fitt
     kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
     found = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None)
     assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
+
+
+@pytest.mark.parametrize(
+    "arrived, in_full, in_valley",
+    [
+        pytest.param("adhesion", ["adhesion"], ["spin_friction", "clock_error", "plate_tilt"], id="the nearest"),
+        pytest.param(
+            "clock_error", ["adhesion", "spin_friction", "clock_error"], ["plate_tilt"], id="one that follows"
+        ),
+        pytest.param("plate_tilt", ["adhesion", "spin_friction", "clock_error", "plate_tilt"], [], id="the sure one"),
+    ],
+)
+def test_once_one_is_at_the_noise_the_others_begin_where_it_ended(stages, monkeypatch, arrived, in_full, in_valley):
+    ids = ("adhesion", "spin_friction", "clock_error", "plate_tilt")
+    stages(dict(zip(ids, (1.03, 1.04, 1.05, 1.08), strict=True)), arrived)
+    begun = []
+
+    def valley(setup, winner, others, kept):
+        begun.append((winner.effects[-1], [other[-1] for other in others]))
+        return []
+
+    monkeypatch.setattr(far, "in_the_valley_of", valley)
+    kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
+    sets = {(id,): np.zeros(1) for id in ids}
+    found = far.fitted_anew(ALONE, sets, kept, lambda line: None, sure=("plate_tilt",))
+    assert [f.effects[-1] for f in found] == in_full
+    assert begun == [(arrived, in_valley)]
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.discover.fit.families import gain_over, mean_loss
+from rockref.discover.fit.families import gain_over, mean_loss, room
 from rockref.discover.looking import look as looking
 from rockref.discover.looking.look import Look, challenge, race, ranked, there
 from tests.unit.discover.bowls import ALONE, Bowl, family, series
@@ -185,5 +185,31 @@ def test_after_a_plain_gain_nobody_begins_again_where_the_winner_ended(fought, m
     kept, winner, rival = at((), 1.2), at(LEVER, 1.0), at(DRAG, 1.02)
     look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
     best, asked = fought(look, [at(DRAG, 1.01)])
-    assert best is winner and asked.anew is not None and asked.valley is None
+    assert best.effects == LEVER and asked.anew is not None and asked.valley is None
     assert look.gains["quadratic_drag"] > gain_over(kept, rival)
+
+
+def test_a_winner_at_the_noise_stands_against_rivals_begun_in_its_valley_alone(fought):
+    kept, winner, rival = at((), 1.2), at(LEVER, 0.9), at(DRAG, 1.05)
+    look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
+    best, asked = fought(look, [], valley=[at(DRAG, 0.95)])
+    assert best is winner and asked.anew is None and asked.valley == (LEVER, [DRAG])
+    assert look.gains["quadratic_drag"] == pytest.approx(gain_over(kept, at(DRAG, 0.95)))
+
+
+def test_a_winner_at_the_noise_that_loses_in_its_own_valley_is_fitted_afresh_with_all_others(fought):
+    kept, winner, rival = at((), 1.2), at(LEVER, 0.96), at(DRAG, 1.05)
+    look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
+    better = at(DRAG, 0.9)
+    best, asked = fought(look, [better], valley=[better])
+    assert best is better and asked.anew == ([LEVER, DRAG], LEVER)
+
+
+def test_a_winner_that_may_come_down_to_the_noise_is_taken_on_before_the_duel(fought):
+    """It began a third of a size off, where it leaves less than it gains."""
+    kept, rival = at((), 1.4), at(DRAG, 1.39)
+    winner = family(LEVER, Bowl(np.array([0.0, 1.0]), floor=0.95), [0.0, 0.7])
+    assert 0 < room(winner) < gain_over(kept, winner)
+    look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
+    best, asked = fought(look, [], valley=[])
+    assert best.effects == LEVER and best.point.z[1] > 0.95 and asked.anew is None
