@@ -49,11 +49,13 @@ AHEAD, ALIKE = 0.4, 1.15
 #: 2.7 to 6.7; a right one that began as far off left 0.6). Of pairs that are raced none is fitted in full that leaves
 #: as much (decided: five right ones left 1.1 to 1.5, the best where a gyroscope had soft stops 5.5).
 FAR_OFF, ALL_THE_SAME = 2.0, 0.9
-#: Where the best of those that were fitted in full leaves more than it gains as many of the next are fitted, too, but
-#: not above this share of structured windows: there another effect is missing beside it. Decided: a plate that tilts
-#: was the last of six within 1.12 of the best on the short windows; a cable that was ahead of it gained 961 to 1044
-#: units, and the tilt, fitted in full, left nothing above the noise.
-ANOTHER = 0.2
+#: Share of structured windows above which small steps lead nowhere and candidates are looked for from nominal
+#: parameters first (decided: from a baseline with 0.39 no small step led on; with 0.18 one did), and above which
+#: another effect is missing beside the best one. Up to it, where the best of those that were fitted in full leaves more
+#: than it gains, as many of the next are fitted, too. Decided: a plate that tilts was the last of six within 1.12 of
+#: the best on the short windows; a cable ahead of it gained 961 to 1044 units, and the tilt, fitted in full, left
+#: nothing above the noise.
+FAR = 0.2
 #: Mean loss of a first look up to which its start needs no second search (decided: 1 is noise; where friction fell
 #: with speed, the right look ended at 1.04, wrong ones at 1.55 and more).
 NEAR = 1.1
@@ -137,7 +139,7 @@ def nearest_in_full(setup: Setup, looked: list[Family], kept: Family, sure: tupl
 def nobody_arrives(nearest: Family, kept: Family) -> bool:
     """Whether the nearest of some families leaves much, and more than it gains, where not too much is structured."""
     left = room(nearest)
-    return left > rules.UNFINISHED and structured(nearest) <= ANOTHER and left > gain_between(kept, nearest)
+    return left > rules.UNFINISHED and structured(nearest) <= FAR and left > gain_between(kept, nearest)
 
 
 def in_full(setup: Setup, looked: Family) -> Family:

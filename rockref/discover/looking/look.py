@@ -23,7 +23,7 @@ from rockref.discover.fit.families import (
     structured,
 )
 from rockref.discover.fit.search import LITTLE, Setup
-from rockref.discover.looking.far import fitted_anew, from_far, in_the_valley_of, kin, own_z
+from rockref.discover.looking.far import FAR, fitted_anew, from_far, in_the_valley_of, kin, own_z
 from rockref.discover.looking.screen import screen
 from rockref.effects.base import Effect
 
@@ -32,9 +32,8 @@ REFITTED, ITERATIONS = 6, 3
 #: Further iterations of a challenge, half of those of a baseline that is left; the family that is gone on with, and
 #: whose sizes are read, gets three times as many while it gains.
 POLISH = 4
-#: Share of structured windows above which candidates are looked for from nominal parameters first, and above which a
-#: family is too far off for small steps (decided: from a baseline with 0.39 no small step led on; with 0.18 one did).
-FAR, TOO_FAR = 0.2, 0.5
+#: Share of structured windows above which small steps from a family are not even tried after the other way (decided).
+TOO_FAR = 0.5
 #: A look leads nowhere where it leaves more than NOWHERE of the structured windows that there were, and these are more
 #: than FEW_STRUCTURED of all (on controls 0 to 2 % stay structured).
 NOWHERE, FEW_STRUCTURED = 0.6, 0.05

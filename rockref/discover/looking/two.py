@@ -18,8 +18,8 @@ from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import Family, mean_loss, refit_all, room, size_of, structured
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup
-from rockref.discover.looking.far import FAR_OFF, LOOKS, in_full, nominal_beside
-from rockref.discover.looking.look import FAR, Look, candidates_beside, look_further, ranked
+from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, in_full, nominal_beside
+from rockref.discover.looking.look import Look, candidates_beside, look_further, ranked
 from rockref.discover.looking.screen import SHARES, own_columns, with_priors
 from rockref.effects.base import Effect
 

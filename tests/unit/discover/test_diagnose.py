@@ -165,13 +165,6 @@ def test_without_such_a_pair_a_first_that_leaves_most_windows_is_the_last(course
     assert grow(course, (left(LEVER, 0.7, room=0.3), 5000.0, True)) == (LEVER, 1, 0)
 
 
-@pytest.mark.parametrize("gain, rest, taken", [(3000.0, 0.0, True), (500.0, 0.0, False), (3000.0, 0.6, False)])
-def test_a_pair_has_to_be_there_and_to_settle(course, gain, rest, taken):
-    pair = course.pair = Look(left(LEVER, 0.7), [left(BOTH, rest)], {"quadratic_drag": gain})
-    found = two.settled_by_two(None, None, left(LEVER, 0.7), 0, lambda line: None)
-    assert found is (pair if taken else None)
-
-
 @pytest.mark.parametrize(
     "gains, held, ends",
     [

@@ -104,19 +104,20 @@ def test_two_are_looked_for_where_one_leaves_too_much(monkeypatch, alone, gain, 
 
 
 @pytest.mark.parametrize(
-    "pair, sizes, taken",
+    "pair, sizes, gain, taken",
     [
-        pytest.param(0.0, (1.0, 1.0), True, id="they settle what one leaves"),
-        pytest.param(0.5, (1.0, 1.0), False, id="they do not"),
-        pytest.param(0.0, (1.0, 0.1), False, id="one of them is a trifle"),
-        pytest.param(None, (1.0, 1.0), False, id="no pair comes near"),
+        pytest.param(0.0, (1.0, 1.0), 2000.0, True, id="they settle what one leaves"),
+        pytest.param(0.5, (1.0, 1.0), 2000.0, False, id="they do not"),
+        pytest.param(0.0, (1.0, 0.1), 2000.0, False, id="one of them is a trifle"),
+        pytest.param(0.0, (1.0, 1.0), 500.0, False, id="the second gains little"),
+        pytest.param(None, (1.0, 1.0), 2000.0, False, id="no pair comes near"),
     ],
 )
-def test_a_pair_is_taken_if_it_settles_what_one_leaves(monkeypatch, pair, sizes, taken):
+def test_a_pair_is_taken_if_it_settles_what_one_leaves(monkeypatch, pair, sizes, gain, taken):
     effects = ("rolling_resistance", "quadratic_drag")
     both = family(effects, Bowl(np.array([0.0, *sizes])), [0.0, *sizes])
     both.point.loss[: round((pair or 0) * WINDOWS)] *= 4.0
-    found = Look(left(effects[:1], 0.6), [both], {effects[1]: 2000.0}, in_full=True)
+    found = Look(left(effects[:1], 0.6), [both], {effects[1]: gain}, in_full=True)
     monkeypatch.setattr(two, "two_at_once", lambda *_: None if pair is None else found)
     look = two.settled_by_two(ALONE, Look(left((), 0.9), [], {}), left(effects[:1], 0.6), 0, lambda line: None)
     assert look is (found if taken else None)
