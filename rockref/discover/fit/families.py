@@ -69,11 +69,6 @@ def room(family: Family) -> float:
     return clipped_gain(family.point.loss, rules.NOISE * count / 2, count)
 
 
-def at_noise(family: Family) -> bool:
-    """Whether a family leaves nothing above the noise that any further effect could gain."""
-    return room(family) <= 0
-
-
 def mean_loss(family: Family) -> float:
     """Mean over the windows of the loss; 1 is noise."""
     return float(np.mean(2 * family.point.loss / family.fit.series.count))
@@ -101,6 +96,11 @@ def gain_between(kept: Family, other: Family) -> float:
     worse, better = by_sample(kept, kept.point.loss), by_sample(other, other.point.loss)
     count = by_sample(kept, kept.fit.series.count)
     return clipped_gain(worse, better, count) - (other.point.penalty - kept.point.penalty)
+
+
+def leaves_nothing(family: Family, kept: Family) -> bool:
+    """Whether a family with a plain gain over `kept` leaves nothing above the noise: another can be little better."""
+    return room(family) <= 0 and gain_between(kept, family) > rules.PLAIN_GAIN
 
 
 def by_sample(family: Family, of_windows: np.ndarray) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 from rockref.discover import verdict as rules
 from rockref.discover.fit.approach import approached, approached_beside
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.families import Family, at_noise, gain_between, mean_loss, refit_all, room, structured
+from rockref.discover.fit.families import Family, gain_between, leaves_nothing, mean_loss, refit_all, room, structured
 from rockref.discover.fit.least_squares import Fit
 from rockref.discover.fit.search import (
     FIRST_STAGE,
@@ -115,7 +115,7 @@ def fitted_anew(
 def nearest_in_full(setup: Setup, looked: list[Family], kept: Family, sure: tuple[str, ...]) -> list[Family]:
     """Of families on the short windows those that come nearest, and the set that is sure, through both stages.
 
-    The nearest goes first. Once one leaves nothing above the noise those that follow begin where it ended: nobody can
+    The nearest goes first. Once one with a plain gain leaves nothing those that follow begin where it ended: nobody can
     gain much more, and who does as well on the same records does so near there. Where none of them arrives the next
     ones get their turn: in a side valley the right one looks like the others. kept : the family over which they gain.
     """
@@ -129,7 +129,7 @@ def nearest_in_full(setup: Setup, looked: list[Family], kept: Family, sure: tupl
     for batch in (ahead[:1], ahead[1:FITTED], ahead[FITTED:]):
         ended += side_by_side(setup, in_full, batch)
         nearest = min(ended, key=mean_loss)
-        if at_noise(nearest):
+        if leaves_nothing(nearest, kept):
             return [*ended, *in_the_valley_of(setup, nearest, [f.effects for f in ahead[len(ended) :]], kept)]
     if nobody_arrives(nearest, kept):
         ended += side_by_side(setup, in_full, [f for f in near[FITTED:] if f.effects != sure])

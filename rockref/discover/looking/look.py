@@ -11,9 +11,9 @@ from rockref.discover import verdict as rules
 from rockref.discover.fit.candidates import LEFT_OUT, kinds
 from rockref.discover.fit.families import (
     Family,
-    at_noise,
     gain_between,
     gain_over,
+    leaves_nothing,
     mean_loss,
     refit,
     refit_all,
@@ -148,7 +148,7 @@ def challenge(look: Look, wider: Family, seed: int) -> None:
 
 def duel(setup: Setup, look: Look, say) -> Family:
     """The winner of a look, its near rivals and its kin, each fitted once more from the nominal parameters, and, where
-    the gain is not plain, from where the winner ended; from there alone, if it leaves nothing above the noise.
+    the gain is not plain, from where the winner ended; from there alone, if it gains much and leaves nothing.
 
     A name is not given before the effects that are most easily taken for it were fitted in full, or as near to the
     truth as the records show. Gains are mended.
@@ -164,8 +164,9 @@ def duel(setup: Setup, look: Look, say) -> Family:
     begun = {effects: z.get(effects, own_z(setup, effects)) for effects in dict.fromkeys([*near, *relatives])}
     winner = look.order[0] = taken_on(setup, winner, gain)
     fought = [f for f in look.order if f.effects in near]
-    mended = in_its_valley(setup, look, fought, begun, say) if at_noise(winner) else look
-    if not at_noise(winner) or mended.order[0].effects != winner.effects:
+    alone = leaves_nothing(winner, look.kept)
+    mended = in_its_valley(setup, look, fought, begun, say) if alone else look
+    if not alone or mended.order[0].effects != winner.effects:
         fought += fitted_anew(setup, begun, look.kept, say, sure=winner.effects)
         mended = ranked(look.kept, fought, say)
         if mended.gains[mended.order[0].effects[-1]] < PLAIN:
@@ -176,7 +177,7 @@ def duel(setup: Setup, look: Look, say) -> Family:
 
 def taken_on(setup: Setup, winner: Family, gain: float) -> Family:
     """The winner of a look, some iterations further, where that may bring it down to the noise."""
-    if at_noise(winner) or room(winner) > gain or structured(winner) > FAR:
+    if not 0 < room(winner) < gain or structured(winner) > FAR:
         return winner
     return refit_all(setup, [winner], POLISH, setup.seed, relative=LITTLE / 5)[0]
 

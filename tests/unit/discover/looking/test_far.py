@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from rockref import Model
-from rockref.discover.fit import search
+from rockref.discover import verdict as rules
+from rockref.discover.fit import families, search
 from rockref.discover.fit.families import Family, same_windows
 from rockref.discover.fit.least_squares import Point
 from rockref.discover.fit.parameter import Parameter
@@ -178,6 +179,7 @@ def test_where_no_look_leads_anywhere_one_is_fitted_in_full(stages, losses, fitt
 def test_once_one_is_at_the_noise_the_others_begin_where_it_ended(stages, monkeypatch, arrived, in_full, in_valley):
     ids = ("adhesion", "spin_friction", "clock_error", "plate_tilt")
     stages(dict(zip(ids, (1.03, 1.04, 1.05, 1.08), strict=True)), arrived)
+    monkeypatch.setattr(families, "gain_between", lambda kept, family: 2 * rules.PLAIN_GAIN)
     begun = []
 
     def valley(setup, winner, others, kept):

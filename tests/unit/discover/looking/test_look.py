@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from rockref.discover import verdict as rules
 from rockref.discover.fit.families import gain_over, mean_loss, room
 from rockref.discover.looking import look as looking
 from rockref.discover.looking.look import Look, challenge, race, ranked, there
@@ -189,7 +190,22 @@ def test_after_a_plain_gain_nobody_begins_again_where_the_winner_ended(fought, m
     assert look.gains["quadratic_drag"] > gain_over(kept, rival)
 
 
-def test_a_winner_at_the_noise_stands_against_rivals_begun_in_its_valley_alone(fought):
+@pytest.fixture
+def plain(monkeypatch):
+    """The bowls' gains count as plain."""
+    monkeypatch.setattr(rules, "PLAIN_GAIN", 100.0)
+
+
+def test_without_a_plain_gain_a_winner_at_the_noise_is_fitted_afresh_with_all_others(fought):
+    """Where the noise ends is not known so well: round feet came down 160 units further than an inertia."""
+    kept, winner, rival = at((), 1.2), at(LEVER, 0.9), at(DRAG, 1.05)
+    look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
+    assert gain_over(kept, winner) < rules.PLAIN_GAIN
+    _, asked = fought(look, [at(DRAG, 0.95)])
+    assert asked.anew == ([LEVER, DRAG], LEVER)
+
+
+def test_a_winner_at_the_noise_stands_against_rivals_begun_in_its_valley_alone(fought, plain):
     kept, winner, rival = at((), 1.2), at(LEVER, 0.9), at(DRAG, 1.05)
     look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
     best, asked = fought(look, [], valley=[at(DRAG, 0.95)])
@@ -197,7 +213,7 @@ def test_a_winner_at_the_noise_stands_against_rivals_begun_in_its_valley_alone(f
     assert look.gains["quadratic_drag"] == pytest.approx(gain_over(kept, at(DRAG, 0.95)))
 
 
-def test_a_winner_at_the_noise_that_loses_in_its_own_valley_is_fitted_afresh_with_all_others(fought):
+def test_a_winner_at_the_noise_that_loses_in_its_own_valley_is_fitted_afresh_with_all_others(fought, plain):
     kept, winner, rival = at((), 1.2), at(LEVER, 0.96), at(DRAG, 1.05)
     look = Look(kept, [winner, rival], gains_of(gain_over(kept, winner), gain_over(kept, rival)))
     better = at(DRAG, 0.9)
@@ -205,7 +221,7 @@ def test_a_winner_at_the_noise_that_loses_in_its_own_valley_is_fitted_afresh_wit
     assert best is better and asked.anew == ([LEVER, DRAG], LEVER)
 
 
-def test_a_winner_that_may_come_down_to_the_noise_is_taken_on_before_the_duel(fought):
+def test_a_winner_that_may_come_down_to_the_noise_is_taken_on_before_the_duel(fought, plain):
     """It began a third of a size off, where it leaves less than it gains."""
     kept, rival = at((), 1.4), at(DRAG, 1.39)
     winner = family(LEVER, Bowl(np.array([0.0, 1.0]), floor=0.95), [0.0, 0.7])
