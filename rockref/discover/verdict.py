@@ -55,9 +55,9 @@ FAR_FETCHED = 4.0
 #: a cable by which 200 remained; of thirteen single effects that left no window structured eleven ended below 300).
 UNFINISHED = 300.0
 #: Gain above which an effect that leaves nothing above the noise is compared with its rivals where it ended alone.
-#: Where the noise ends is known to some hundred units only. Decided: an inertia that gained 300 units was 100 below it,
-#: and round feet of half the typical size, which were the cause, 260; they were fitted from nominal parameters.
-PLAIN_GAIN = 1000.0
+#: Decided: below it that is not enough. A trifle of a scale gained 453 units, and round feet of half the typical size,
+#: which were the cause, 283 where it had ended; fitted from nominal parameters they gain 408, 260 below the noise.
+WELL_ABOVE_NOISE = 1000.0
 #: Rivals above this share of the best gain are fitted again from short windows on before the verdict.
 RIVAL_BEFORE_DUEL = 0.55
 #: Growth of the mean loss up to which a pair is given up for the one of its effects that has a size (decided).

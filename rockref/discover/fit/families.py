@@ -99,8 +99,8 @@ def gain_between(kept: Family, other: Family) -> float:
 
 
 def leaves_nothing(family: Family, kept: Family) -> bool:
-    """Whether a family with a plain gain over `kept` leaves nothing above the noise: another can be little better."""
-    return room(family) <= 0 and gain_between(kept, family) > rules.PLAIN_GAIN
+    """Whether a family that gains much over `kept` leaves nothing above the noise: another can be little better."""
+    return room(family) <= 0 and gain_between(kept, family) > rules.WELL_ABOVE_NOISE
 
 
 def by_sample(family: Family, of_windows: np.ndarray) -> np.ndarray:

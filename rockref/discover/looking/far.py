@@ -115,7 +115,7 @@ def fitted_anew(
 def nearest_in_full(setup: Setup, looked: list[Family], kept: Family, sure: tuple[str, ...]) -> list[Family]:
     """Of families on the short windows those that come nearest, and the set that is sure, through both stages.
 
-    The nearest goes first. Once one with a plain gain leaves nothing those that follow begin where it ended: nobody can
+    The nearest goes first. Once one that gains much leaves nothing those that follow begin where it ended: nobody can
     gain much more, and who does as well on the same records does so near there. Where none of them arrives the next
     ones get their turn: in a side valley the right one looks like the others. kept : the family over which they gain.
     """

@@ -176,8 +176,8 @@ def duel(setup: Setup, look: Look, say) -> Family:
 
 
 def taken_on(setup: Setup, winner: Family, gain: float) -> Family:
-    """The winner of a look, some iterations further, where that may bring it down to the noise."""
-    if not 0 < room(winner) < gain or structured(winner) > FAR:
+    """The winner of a look, some iterations further, where it gains much and they may bring it down to the noise."""
+    if gain <= rules.WELL_ABOVE_NOISE or not 0 < room(winner) < gain or structured(winner) > FAR:
         return winner
     return refit_all(setup, [winner], POLISH, setup.seed, relative=LITTLE / 5)[0]
 

@@ -179,7 +179,7 @@ def test_where_no_look_leads_anywhere_one_is_fitted_in_full(stages, losses, fitt
 def test_once_one_is_at_the_noise_the_others_begin_where_it_ended(stages, monkeypatch, arrived, in_full, in_valley):
     ids = ("adhesion", "spin_friction", "clock_error", "plate_tilt")
     stages(dict(zip(ids, (1.03, 1.04, 1.05, 1.08), strict=True)), arrived)
-    monkeypatch.setattr(families, "gain_between", lambda kept, family: 2 * rules.PLAIN_GAIN)
+    monkeypatch.setattr(families, "gain_between", lambda kept, family: 2 * rules.WELL_ABOVE_NOISE)
     begun = []
 
     def valley(setup, winner, others, kept):
