@@ -18,13 +18,13 @@ from rockref.discover.fit.families import Family, afresh, mean_loss
 from rockref.discover.fit.fitted import Estimate, estimates, fitted_model, in_file_order, origin_of
 from rockref.discover.fit.information import covariance, information
 from rockref.discover.fit.search import Setup, baseline
-from rockref.discover.fitting import started_family, usable
+from rockref.discover.fitting import started_family
 from rockref.discover.looking.presearch import MISLEADING, release_fit, tone
 from rockref.discover.looking.resized import resized
 from rockref.discover.looking.screen import screen
-from rockref.discover.windows.on_time import on_time
+from rockref.discover.windows.opened import opened
 from rockref.effects import catalogue
-from rockref.measure.experiment import FIT, Experiment, load_experiment
+from rockref.measure.experiment import Experiment
 from rockref.model.errors import InputError
 
 #: Effects that must be there before the runs are cut into windows: they spoil the reconstructed state, or need a tone.
@@ -138,12 +138,11 @@ def add(
     begun = time.perf_counter()
     say = progress or (lambda line: None)
     (effect,) = (kind.id for kind in catalogue.of_releases([effect], "argument effect"))
-    experiment = usable(load_experiment(path, uses=(FIT,)))
+    experiment, whole = opened(path)
     base = baseline_model(experiment, model)
     own = tuple(e.id for e in base.active_effects())
     if effect in own:
         raise InputError("E-EFFECT", f"argument {effect}", "is in the model already", "Add another one.")
-    experiment = on_time(experiment)
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say)
     setup = with_tone(setup, (*own, effect))
     say(f"the model without {effect}")
@@ -167,7 +166,7 @@ def add(
         after=states[1],
         model=fitted_model(after.fit, after.point, numbers, origin),
         estimates=numbers,
-        spread=spread_of(on_time(load_experiment(path)), end),
+        spread=spread_of(whole, end),
         history=history,
         end=end,
         seconds=time.perf_counter() - begun,

@@ -42,10 +42,11 @@ from rockref.discover.plan import switches_of
 from rockref.discover.separating import separating_run
 from rockref.discover.signature import signature
 from rockref.discover.windows.clipped import flat_tops
-from rockref.discover.windows.on_time import gyro_of, on_time
+from rockref.discover.windows.on_time import gyro_of
+from rockref.discover.windows.opened import opened
 from rockref.discover.windows.own import known_own
 from rockref.effects import catalogue
-from rockref.measure.experiment import FIT, HOLDOUT, Experiment, load_experiment
+from rockref.measure.experiment import Experiment
 
 #: The plain baseline is built on unless a suspect of the presearch, on windows of its own, fits better by this factor
 #: of mean loss (decided).
@@ -126,7 +127,7 @@ def diagnose(
     begun = time.perf_counter()
     say = progress or (lambda line: None)
     known = known_own(own)
-    experiment = on_time(load_experiment(path, uses=(FIT,)))
+    experiment, held = opened(path)
     base = baseline_model(experiment, model)
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say, own=known)
     setup, sets, seen = suspects(setup)
@@ -135,7 +136,6 @@ def diagnose(
     start, looks = (start, []) if blinded(seen, start) else grown(setup, start, seed, say)
     if aside is not None and room(start) > ANOTHER_COURSE:
         start, looks = better_course(start, looks, *grown(setup, aside, seed, say), say)
-    held = on_time(load_experiment(path, uses=(FIT, HOLDOUT)))
     start = proven(setup, held, start, looks, say)
     if start.effects and any(start is family for family in begun_with):
         # What the release named, and no look has added to, has not been fitted to its end.

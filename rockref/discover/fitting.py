@@ -19,10 +19,9 @@ from rockref.discover.fit.gates import Gate, gates, other_start, starts_agree
 from rockref.discover.fit.information import Information, covariance, information
 from rockref.discover.fit.search import Setup, baseline
 from rockref.discover.looking.presearch import suspects
-from rockref.discover.windows.on_time import on_time
+from rockref.discover.windows.opened import opened
 from rockref.effects import catalogue
-from rockref.measure.experiment import FIT, Experiment, load_experiment
-from rockref.model.errors import InputError
+from rockref.measure.experiment import Experiment
 
 #: A set of effects without which the windows cannot even be restarted is taken along where it lowers the mean loss
 #: by this factor (as the diagnosis does).
@@ -113,7 +112,7 @@ def fit_experiment(
     """
     begun = time.perf_counter()
     say = progress or (lambda line: None)
-    experiment = on_time(usable(load_experiment(path, uses=(FIT,))))
+    experiment, _ = opened(path)
     base = baseline_model(experiment, model)
     setup = Setup(experiment, experiment.fit_runs(), base, end, seed, workers, say)
     say("release windows")
@@ -173,16 +172,6 @@ def begun_again(
             break
     assert known is not None  # there are two starts at least
     return best, ends[1 + nearest], known
-
-
-def usable(experiment: Experiment) -> Experiment:
-    """The experiment, if it has releases, a gyroscope and fit runs. Raises InputError (E-KIND, E-NO-FIT)."""
-    where = f"{experiment.path}"
-    if experiment.kind != "release" or experiment.gyro is None:
-        raise InputError("E-KIND", where, f"is a {experiment.kind}, or has no gyroscope", "Give releases.")
-    if not experiment.fit_runs():
-        raise InputError("E-NO-FIT", where, "has no fit run", 'Mark runs with use = "fit".')
-    return experiment
 
 
 def started_family(

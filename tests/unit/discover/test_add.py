@@ -33,8 +33,7 @@ def test_where_the_error_was_the_noise_there_was_no_gap():
 
 
 def test_an_effect_that_the_model_has_is_not_added_again(monkeypatch):
-    monkeypatch.setattr(adding, "usable", lambda experiment: experiment)
-    monkeypatch.setattr(adding, "load_experiment", lambda path, uses=None: fakes.made_experiment(0.1))
+    monkeypatch.setattr(adding, "opened", lambda path: (fakes.made_experiment(0.1), None))
     model = TABLE.replace(effects=(parse("quadratic_drag:c=0.4"),))
     with pytest.raises(InputError, match="is in the model already") as error:
         adding.add("quadratic_drag", "folder", model)

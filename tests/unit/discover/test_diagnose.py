@@ -213,8 +213,7 @@ def whole(monkeypatch):
         def noted(name, result):
             return lambda *a, **k: (done.append(name), result(*a))[1]
 
-        monkeypatch.setattr(diagnose, "load_experiment", lambda path, uses: SimpleNamespace(fit_runs=lambda: ()))
-        monkeypatch.setattr(diagnose, "on_time", lambda experiment: experiment)
+        monkeypatch.setattr(diagnose, "opened", lambda path: (SimpleNamespace(fit_runs=lambda: ()), None))
         monkeypatch.setattr(diagnose, "baseline_model", lambda experiment, model: None)
         monkeypatch.setattr(diagnose, "suspects", lambda setup: (setup, [()], {}))
         monkeypatch.setattr(diagnose, "beginning", lambda setup, sets, seen: (null, begun or null, None))

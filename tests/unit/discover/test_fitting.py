@@ -11,7 +11,6 @@ from rockref.discover import fitting
 from rockref.discover.fit.families import Family
 from rockref.discover.fit.search import SHORT, Setup, windows
 from rockref.discover.windows.series import refinement
-from rockref.model.errors import InputError
 from tests.unit.discover import fakes
 from tests.unit.discover.bowls import ALONE, Bowl, family
 
@@ -56,22 +55,6 @@ def ends_at(monkeypatch):
 )
 def test_the_nearest_start_is_kept_and_the_one_that_agrees_confirms_it(ends_at, places, kept, confirmed_by, not_begun):
     assert ends_at(*places) == (kept, confirmed_by, not_begun)
-
-
-@pytest.mark.parametrize(
-    "change, code",
-    [
-        ({"kind": "toss"}, "E-KIND"),
-        ({"gyro": None}, "E-KIND"),
-        ({"runs": ()}, "E-NO-FIT"),
-    ],
-)
-def test_what_cannot_be_fitted_is_refused(change, code):
-    e = fakes.made_experiment(0.1)
-    assert fitting.usable(e) is e
-    with pytest.raises(InputError) as error:
-        fitting.usable(replace(e, **change))
-    assert error.value.code == code
 
 
 @pytest.mark.parametrize("model", [None, fakes.DRAG])
@@ -133,7 +116,7 @@ def true_family():
 def test_what_a_fit_says_of_itself(monkeypatch, true_family, effects, check):
     e, found = true_family
     asked = []
-    monkeypatch.setattr(fitting, "load_experiment", lambda path, uses: e)
+    monkeypatch.setattr(fitting, "opened", lambda path: (e, e))
     monkeypatch.setattr(fitting, "chosen_family", lambda setup: (asked.append("chosen"), (setup, found))[1])
     monkeypatch.setattr(fitting, "suspects", lambda setup: (setup, [()], {"z": np.zeros(1)}))
     monkeypatch.setattr(fitting, "started_family", lambda *a: (asked.append("named"), found)[1])
