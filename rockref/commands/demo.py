@@ -32,7 +32,7 @@ def demo(
     """
     from rockref.api import Model
     from rockref.commands._stages import stages
-    from rockref.engines import chosen
+    from rockref.engines import chosen, compiled_ahead
     from rockref.report.demo import find_experiments, tell
     from rockref.report.output import made_folder
 
@@ -40,7 +40,7 @@ def demo(
     chosen(Model.table_3_1().problem(), engine)  # refused before the folder is made
     folder = find_experiments(data)
     made_folder(out)
-    with stages("the demonstration") as show:
+    with compiled_ahead(), stages("the demonstration") as show:
         # A terminal has one line that changes; elsewhere a line a stage is left.
         report = show if sys.stderr.isatty() else lambda text: typer.echo(f"... {text}", err=True)
         story = tell(folder, out, engine, report, show)

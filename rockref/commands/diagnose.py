@@ -59,6 +59,7 @@ def diagnose(
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
+    from rockref.engines import compiled_ahead
     from rockref.report.diagnosis_text import print_diagnosis
     from rockref.report.output import made_folder, usable_folder
 
@@ -68,7 +69,7 @@ def diagnose(
     say_idle(given, model)
     folder = usable_folder(report) if report is not None else None
     usable_files(output, save_model)
-    with stages(f"diagnosing {experiment}", every_line=verbose) as say:
+    with compiled_ahead(), stages(f"diagnosing {experiment}", every_line=verbose) as say:
         found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates)
     record = plain(found.to_dict())
     text = in_json(record)

@@ -42,6 +42,7 @@ def plan(
     from rockref.commands._stages import stages
     from rockref.discover.plan import plan as run_plan
     from rockref.discover.plan import releases_from
+    from rockref.engines import compiled_ahead
     from rockref.model.storage import write_text
     from rockref.report.plan_text import print_plan
 
@@ -49,7 +50,7 @@ def plan(
     planned = releases_from(runs)
     (given,), candidates = models_and_others([model], effect)
     say_idle(given, model)
-    with stages("planning", every_line=verbose) as say:
+    with compiled_ahead(), stages("planning", every_line=verbose) as say:
         found = run_plan(given, planned, candidates or None, seed=seed, workers=workers, progress=say)
     text = in_json(found.to_dict())
     with told(as_json, lambda written: text, lambda console: print_plan(console, found)) as written:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Callable
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -64,3 +68,26 @@ def run(problem: Problem, engine: str = "auto", progress=None, dtype=None) -> Re
     from rockref.engines.compiled.engine import simulate
 
     return simulate(problem, progress=progress)
+
+
+@contextmanager
+def compiled_ahead() -> Iterator[None]:
+    """While the block of a `with` runs, a process of its own compiles what the compiled engine has not kept on disk.
+
+    For what needs effects of every kind: the first time on a machine it would wait for all of them, one after another.
+    """
+    if not has_numba() or (os.cpu_count() or 1) < 2:
+        yield
+        return
+    from rockref.engines.compiled import ahead
+
+    if not ahead.missing():
+        yield
+        return
+    none = subprocess.DEVNULL
+    process = subprocess.Popen([sys.executable, "-m", ahead.__name__], stdin=none, stdout=none, stderr=none)
+    try:
+        yield
+    finally:
+        process.terminate()  # what it has not ended is compiled the next time: numba keeps whole files only
+        process.wait()
