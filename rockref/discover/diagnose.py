@@ -33,6 +33,7 @@ from rockref.discover.fit.families import (
 from rockref.discover.fit.gates import Gate, gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.fit.information import information
 from rockref.discover.fit.search import FRESH, Setup, baseline
+from rockref.discover.looking.fewer import both_needed, without
 from rockref.discover.looking.look import POLISH, TOO_FAR, Look, duel, look_further
 from rockref.discover.looking.presearch import STRONG, suspects
 from rockref.discover.looking.two import leaves_too_much, settled_by_two
@@ -143,6 +144,8 @@ def diagnose(
     if len(start.effects) == 2 and (needless := [e for e in start.effects if size_of(start, e) < rules.LEAST_SIZE]):
         start = without(setup, start, needless[0])
         say(f"  without {needless[0]}: structured {structured(start):.3f}, room {room(start):.0f}")
+    if looks and len(start.effects) == 2 and looks[-1].kept.effects == start.effects[:1]:
+        start = both_needed(setup, start, seed, say)
     if looks and not looks[0].kept.effects:
         null = looks[0].kept
         if len(start.effects) == 2:
@@ -263,16 +266,6 @@ def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look]
     on_held = held_gains(held(alone), held(pair), rules.SHOWN)
     say(f"  {second}: the loss falls by {on_fitted:.3f}, held out by {' '.join(f'{g:.3f}' for g in on_held)}")
     return pair if rules.is_proven(on_fitted, on_held) else alone
-
-
-def without(setup: Setup, family: Family, effect: str) -> Family:
-    """A pair less the effect that came to nothing, fitted afresh; the pair itself, where that is much worse."""
-    left = tuple(e for e in family.effects if e != effect)
-    own = [
-        zi for p, zi in zip(family.fit.parameters, family.point.z, strict=True) if not p.name.startswith(effect + ".")
-    ]
-    single = Family(left, *baseline(setup, left, np.array(own)))
-    return single if mean_loss(single) < rules.NO_LOSS * mean_loss(family) else family
 
 
 def conclude(

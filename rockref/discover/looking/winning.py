@@ -26,8 +26,9 @@ BEHIND = 1.1
 #: core for the other rounds, and came down to 15).
 STILL_BEHIND = 1.03
 #: What a winner at its end may leave above the noise before its kin are tried in its place (decided: sides that were
-#: named for round feet left 221 twice, the feet themselves 45).
-UNSETTLED = 150.0
+#: named for round feet left 221 twice, the feet themselves 45), and what share of its gain (decided: kin came first
+#: where a winner had left 0.16 of it and more; where uneven feet left 0.06 and 0.08 they cost minutes for nothing).
+UNSETTLED, GOOD_PART = 150.0, 0.1
 #: Share of structured windows above which they are not: another effect is missing, and kin do not stand in for it any
 #: better (decided: of a loose part 0.20 and 0.15 stayed structured by a scale of 18 per cent and by an inertia beside
 #: it; their kin took ten minutes and changed nothing).
@@ -89,13 +90,20 @@ def to_the_end(setup: Setup, look: Look, winner: Family, second: bool, seed: int
     if structured(winner) > MISSING:
         rivals = []
     ended = ranked(look.kept, all_finished(setup, [winner, *rivals[:CONTENDERS]], seed), say)
-    if UNSETTLED < room(ended.order[0]) and structured(ended.order[0]) <= WITHOUT_KIN:
+    if may_stand_in(ended):
         ended = with_kin(setup, ended, seed, say)
     look.gains |= {id: max(gain, look.gains.get(id, -np.inf)) for id, gain in ended.gains.items()}
     left = [f for f in look.order if f.effects[-1] not in ended.gains]
     look.order = sorted([*ended.order, *left], key=lambda f: -look.gains[f.effects[-1]])
     effects = [f for f in ended.order if rules.is_detected(look.gains[f.effects[-1]], size_of(f), second)]
     return next(iter(effects), ended.order[0])
+
+
+def may_stand_in(ended: Look) -> bool:
+    """Whether the first of the families at their ends may stand in for one of its kin: it leaves a good part."""
+    best = ended.order[0]
+    least = max(UNSETTLED, GOOD_PART * ended.gains[best.effects[-1]])
+    return room(best) > least and structured(best) <= WITHOUT_KIN
 
 
 def with_kin(setup: Setup, ended: Look, seed: int, say: Callable[[str], None]) -> Look:

@@ -6,27 +6,12 @@ import numpy as np
 import pytest
 
 from rockref.discover import diagnose
-from rockref.discover.diagnose import beginning, ranked_by, without
+from rockref.discover.diagnose import beginning, ranked_by
 from rockref.discover.fit.evidence import Losses
 from rockref.discover.looking import two
 from rockref.discover.looking.look import Look
 from rockref.effects import catalogue
 from tests.unit.discover.bowls import WINDOWS, Bowl, family, series
-
-
-@pytest.mark.parametrize("floor, left", [(1.0, ("quadratic_drag",)), (1.2, ("rolling_resistance", "quadratic_drag"))])
-def test_a_pair_loses_the_effect_that_came_to_nothing_unless_the_fit_suffers(monkeypatch, floor, left):
-    pair = family(("rolling_resistance", "quadratic_drag"), Bowl(np.array([0.1, 0.0, 1.0])), [0.1, 0.05, 1.0])
-    single = Bowl(np.array([0.1, 1.0]), floor=floor)
-    asked = []
-
-    def baseline(setup, effects, z):
-        asked.append((effects, tuple(z)))
-        return single, single.point(z, np.zeros((WINDOWS, 5)))[0]
-
-    monkeypatch.setattr(diagnose, "baseline", baseline)
-    assert without(None, pair, "rolling_resistance").effects == left
-    assert asked == [(("quadratic_drag",), (0.1, 1.0))]
 
 
 @pytest.mark.parametrize(
@@ -220,6 +205,7 @@ def whole(monkeypatch):
         monkeypatch.setattr(diagnose, "grown", lambda setup, begun, seed, say: (start or begun, looks))
         monkeypatch.setattr(diagnose, "finished", noted("finished", lambda setup, f, seed: f))
         monkeypatch.setattr(diagnose, "without", noted("without", lambda setup, f, effect: left((effect,), 0.1)))
+        monkeypatch.setattr(diagnose, "both_needed", noted("both needed", lambda setup, pair, *a: pair))
         monkeypatch.setattr(diagnose, "exchanged", noted("exchanged", lambda setup, look, pair, *a: pair))
         monkeypatch.setattr(diagnose, "refit", noted("refit", lambda f, iterations, seed: left((), 0.05)))
         monkeypatch.setattr(diagnose, "conclude", lambda setup, held, null, final, *a: (null, final))
@@ -243,6 +229,11 @@ def test_of_a_pair_what_came_to_nothing_is_left_out_and_a_rival_of_the_first_is_
     pair = left(BOTH, 0.0)
     null, final, done = whole(pair, looks)
     assert null is kept and final is pair and done == ["exchanged"]
+    # Both were found on top of each other: what the second explains the first may have stood in for.
+    assert whole(pair, [Look(kept, [], {}), Look(left(LEVER, 0.3), [], {"quadratic_drag": 5e3})])[2] == [
+        "both needed",
+        "exchanged",
+    ]
     pair = left(BOTH, 0.0)
     pair.point.z[2] = 0.01
     _, final, done = whole(pair, looks)

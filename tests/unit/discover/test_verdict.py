@@ -28,6 +28,18 @@ def test_two_effects_are_a_pair():
     assert found.verdict == "pair" and set(found.effects) == {"quadratic_drag", "gyro_scale"}
 
 
+@pytest.mark.parametrize(
+    "gain, left, verdict",
+    [(2350.0, 1251.0, "something_else"), (2350.0, 930.0, "class"), (860.0, 440.0, "class")],
+)
+def test_what_explains_alike_and_leaves_a_good_part_explains_a_part_of_something_else(gain, left, verdict):
+    """A magnet at the release looked in part like a scale, and in part like sides."""
+    effects = ("gyro_scale", "dimension_deviation")
+    found = decide(replace(facts(effects[:1], {effects[0]: gain, effects[1]: gain - 20.0}), room=left))
+    assert found.verdict == verdict and found.effects == (effects if verdict == "class" else ())
+    assert all(e in found.sentence for e in effects)
+
+
 def test_near_rival_makes_a_class_of_at_most_three():
     gains = {"quadratic_drag": 3000.0} | {id: 2990.0 for id in ("rolling_resistance", "cable_restraint", "adhesion")}
     found = decide(facts(gains=gains))

@@ -202,6 +202,14 @@ def test_a_plain_gain_needs_no_challenge(monkeypatch):
     assert upheld(look, winner, False, 0, quiet) is winner
 
 
+@pytest.mark.parametrize("gain, left, tried", [(1000.0, 160.0, True), (1000.0, 140.0, False), (2500.0, 200.0, False)])
+def test_a_winner_that_leaves_little_of_what_it_gains_stands_in_for_nobody(gain, left, tried):
+    at = np.array([0.0, 0.5])
+    per_unit = 2 / float(np.sum(Bowl(at).series.count))
+    winner = family(ROLLING, Bowl(at, floor=rules.NOISE + left * per_unit), at)
+    assert winning.may_stand_in(Look(winner, [winner], {"rolling_resistance": gain})) is tried
+
+
 def test_a_winner_whose_kin_were_all_tried_stays_as_it_is(monkeypatch):
     monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (GyroScale,))
     monkeypatch.setattr(winning, "in_the_valley_of", lambda *a: pytest.fail("tried again"))

@@ -1,0 +1,44 @@
+"""What of a pair is needed, on bowls in place of fits."""
+
+import numpy as np
+import pytest
+
+from rockref.discover import verdict as rules
+from rockref.discover.fit.families import gain_over
+from rockref.discover.looking import fewer
+from rockref.discover.looking.fewer import both_needed, without
+from tests.unit.discover.bowls import WINDOWS, Bowl, family
+
+BOTH = ("rolling_resistance", "quadratic_drag")
+
+
+@pytest.mark.parametrize("floor, left", [(1.0, ("quadratic_drag",)), (1.2, ("rolling_resistance", "quadratic_drag"))])
+def test_a_pair_loses_the_effect_that_came_to_nothing_unless_the_fit_suffers(monkeypatch, floor, left):
+    pair = family(("rolling_resistance", "quadratic_drag"), Bowl(np.array([0.1, 0.0, 1.0])), [0.1, 0.05, 1.0])
+    single = Bowl(np.array([0.1, 1.0]), floor=floor)
+    asked = []
+
+    def baseline(setup, effects, z):
+        asked.append((effects, tuple(z)))
+        return single, single.point(z, np.zeros((WINDOWS, 5)))[0]
+
+    monkeypatch.setattr(fewer, "baseline", baseline)
+    assert without(None, pair, "rolling_resistance").effects == left
+    assert asked == [(("quadratic_drag",), (0.1, 1.0))]
+
+
+@pytest.mark.parametrize("share, left", [(0.9, ("quadratic_drag",)), (1.1, BOTH)])
+def test_the_first_of_a_pair_has_to_gain_beside_the_second_what_a_second_has_to(monkeypatch, share, left):
+    """Evenly softer feet were found first, where a contact stiffened; beside it they gained nothing."""
+    pair = family(BOTH, Bowl(np.array([0.1, 0.4, 1.0])), [0.1, 0.4, 1.0])
+    per_unit = 2 / float(np.sum(pair.fit.series.count))
+    single = Bowl(np.array([0.1, 1.0]), floor=1.0 + share * rules.SECOND * per_unit)
+    monkeypatch.setattr(
+        fewer, "baseline", lambda setup, effects, z: (single, single.point(z, np.zeros((WINDOWS, 5)))[0])
+    )
+    monkeypatch.setattr(fewer, "finished", lambda setup, found, seed: found)
+    said = []
+    found = both_needed(None, pair, 0, said.append)
+    assert found.effects == left and (found is pair) == (left == BOTH)
+    alone = fewer.less(None, pair, "rolling_resistance")
+    assert gain_over(alone, pair) == pytest.approx(share * rules.SECOND) and "rolling_resistance beside" in said[0]
