@@ -31,8 +31,8 @@ SECOND_ROOM = 170.0
 #: (decided: two that were there showed 0.75 and 0.88 of it; a window that another effect should explain has 1 to 1.5).
 PROOF, SHOWN = 0.5, 1.5
 #: Effects that explain alike, each far more than the noise, and leave more than this part of what they gain explain a
-#: part of something else. Decided: of eight classes of fresh cases those that held the truth left 138 units at most; two
-#: of a scale and sides, where a magnet pulled at the release, gained 2048 and 2353 and left 0.48 and 0.53 of that. What
+#: part of something else. Decided: of eight classes of fresh cases those that held the truth left up to 138 units; two
+#: of a scale and sides, where a magnet pulled at the release, gained 2048 and 2353 and left 0.48 and 0.53 of it. What
 #: gains less may have stopped in a side valley (feet gained 462 on a control, and left 1024).
 PART_OF_IT = 0.4
 #: If more than this is left, and more than the last effect gained, it is not the cause (decided: an inertia that stood

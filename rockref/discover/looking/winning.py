@@ -27,7 +27,7 @@ BEHIND = 1.1
 STILL_BEHIND = 1.03
 #: What a winner at its end may leave above the noise before its kin are tried in its place (decided: sides that were
 #: named for round feet left 221 twice, the feet themselves 45), and what share of its gain (decided: kin came first
-#: where a winner had left 0.16 of it and more; where uneven feet left 0.06 and 0.08 they cost minutes for nothing).
+#: where a winner had left 0.16 of it and more; where uneven feet left 0.06 and 0.08 they were tried for nothing).
 UNSETTLED, GOOD_PART = 150.0, 0.1
 #: Share of structured windows above which they are not: another effect is missing, and kin do not stand in for it any
 #: better (decided: of a loose part 0.20 and 0.15 stayed structured by a scale of 18 per cent and by an inertia beside
