@@ -7,6 +7,7 @@ import pytest
 
 from rockref import Model, cli
 from rockref.discover import fitting
+from rockref.model.errors import InputError
 from tests.unit.discover import fakes
 
 
@@ -44,7 +45,7 @@ def test_json_has_no_number_that_json_has_not(capsys, monkeypatch, tmp_path):
 
 
 def test_unknown_effect_is_named(capsys, tmp_path):
-    with pytest.raises(fitting.InputError, match="quadratic_drag"):
+    with pytest.raises(InputError, match="quadratic_drag"):
         fitting.known_effects(("quadratic_dra",))
     code, _, err = run(capsys, tmp_path / "nowhere", "-o", tmp_path / "m.toml")
     assert code == 2 and "[E-FOLDER]" in err and not (tmp_path / "m.toml").exists()
