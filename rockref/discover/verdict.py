@@ -59,7 +59,8 @@ FAR_FETCHED = 4.0
 #: by more than that, up to this many units (decided: half a typical drag, stopped in a side valley, was left 110 behind
 #: a cable by which 200 remained; of thirteen single effects that left no window structured eleven ended below 300).
 UNFINISHED = 300.0
-#: Gain above which an effect that leaves nothing above the noise is compared with its rivals where it ended alone.
+#: Gain above which an effect that leaves nothing above the noise is compared with its rivals where it ended alone, and
+#: above which those that explain alike may explain a part of something else (PART_OF_IT).
 #: Decided: below it that is not enough. A trifle of a scale gained 453 units, and round feet of half the typical size,
 #: which were the cause, 283 where it had ended; fitted from nominal parameters they gain 408, 260 below the noise.
 WELL_ABOVE_NOISE = 1000.0
@@ -216,11 +217,9 @@ def decide(facts: Facts) -> Decision:
         )  # fmt: skip
     if facts.bad > UNEXPLAINED:
         near = ", ".join(facts.effects) or max(facts.gains, key=lambda k: facts.gains[k], default="none")
-        return Decision(
-            "something_else", (),
-            f"Something moves the block that is not in the catalogue: {facts.bad:.0%} of the windows stay structured "
-            f"after the best fit (nearest candidate: {near}).",
-        )  # fmt: skip
+        return something_else(
+            f"{facts.bad:.0%} of the windows stay structured after the best fit (nearest candidate: {near})."
+        )
     proof = np.mean(facts.held_gain) if facts.held_gain else 0.0
     unproven = "the held-out runs show nothing of it" if facts.held_gain else "no run was held out to show it"
     now_and_then = facts.loud[0] >= LOUD_FITTED and facts.loud[1] >= LOUD_HELD
@@ -233,11 +232,10 @@ def decide(facts: Facts) -> Decision:
     if not facts.effects:
         return Decision("none", (), "No effect is missing that these runs could show.")
     if facts.off > BELIEVED and not facts.agree:
-        return Decision(
-            "something_else", (),
-            f"Something moves the block that is not in the catalogue: {' and '.join(facts.effects)} would explain it "
-            f"only with a number {facts.off:.1f} prior deviations off what is expected, and the runs disagree on it.",
-        )  # fmt: skip
+        return something_else(
+            f"{' and '.join(facts.effects)} would explain it only with a number {facts.off:.1f} prior deviations off "
+            f"what is expected, and the runs disagree on it."
+        )
     if facts.odds > AT_ODDS and facts.bad < CALM and len(facts.effects) == 1:
         return Decision(
             "something_else", (),
@@ -250,11 +248,9 @@ def decide(facts: Facts) -> Decision:
     best = facts.gains.get(name, np.inf)
     apart = min(max(CLOSE, facts.room), UNFINISHED)
     if is_not_it(best, facts.room):
-        return Decision(
-            "something_else", (),
-            f"Something moves the block that is not in the catalogue: the nearest candidate, {name}, gains {best:.0f} "
-            f"units, and {facts.room:.0f} are left above the noise.",
-        )  # fmt: skip
+        return something_else(
+            f"the nearest candidate, {name}, gains {best:.0f} units, and {facts.room:.0f} are left above the noise."
+        )
     # Decided: of 38 blind verdicts that held a name one left more than it gained and showed nothing, a control's.
     if facts.room > best and proof < HELD_OUT:
         return Decision(
@@ -268,11 +264,10 @@ def decide(facts: Facts) -> Decision:
     if rivals:
         members = (name, *sorted(rivals, key=lambda id: -facts.gains[id]))[:3]
         if is_part_of_it(best, facts.room):
-            return Decision(
-                "something_else", (),
-                f"Something moves the block that is not in the catalogue: {', '.join(members)} explain alike a part of "
-                f"it ({best:.0f} units), and {facts.room:.0f} are left above the noise.",
-            )  # fmt: skip
+            return something_else(
+                f"{', '.join(members)} explain alike a part of it ({best:.0f} units), and {facts.room:.0f} are left "
+                f"above the noise."
+            )
         said = f"One of these is missing, and these runs cannot say which: {', '.join(members)}."
         return Decision("class", members, said + stuck(best, facts.room))
     if proof < -HELD_OUT:
@@ -280,6 +275,11 @@ def decide(facts: Facts) -> Decision:
     if proof < HELD_OUT:
         return Decision("indicated", (name,), f"{name} is indicated by the fitted runs; {unproven}.")
     return Decision("named", (name,), f"{name} is missing: the error falls on fitted and held-out runs.")
+
+
+def something_else(why: str) -> Decision:
+    """The verdict that nothing of the catalogue is the cause, and why."""
+    return Decision("something_else", (), f"Something moves the block that is not in the catalogue: {why}")
 
 
 def stuck(gain: float, left: float) -> str:

@@ -1,4 +1,4 @@
-"""An experiment as fits see it: opened once, refused at once where it cannot be used."""
+"""An experiment as fits see it, refused at once where any of it cannot be used."""
 
 from __future__ import annotations
 
