@@ -144,7 +144,7 @@ def diagnose(
     if len(start.effects) == 2 and (needless := [e for e in start.effects if size_of(start, e) < rules.LEAST_SIZE]):
         start = without(setup, start, needless[0])
         say(f"  without {needless[0]}: structured {structured(start):.3f}, room {room(start):.0f}")
-    if looks and len(start.effects) == 2 and looks[-1].kept.effects == start.effects[:1]:
+    elif looks and len(start.effects) == 2 and looks[-1].kept.effects == start.effects[:1]:
         start = both_needed(setup, start, seed, say)
     if looks and not looks[0].kept.effects:
         null = looks[0].kept
