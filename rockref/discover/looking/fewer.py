@@ -9,7 +9,7 @@ import numpy as np
 from rockref.discover import verdict as rules
 from rockref.discover.fit.families import Family, gain_between, mean_loss
 from rockref.discover.fit.search import Setup, baseline
-from rockref.discover.looking.winning import finished
+from rockref.discover.looking.winning import finished, polished
 
 
 def without(setup: Setup, family: Family, effect: str) -> Family:
@@ -19,15 +19,27 @@ def without(setup: Setup, family: Family, effect: str) -> Family:
 
 
 def both_needed(setup: Setup, pair: Family, seed: int, say: Callable[[str], None]) -> Family:
-    """A pair, or its second effect alone, where the first does not gain beside it what a second has to.
+    """A pair, or one of its effects alone, where the other does not gain beside it what a second has to.
 
-    What is found last may explain what the first had stood in for: evenly softer feet, for a contact that stiffens.
+    Without the second, the first begins where the pair ended: what leads out of the side valley where the first had
+    stopped need not be there (sides, feet and a centre of mass did so alike, where a gyroscope clipped). Without the
+    first, the second is fitted afresh: what is found last may explain what the first had stood in for (evenly softer
+    feet, for a contact that stiffens).
     """
     first, second = pair.effects
-    single = less(setup, pair, first)
-    gain = gain_between(single, pair)
-    say(f"  {first} beside {second}: gain {gain:.0f}")
-    return pair if gain > rules.SECOND else finished(setup, single, seed)
+    for needed, rest in ((second, first_alone(setup, pair, seed)), (first, less(setup, pair, first))):
+        gain = gain_between(rest, pair)
+        say(f"  {needed} beside {rest.effects[0]}: gain {gain:.0f}")
+        if gain <= rules.SECOND:
+            return finished(setup, rest, seed)
+    return pair
+
+
+def first_alone(setup: Setup, pair: Family, seed: int) -> Family:
+    """The first effect of a pair, begun where the pair ended."""
+    fit = setup.fit(pair.fit.series.twin(), pair.effects[:1])
+    point, _ = fit.point(pair.point.z[: len(fit.parameters)], pair.point.corrections)
+    return polished(setup, Family(pair.effects[:1], fit, point), seed)
 
 
 def less(setup: Setup, family: Family, effect: str) -> Family:

@@ -22,7 +22,9 @@ def series(shift: int = 0):
     cuts[1:-1] += shift
     length = np.diff(cuts)
     count, run_of = 3 * (length - 4), np.zeros(WINDOWS)
-    return SimpleNamespace(start=cuts[:-1], stop=cuts[1:], length=length, count=count, run_of=run_of, rate=1000.0)
+    found = SimpleNamespace(start=cuts[:-1], stop=cuts[1:], length=length, count=count, run_of=run_of, rate=1000.0)
+    found.twin = lambda: found
+    return found
 
 
 @dataclass

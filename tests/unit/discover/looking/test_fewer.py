@@ -1,5 +1,7 @@
 """What of a pair is needed, on bowls in place of fits."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -33,6 +35,7 @@ def test_the_first_of_a_pair_has_to_gain_beside_the_second_what_a_second_has_to(
     pair = family(BOTH, Bowl(np.array([0.1, 0.4, 1.0])), [0.1, 0.4, 1.0])
     per_unit = 2 / float(np.sum(pair.fit.series.count))
     single = Bowl(np.array([0.1, 1.0]), floor=1.0 + share * rules.SECOND * per_unit)
+    monkeypatch.setattr(fewer, "first_alone", lambda setup, found, seed: alone_with(BOTH[:1], 2.0))
     monkeypatch.setattr(
         fewer, "baseline", lambda setup, effects, z: (single, single.point(z, np.zeros((WINDOWS, 5)))[0])
     )
@@ -41,4 +44,25 @@ def test_the_first_of_a_pair_has_to_gain_beside_the_second_what_a_second_has_to(
     found = both_needed(None, pair, 0, said.append)
     assert found.effects == left and (found is pair) == (left == BOTH)
     alone = fewer.less(None, pair, "rolling_resistance")
-    assert gain_over(alone, pair) == pytest.approx(share * rules.SECOND) and "rolling_resistance beside" in said[0]
+    assert gain_over(alone, pair) == pytest.approx(share * rules.SECOND) and "rolling_resistance beside" in said[1]
+
+
+@pytest.mark.parametrize("share, left", [(0.9, BOTH[:1]), (1.1, BOTH)])
+def test_the_second_of_a_pair_has_to_gain_over_the_first_begun_where_the_pair_ended(monkeypatch, share, left):
+    """Sides, feet and a centre of mass led out of one side valley alike; none of them was there."""
+    pair = family(BOTH, Bowl(np.array([0.1, 0.4, 1.0])), [0.1, 0.4, 1.0])
+    per_unit = 2 / float(np.sum(pair.fit.series.count))
+    single = Bowl(np.array([0.1, 0.4]), floor=1.0 + share * rules.SECOND * per_unit)
+    setup = SimpleNamespace(log=None, fit=lambda series, effects: single)
+    alone = fewer.first_alone(setup, pair, 0)
+    assert alone.effects == BOTH[:1] and tuple(alone.point.z) == (0.1, 0.4)
+    assert gain_over(alone, pair) == pytest.approx(share * rules.SECOND)
+    monkeypatch.setattr(fewer, "less", lambda setup, found, effect: alone_with(BOTH[1:], 2.0))
+    monkeypatch.setattr(fewer, "finished", lambda setup, found, seed: found)
+    said = []
+    found = both_needed(setup, pair, 0, said.append)
+    assert found.effects == left and (found is pair) == (left == BOTH) and "quadratic_drag beside" in said[0]
+
+
+def alone_with(effects, floor):
+    return family(effects, Bowl(np.array([0.1, 1.0]), floor=floor), [0.1, 1.0])
