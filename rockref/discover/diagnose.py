@@ -218,6 +218,8 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
         wider = look.order[0] if look.in_full else duel(setup, look, say)
         found = upheld(look, wider, second, seed, say)
         if found is None:
+            # The family may have been begun anew where a rival ended, and be better there.
+            start = min(start, look.kept, key=mean_loss) if second else start
             break
         alone = not second and leaves_too_much(look, found)
         if alone and (pair := settled_by_two(setup, look, found, seed, say)) is not None:

@@ -27,7 +27,8 @@ def both_needed(setup: Setup, pair: Family, seed: int, say: Callable[[str], None
     feet, for a contact that stiffens).
     """
     first, second = pair.effects
-    for needed, rest in ((second, first_alone(setup, pair, seed)), (first, less(setup, pair, first))):
+    for needed, alone in ((second, lambda: first_alone(setup, pair, seed)), (first, lambda: less(setup, pair, first))):
+        rest = alone()
         gain = gain_between(rest, pair)
         say(f"  {needed} beside {rest.effects[0]}: gain {gain:.0f}")
         if gain <= rules.SECOND:

@@ -134,6 +134,20 @@ def test_a_winner_that_is_not_upheld_is_no_effect(course):
     assert grow(course, (left(("adhesion",), 0.0), 5000.0, True)) == ((), 1, 0)
 
 
+def test_a_first_effect_that_was_begun_anew_stays_where_that_led(course, monkeypatch):
+    """A rival that was a trifle led out of a side valley, and the first effect alone is as good there."""
+    side, better = left(LEVER, 0.28, room=0.3), left(LEVER, 0.0)
+
+    def upheld(look, wider, second, *_):
+        if second:
+            look.kept = better
+        return None if second else wider
+
+    monkeypatch.setattr(diagnose, "upheld", upheld)
+    course.looks = [(side, 5000.0, True), (left(BOTH, 0.0), 2000.0, True)]
+    assert diagnose.grown(None, left((), 0.9), 0, lambda line: None)[0] is better
+
+
 @pytest.mark.parametrize("rest, grown", [(0.0, BOTH), (0.15, LEVER)])
 def test_a_second_effect_has_to_settle_what_the_first_left(course, rest, grown):
     first = left(LEVER, 0.18, room=0.3)

@@ -202,6 +202,24 @@ def test_a_plain_gain_needs_no_challenge(monkeypatch):
     assert upheld(look, winner, False, 0, quiet) is winner
 
 
+@pytest.mark.parametrize("size, behind, first", [(0.0, 0.99, ["quadratic_drag"]), (0.0, 0.9, []), (0.3, 0.99, [])])
+def test_a_trifle_that_does_as_well_as_a_plain_winner_is_challenged(monkeypatch, size, behind, first):
+    """Round feet of no radius did what an eccentric mass did: neither was needed where they had ended."""
+    challenged = []
+
+    def challenge(look, wider, seed):
+        challenged.append(wider.effects[-1])
+        look.gains = {id: gain - 2 * winning.PLAIN for id, gain in look.gains.items()}
+
+    monkeypatch.setattr(winning, "challenge", challenge)
+    kept = family((), Bowl(np.zeros(1), floor=1.2), np.zeros(1))
+    winner = family(ROLLING, Bowl(np.array([0.0, 0.5])), np.array([0.0, 0.5]))
+    rival = family(DRAG, Bowl(np.array([0.0, 0.0, size])), np.array([0.0, 0.0, size]))
+    gains = {"rolling_resistance": 2 * winning.PLAIN, "quadratic_drag": 2 * winning.PLAIN * behind}
+    found = upheld(Look(kept, [winner, rival], gains), winner, False, 0, quiet)
+    assert challenged[:1] == first and found is (None if first else winner)
+
+
 @pytest.mark.parametrize("gain, left, tried", [(1000.0, 160.0, True), (1000.0, 140.0, False), (2500.0, 200.0, False)])
 def test_a_winner_that_leaves_little_of_what_it_gains_stands_in_for_nobody(gain, left, tried):
     at = np.array([0.0, 0.5])
