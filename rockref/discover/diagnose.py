@@ -310,6 +310,8 @@ def conclude(
     shown = final if kept else null
     had = (*shown.effects, *(e.id for e in setup.base.active_effects()))
     limits, confusion = seen_by(setup, shown.fit, shown.point, had)
+    if decision.verdict == "none":
+        decision.sentence += rules.unseen(limits)
     checks = checks if shown is final else checked(shown)
     return Diagnosis(
         experiment=experiment,

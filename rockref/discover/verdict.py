@@ -304,6 +304,21 @@ def left_over(gains: dict[str, float], left: float) -> str:
     return f" A second effect is not proven, but {what}."
 
 
+def least_seen(limits: dict[str, dict[str, Any]]) -> dict[str, float]:
+    """The least size, in typical sizes, at which each effect would be seen, from the limits of its parameters."""
+    least: dict[str, float] = {}
+    for name, limit in limits.items():
+        effect, size = name.split(".")[0], float(limit["in_typical_sizes"])
+        least[effect] = min(least.get(effect, np.inf), size)
+    return least
+
+
+def unseen(limits: dict[str, dict[str, Any]]) -> str:
+    """A sentence on the effects that could be there at their typical size and not be seen, or ""."""
+    could = [f"{id} (seen from {size:.1f} times it on)" for id, size in least_seen(limits).items() if size > 1]
+    return f" At its typical size these could be there unseen: {', '.join(could)}." if could else ""
+
+
 def ranking(gains: dict[str, float]) -> list[dict[str, Any]]:
     """Candidates by gain, with the gain as a number of standard deviations and a weight."""
     all_gains = {id: float(gain) for id, gain in gains.items()}

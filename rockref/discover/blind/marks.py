@@ -47,6 +47,7 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
         found["first"] = held and said[0] == true[0]
         found["named"] = word == "named" and said == true
         found["as_class"] = word == "class" and held
+        found["below_limit"] = word == "none" and is_below_limit(truth["effects"][0], verdict)
     elif kind == PAIR:
         found["both"] = word == "pair" and set(said) == set(true)
         found["one"] = word in CLAIMS and bool(set(said) & set(true))
@@ -58,6 +59,13 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
     if kind in (SINGLE, PAIR):
         found["gap_closed"] = gap_closed(verdict.get("error") or {})
     return found
+
+
+def is_below_limit(effect: dict[str, Any], verdict: dict[str, Any]) -> bool:
+    """Whether a verdict states, in its detection limits, that an effect of this size could be there unseen."""
+    limits = verdict.get("detection_limits") or {}
+    sizes = [row["in_typical_sizes"] for name, row in limits.items() if name.split(".")[0] == effect["id"]]
+    return bool(effect["size"] < min(sizes, default=0.0))
 
 
 def on_card(effects: list[dict[str, Any]], signature: dict[str, Any]) -> bool:

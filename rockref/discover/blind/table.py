@@ -21,6 +21,9 @@ def scores(marks: Marks) -> list[dict[str, Any]]:
         _share("controls: an effect named", (m["false_name"] for m in of[CONTROL]), most=0.0),
         _share("single: truth first", (m["first"] for m in single), least=0.97),
         _share("single: truth in a class of at most three", (m["in_class"] for m in single), least=1.0),
+        _share(
+            "single: truth first, or none and stated as too small", (m["first"] or m["below_limit"] for m in single)
+        ),
         _share("single: named", (m["named"] for m in single)),
     ]
     for size in SIZES:

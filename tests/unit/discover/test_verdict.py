@@ -250,3 +250,10 @@ def test_a_small_second_effect_has_to_take_a_part_of_what_was_left():
 def test_what_a_second_effect_would_take_up_is_said_where_it_is_much(gains, left, said):
     sentence = rules.left_over(gains, left)
     assert said in sentence and bool(sentence) == bool(said)
+
+
+def test_what_could_be_there_unseen_is_said_with_its_least_size():
+    limits = {"a.x": {"in_typical_sizes": 2.5}, "a.y": {"in_typical_sizes": 1.3}, "b.k": {"in_typical_sizes": 0.9}}
+    assert rules.least_seen(limits) == {"a": 1.3, "b": 0.9}
+    assert "a (seen from 1.3 times it on)." in rules.unseen(limits) and "b" not in rules.unseen(limits).split(":")[1]
+    assert rules.unseen({"b.k": {"in_typical_sizes": 0.9}}) == ""

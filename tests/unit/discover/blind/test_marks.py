@@ -53,6 +53,22 @@ def test_single_effects(verdict, first, in_class, wrong):
     assert (found["first"], found["in_class"], found["wrong_name"]) == (first, in_class, wrong)
 
 
+@pytest.mark.parametrize(
+    ("word", "least", "below"),
+    [
+        ("none", {"x": 1.8, "y": 1.2}, True),
+        ("none", {"x": 1.8, "y": 0.9}, False),
+        ("named", {"x": 1.8}, False),
+        ("none", {}, False),
+    ],
+)
+def test_nothing_found_where_the_verdict_states_that_it_could_be_unseen(word, least, below):
+    limits = {f"adhesion.{name}": {"in_typical_sizes": size} for name, size in least.items()}
+    limits |= {"clock_error.rate": {"in_typical_sizes": 0.2}}
+    found = mark(truth("single", "adhesion"), said(word, detection_limits=limits))
+    assert found["below_limit"] is below
+
+
 def test_twins_may_be_called_either_but_nothing_else():
     twin = truth("twin", "plate_tilt", twins=("plate_tilt", "mass_eccentricity"))
     found = mark(twin, said("class", "mass_eccentricity", "plate_tilt"))
