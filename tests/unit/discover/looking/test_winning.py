@@ -18,6 +18,7 @@ from rockref.discover.looking.winning import (
     to_the_end,
     upheld,
 )
+from rockref.effects.friction.rolling_resistance import RollingResistance
 from rockref.effects.loads.quadratic_drag import QuadraticDrag
 from rockref.effects.sensor.gyro_scale import GyroScale
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
@@ -129,6 +130,7 @@ def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left
         end = np.array([0.0, 0.0, 1.0])
         return [] if afresh_at is None else [family(DRAG, Bowl(end, floor=1.0 + afresh_at), end)]
 
+    monkeypatch.setattr(winning, "leaves_a_large_part", lambda ended: False)
     monkeypatch.setattr(winning, "own_z", lambda setup, effects: "absent")
     monkeypatch.setattr(winning, "fitted_anew", afresh)
     monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (QuadraticDrag, GyroScale))
@@ -226,6 +228,30 @@ def test_a_winner_that_leaves_little_of_what_it_gains_stands_in_for_nobody(gain,
     per_unit = 2 / float(np.sum(Bowl(at).series.count))
     winner = family(ROLLING, Bowl(at, floor=rules.NOISE + left * per_unit), at)
     assert winning.may_stand_in(Look(winner, [winner], {"rolling_resistance": gain})) is tried
+
+
+@pytest.mark.parametrize("second, part, best", [(False, 0.5, DRAG), (False, 0.2, ROLLING), (True, 0.5, ROLLING)])
+def test_where_a_first_effect_leaves_a_large_part_everyone_is_fitted_afresh(monkeypatch, second, part, best):
+    """Tilt and drift stood in for a centre of mass, which no look had fitted from nominal parameters."""
+    at, gain = np.array([0.0, 0.5]), 600.0
+    per_unit = 2 / float(np.sum(Bowl(at).series.count))
+    winner = family(ROLLING, Bowl(at, floor=rules.NOISE + part * gain * per_unit), at)
+    kept = family((), Bowl(np.zeros(1), floor=rules.NOISE + (1 + part) * gain * per_unit, stuck=True), np.zeros(1))
+    there = np.array([0.0, 0.0, 1.0])
+    asked = []
+
+    def afresh(setup, begun, over, say):
+        asked.extend(begun)
+        return [family(DRAG, Bowl(there, floor=rules.NOISE), there)]
+
+    monkeypatch.setattr(winning, "may_stand_in", lambda ended: False)
+    monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (QuadraticDrag, RollingResistance))
+    monkeypatch.setattr(winning, "own_z", lambda setup, effects: np.zeros(1))
+    monkeypatch.setattr(winning, "fitted_anew", afresh)
+    look = looked(kept, winner)
+    assert look.gains["rolling_resistance"] == pytest.approx(gain)
+    assert to_the_end(ALONE, look, winner, second, 0, quiet).effects == best
+    assert asked == ([DRAG] if best == DRAG else [])
 
 
 def test_a_winner_whose_kin_were_all_tried_stays_as_it_is(monkeypatch):
