@@ -34,7 +34,7 @@ from rockref.discover.fit.gates import Gate, gradient_small, off_bounds, runs_ag
 from rockref.discover.fit.information import information
 from rockref.discover.fit.search import FRESH, Setup, baseline
 from rockref.discover.looking.fewer import both_needed, without
-from rockref.discover.looking.look import POLISH, TOO_FAR, Look, duel, look_further, ranked
+from rockref.discover.looking.look import POLISH, TOO_FAR, Look, duel, look_further
 from rockref.discover.looking.presearch import STRONG, suspects
 from rockref.discover.looking.two import leaves_too_much, settled_by_two
 from rockref.discover.looking.winning import exchanged, finished, to_the_end, upheld
@@ -210,23 +210,16 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
     """Effects added one at a time, or two at once, as long as they are there, stand against their rivals, and settle
     what was left."""
     looks: list[Look] = []
-    left: dict[tuple[str, ...], Look] = {}  # by what had been found: looks whose family was better off elsewhere
     while len(start.effects) < rules.MOST_EFFECTS and (not start.effects or room(start) > rules.SECOND_ROOM):
         look, second = look_further(setup, start, seed, say), bool(start.effects)
-        if before := left.get(start.effects):
-            look = ranked(look.kept, [*look.order, *before.order], say, look.in_full)
-        looks[len(looks) - bool(before) :] = [look]
+        looks.append(look)
         if not look.order or not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
             break
-        wider, kept = look.order[0] if look.in_full else duel(setup, look, say), look.kept
+        wider = look.order[0] if look.in_full else duel(setup, look, say)
         found = upheld(look, wider, second, seed, say)
-        if before is None and gain_between(kept, look.kept) > rules.DETECTED:
-            # Where a rival ended the family does better by more than an effect has to gain: everyone begins there.
-            say(f"  once more from there: structured {structured(look.kept):.3f}, room {room(look.kept):.0f}")
-            left[start.effects] = look
-            start = look.kept
-            continue
         if found is None:
+            # The family may have been begun anew where a rival ended, and be better there.
+            start = min(start, look.kept, key=mean_loss) if second else start
             break
         alone = not second and leaves_too_much(look, found)
         if alone and (pair := settled_by_two(setup, look, found, seed, say)) is not None:

@@ -148,24 +148,6 @@ def test_a_first_effect_that_was_begun_anew_stays_where_that_led(course, monkeyp
     assert diagnose.grown(None, left((), 0.9), 0, lambda line: None)[0] is better
 
 
-def test_where_the_family_does_better_elsewhere_everyone_begins_there_once(course, monkeypatch):
-    """Drag led out of a side valley of the baseline; sides had not been tried from where that led."""
-    better, begun = left((), 0.5), []
-
-    def upheld(look, wider, *_):
-        begun.append(look)
-        if len(begun) == 1:
-            look.kept = better
-        return wider
-
-    monkeypatch.setattr(diagnose, "upheld", upheld)
-    lever, drag = left(LEVER, 0.0), left(("quadratic_drag",), 0.4)
-    course.looks = [(drag, 5000.0, True), (lever, 5000.0, True)]
-    start, looks = diagnose.grown(None, left((), 0.9), 0, lambda line: None)
-    assert start is lever and looks == begun[1:] and looks[0].kept is better
-    assert looks[0].order == [lever, drag], "who had led before is still there"
-
-
 @pytest.mark.parametrize("rest, grown", [(0.0, BOTH), (0.15, LEVER)])
 def test_a_second_effect_has_to_settle_what_the_first_left(course, rest, grown):
     first = left(LEVER, 0.18, room=0.3)
