@@ -96,11 +96,17 @@ def from_far(
 
 
 def fitted_anew(
-    setup: Setup, begun: dict, kept: Family, say: Callable[[str], None], sure: tuple[str, ...] = ()
+    setup: Setup,
+    begun: dict,
+    kept: Family,
+    say: Callable[[str], None],
+    sure: tuple[str, ...] = (),
+    patient: bool = True,
 ) -> list[Family]:
     """Sets of effects, each with the z of its last one, fitted from nominal parameters; who comes nearest, in full.
 
-    sure : the set that is fitted in full wherever it stands.
+    sure : the set that is fitted in full wherever it stands; patient : whether the next ones get their turn, too, where
+    none of the nearest arrives.
     """
 
     def look(own: Setup, effects: tuple[str, ...]) -> Family:
@@ -109,10 +115,12 @@ def fitted_anew(
         say(f"  from nominal: {effects[-1]} {mean_loss(family):.2f}")
         return family
 
-    return nearest_in_full(setup, side_by_side(setup, look, begun), kept, sure)
+    return nearest_in_full(setup, side_by_side(setup, look, begun), kept, sure, patient)
 
 
-def nearest_in_full(setup: Setup, looked: list[Family], kept: Family, sure: tuple[str, ...]) -> list[Family]:
+def nearest_in_full(
+    setup: Setup, looked: list[Family], kept: Family, sure: tuple[str, ...], patient: bool = True
+) -> list[Family]:
     """Of families on the short windows those that come nearest, and the set that is sure, through both stages.
 
     The nearest goes first. Once one that gains much leaves nothing those that follow begin where it ended: nobody can
@@ -131,7 +139,7 @@ def nearest_in_full(setup: Setup, looked: list[Family], kept: Family, sure: tupl
         nearest = min(ended, key=mean_loss)
         if leaves_nothing(nearest, kept):
             return [*ended, *in_the_valley_of(setup, nearest, [f.effects for f in ahead[len(ended) :]], kept)]
-    if nobody_arrives(nearest, kept):
+    if patient and nobody_arrives(nearest, kept):
         ended += side_by_side(setup, in_full, [f for f in near[FITTED:] if f.effects != sure])
     return ended
 

@@ -158,10 +158,11 @@ def leaves_a_large_part(ended: Look) -> bool:
 
 
 def with_everyone(setup: Setup, ended: Look, seed: int, say: Callable[[str], None]) -> Look:
-    """The families at their ends, and every other candidate, fitted afresh."""
+    """The families at their ends, and every other candidate, looked at afresh; the nearest of them in full."""
     offered = [kind.id for kind in candidates_beside(setup, ended.kept.effects)]
     others = [(*ended.kept.effects, id) for id in offered if id not in ended.gains]
-    tried = fitted_anew(setup, {effects: own_z(setup, effects) for effects in others}, ended.kept, say)
+    begun = {effects: own_z(setup, effects) for effects in others}
+    tried = fitted_anew(setup, begun, ended.kept, say, patient=False)
     return taken_in(setup, ended, tried, seed, say)
 
 

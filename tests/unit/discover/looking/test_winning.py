@@ -240,7 +240,7 @@ def test_where_a_first_effect_leaves_a_large_part_everyone_is_fitted_afresh(monk
     there = np.array([0.0, 0.0, 1.0])
     asked = []
 
-    def afresh(setup, begun, over, say):
+    def afresh(setup, begun, over, say, patient):
         asked.extend(begun)
         return [family(DRAG, Bowl(there, floor=rules.NOISE), there)]
 
