@@ -30,6 +30,19 @@ def test_two_effects_are_a_pair():
 
 @pytest.mark.parametrize(
     "gain, left, verdict",
+    [(1450.0, 589.0, "something_else"), (2253.0, 273.0, "pair"), (277.0, 208.0, "pair")],
+)
+def test_two_effects_that_leave_a_good_part_of_what_the_second_gains_explain_a_part_of_something_else(
+    gain, left, verdict
+):
+    """A magnet at the release looked in part like other sides, and for the rest like an inertia."""
+    effects = ("dimension_deviation", "inertia_deviation")
+    found = decide(replace(facts(effects, {effects[1]: gain}), room=left))
+    assert found.verdict == verdict and found.effects == (effects if verdict == "pair" else ())
+
+
+@pytest.mark.parametrize(
+    "gain, left, verdict",
     [(2350.0, 1251.0, "something_else"), (2350.0, 930.0, "class"), (860.0, 440.0, "class")],
 )
 def test_what_explains_alike_and_leaves_a_good_part_explains_a_part_of_something_else(gain, left, verdict):
