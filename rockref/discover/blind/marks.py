@@ -6,6 +6,7 @@ from typing import Any
 
 from rockref.discover.blind.plan import CONTROL, OUTSIDER, PAIR, SINGLE, TWIN
 from rockref.discover.blind.sizes import covered, size_error, stated
+from rockref.discover.verdict import least_seen
 
 #: Verdicts that say of one or two effects that they are there.
 NAMING = ("named", "pair")
@@ -63,9 +64,7 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
 
 def is_below_limit(effect: dict[str, Any], verdict: dict[str, Any]) -> bool:
     """Whether a verdict states, in its detection limits, that an effect of this size could be there unseen."""
-    limits = verdict.get("detection_limits") or {}
-    sizes = [row["in_typical_sizes"] for name, row in limits.items() if name.split(".")[0] == effect["id"]]
-    return bool(effect["size"] < min(sizes, default=0.0))
+    return bool(effect["size"] < least_seen(verdict.get("detection_limits") or {}).get(effect["id"], 0.0))
 
 
 def on_card(effects: list[dict[str, Any]], signature: dict[str, Any]) -> bool:

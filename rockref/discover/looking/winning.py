@@ -33,8 +33,6 @@ UNSETTLED, GOOD_PART = 150.0, 0.1
 #: better (decided: of a loose part 0.20 and 0.15 stayed structured by a scale of 18 per cent and by an inertia beside
 #: it; their kin took ten minutes and changed nothing).
 WITHOUT_KIN = 0.1
-
-
 #: What a first effect may leave above the noise, and what share of its gain, before everyone else is fitted afresh.
 #: Decided: of 114 verdicts on fresh cases four were beyond both and had few windows structured, two magnets, which are
 #: in no list, and two classes without the truth, which had not been looked at afresh (a centre of mass gained 1212 so,
@@ -69,9 +67,10 @@ def as_good_a_trifle(look: Look) -> Family | None:
     What so little of an effect does the family without it may do as well, where that one ended: beside a gyroscope that
     clips, round feet of no radius gained 3516 units, sides 3521, and an eccentric mass, that got the name, 3472.
     """
-    least = rules.told_apart(max(look.gains.values()))
-    smallest = min((f for f in look.order if look.gains[f.effects[-1]] > least), key=size_of)
-    return smallest if size_of(smallest) < rules.LEAST_SIZE else None
+    gains = [look.gains[f.effects[-1]] for f in look.order]
+    least = rules.told_apart(max(gains))
+    trifles = [f for f, gain in zip(look.order, gains, strict=True) if gain > least and size_of(f) < rules.LEAST_SIZE]
+    return min(trifles, key=size_of, default=None)
 
 
 def finished(setup: Setup, family: Family, seed: int) -> Family:

@@ -222,6 +222,13 @@ def test_a_trifle_that_does_as_well_as_a_plain_winner_is_challenged(monkeypatch,
     assert challenged[:1] == first and found is (None if first else winner)
 
 
+def test_where_a_duel_left_nobody_any_gain_nothing_is_upheld():
+    kept = family((), Bowl(np.zeros(1), floor=1.2, stuck=True), np.zeros(1))
+    none = family(ROLLING, Bowl(np.array([0.0, 0.0]), floor=1.2, stuck=True), np.array([0.0, 0.0]))
+    look = Look(kept, [none], {"rolling_resistance": 0.0})
+    assert upheld(look, none, False, 0, quiet) is None
+
+
 @pytest.mark.parametrize("gain, left, tried", [(1000.0, 160.0, True), (1000.0, 140.0, False), (2500.0, 200.0, False)])
 def test_a_winner_that_leaves_little_of_what_it_gains_stands_in_for_nobody(gain, left, tried):
     at = np.array([0.0, 0.5])
