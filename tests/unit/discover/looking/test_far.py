@@ -164,8 +164,6 @@ def test_where_no_look_leads_anywhere_one_is_fitted_in_full(stages, losses, fitt
     kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
     found = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None)
     assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
-    sets = {(id,): np.zeros(1) for id in ids}
-    assert len(far.fitted_anew(ALONE, sets, kept, lambda line: None, patient=False)) == 3
 
 
 @pytest.mark.parametrize(
@@ -216,6 +214,8 @@ def test_where_none_of_the_nearest_arrives_the_next_are_fitted_in_full(
     kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
     found = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None)
     assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
+    sets = {(id,): np.zeros(1) for id in ids}
+    assert len(far.fitted_anew(ALONE, sets, kept, lambda line: None, patient=False)) == 3
     # Who is sure is fitted with the first, and once.
     again = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None, sure=("gyro_scale",))
     assert sorted(f.effects[0] for f in again) == sorted({*ids[:fitted], "gyro_scale"})
