@@ -27,8 +27,8 @@ def both_needed(setup: Setup, pair: Family, seed: int, say: Callable[[str], None
     feet, for a contact that stiffens).
     """
     first, second = pair.effects
-    for needed, alone in ((second, lambda: first_alone(setup, pair, seed)), (first, lambda: less(setup, pair, first))):
-        rest = alone()
+    for needed in (second, first):
+        rest = first_alone(setup, pair, seed) if needed == second else less(setup, pair, first)
         gain = gain_between(rest, pair)
         say(f"  {needed} beside {rest.effects[0]}: gain {gain:.0f}")
         if gain <= rules.SECOND:

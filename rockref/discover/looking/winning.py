@@ -35,8 +35,8 @@ UNSETTLED, GOOD_PART = 150.0, 0.1
 WITHOUT_KIN = 0.1
 #: What a first effect may leave above the noise, and what share of its gain, before everyone else is fitted afresh.
 #: Decided: of 114 verdicts on fresh cases four were beyond both and had few windows structured, two magnets, which are
-#: in no list, and two classes without the truth, which had not been looked at afresh (a centre of mass gained 1212 so,
-#: and left nothing, where a tilt had 863 and left 441); the next had 0.17, and was right.
+#: in no list, and two classes without the truth. In one of them sides, which had not been looked at afresh, gained 330
+#: and left nothing, where drag had left 84 of 130; the other was not seen to its end. The next had 0.17, and was right.
 LEAVES, LARGE_PART = 50.0, 0.3
 
 

@@ -212,12 +212,12 @@ def test_where_none_of_the_nearest_arrives_the_next_are_fitted_in_full(
     monkeypatch.setattr(far, "structured", lambda family: structured)
     monkeypatch.setattr(far, "gain_between", lambda kept, family: gain)
     kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
-    found = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None)
-    assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
     sets = {(id,): np.zeros(1) for id in ids}
+    found = far.fitted_anew(ALONE, sets, kept, lambda line: None)
+    assert [f.effects for f in found] == [(id,) for id in ids[:fitted]]
     assert len(far.fitted_anew(ALONE, sets, kept, lambda line: None, patient=False)) == 3
     # Who is sure is fitted with the first, and once.
-    again = far.fitted_anew(ALONE, {(id,): np.zeros(1) for id in ids}, kept, lambda line: None, sure=("gyro_scale",))
+    again = far.fitted_anew(ALONE, sets, kept, lambda line: None, sure=("gyro_scale",))
     assert sorted(f.effects[0] for f in again) == sorted({*ids[:fitted], "gyro_scale"})
 
 

@@ -239,7 +239,7 @@ def test_a_winner_that_leaves_little_of_what_it_gains_stands_in_for_nobody(gain,
 
 @pytest.mark.parametrize("second, part, best", [(False, 0.5, DRAG), (False, 0.2, ROLLING), (True, 0.5, ROLLING)])
 def test_where_a_first_effect_leaves_a_large_part_everyone_is_fitted_afresh(monkeypatch, second, part, best):
-    """Tilt and drift stood in for a centre of mass, which no look had fitted from nominal parameters."""
+    """Drag stood in for sides that were off, which no look had fitted from nominal parameters."""
     at, gain = np.array([0.0, 0.5]), 600.0
     per_unit = 2 / float(np.sum(Bowl(at).series.count))
     winner = family(ROLLING, Bowl(at, floor=rules.NOISE + part * gain * per_unit), at)
