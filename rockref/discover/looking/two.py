@@ -17,8 +17,8 @@ from rockref.discover import verdict as rules
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import Family, mean_loss, refit_all, room, size_of, structured
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.search import Setup
-from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, in_full, nominal_beside
+from rockref.discover.fit.search import Setup, early
+from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, SETTLES_LATE, in_full, nominal_beside
 from rockref.discover.looking.look import Look, candidates_beside, look_further, ranked
 from rockref.discover.looking.screen import SHARES, own_columns, with_priors
 from rockref.effects.base import Effect
@@ -26,6 +26,9 @@ from rockref.effects.base import Effect
 #: Pairs that are raced on the short windows. Decided: of five experiments with a sensor and another effect the right
 #: pair was among the first four, and won the race, in each.
 RACED = 4
+#: Leaders of a look beside which an effect without a derivative is searched for (decided: where a plate rang under feet
+#: that resisted spin, one of the two led and the other was among the first six).
+LEADERS = 3
 
 
 @dataclass(frozen=True)
@@ -82,6 +85,7 @@ def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], N
     leading = [start.effects[-1], *(f.effects[-1] for f in first.order if f.effects != start.effects)]
     found = promises(setup, plain.fit, begun, candidates_beside(setup, ()), leading)
     tried = side_by_side(setup, lambda own, p: stepped_along(own, plain.fit, begun, p), found[:RACED])
+    tried += side_by_side(setup, searched, with_unseen(leading))
     raced = sorted(refit_all(setup, tried, LOOKS, setup.seed), key=mean_loss)
     for f in raced:
         say(f"  two at once: {' + '.join(f.effects)} {mean_loss(f):.2f}")
@@ -123,6 +127,21 @@ def promises(
             dz = np.clip(-np.linalg.solve(H[np.ix_(at, at)], g[at]), -3, 3)
             found.append(Promise((a, b), float(-(g[at] @ dz) / 2), dz))
     return sorted(found, key=lambda p: -p.gain)
+
+
+def with_unseen(leading: Sequence[str]) -> list[tuple[str, str]]:
+    """Each effect that has no derivative while it is absent, with the leaders of a look; who led more stands first."""
+    order = {id: i for i, id in enumerate(leading)}
+    found = []
+    for id in SETTLES_LATE:
+        for other in [k for k in leading if k != id][:LEADERS]:
+            found.append((id, other) if order.get(id, len(order)) < order[other] else (other, id))
+    return found
+
+
+def searched(setup: Setup, effects: tuple[str, str]) -> Family:
+    """A pair on short windows, searched for along the lines of all its parameters."""
+    return Family(effects, *early(setup, effects, np.zeros(len(setup.parameters(effects))), LOOKS))
 
 
 def stepped_along(setup: Setup, fit: Fit, point: Point, promise: Promise) -> Family:

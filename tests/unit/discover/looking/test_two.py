@@ -73,13 +73,41 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
     monkeypatch.setattr(
         two, "stepped_along", lambda setup, fit, point, p: family(p.effects, bowls[p.effects[0]], np.zeros(3))
     )
+    monkeypatch.setattr(two, "searched", lambda setup, effects: family(effects, bowls["a"], np.zeros(3)))
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     lines: list[str] = []
     look = two_at_once(ALONE, Look(left((), 0.9), [start, other], {}), start, lines.append)
     assert asked["leading"] == ["gyro_scale", "adhesion"]
     assert look.kept is other and look.in_full
     assert [f.effects for f in look.order] == [("adhesion", "plate_tilt")] and look.gains["plate_tilt"] > 0
-    assert [line.split()[3] for line in lines[:4]] == ["adhesion", "a", "b", "d"]
+    raced = [tuple(line.split()[3:6:2]) for line in lines[:6]]
+    unseen = [("gyro_scale", "compliant_support"), ("adhesion", "compliant_support")]
+    assert raced[0] == ("adhesion", "plate_tilt") and {a for a, _ in raced} == {"adhesion", "a", "b", "d", "gyro_scale"}
+    assert all(pair in raced for pair in unseen)
+
+
+def test_a_plate_that_rings_is_searched_for_beside_the_leaders_of_a_look():
+    """What led more stands first, and it is paired with three others at most."""
+    beside = two.with_unseen(["spin_friction", "compliant_support", "adhesion", "plate_tilt", "gyro_scale"])
+    assert beside == [
+        ("spin_friction", "compliant_support"),
+        ("compliant_support", "adhesion"),
+        ("compliant_support", "plate_tilt"),
+    ]
+    assert two.with_unseen(["adhesion"]) == [("adhesion", "compliant_support")]
+
+
+def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_search(monkeypatch):
+    """One step sees nothing of a plate that rings; the lines of both effects do."""
+    start, far_off = left(("spin_friction",), 0.8), Bowl(np.zeros(3), floor=2.1)
+    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("spin_friction", "adhesion"), 1.0, np.zeros(3))])
+    monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
+    monkeypatch.setattr(two, "searched", lambda setup, effects: family(effects, Bowl(np.zeros(3)), np.zeros(3)))
+    monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
+    look = two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None)
+    assert look.kept is start and [f.effects for f in look.order] == [("spin_friction", "compliant_support")]
 
 
 def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
@@ -88,6 +116,7 @@ def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
     monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("gyro_scale", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
+    monkeypatch.setattr(two, "searched", lambda setup, effects: family(effects, far_off, np.zeros(3)))
     monkeypatch.setattr(two, "in_full", lambda setup, looked: pytest.fail("fitted in full"))
     assert two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None) is None
 
