@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rockref.discover.fit.approach import along_ridge, heights_of, higher, switches
+from rockref.discover.fit.approach import along_ridge, heights_of, higher, pitching, switches
 from rockref.discover.fit.candidates import FORMS
 from rockref.discover.fit.coarse import coarse_to_fine
 from rockref.discover.fit.families import Family, mean_loss, refit, refit_all, structured
@@ -88,9 +88,11 @@ def at_places(family: Family, places: list[Point]) -> list[Family]:
 
 def moves(fit: Fit, z: np.ndarray) -> np.ndarray:
     """Changes of z, (moves, G): each size of an effect by the factors, or to half a size; each form of a law into the
-    other one; the ridge of the feet."""
+    other one; the pitches of a plate; the ridge of the feet."""
     names = [p.name for p in fit.parameters]
     found = [other_form(z, i) for i, name in enumerate(names) if tuple(name.split(".")) in FORMS]
+    if "compliant_support.pitch" in names:
+        found += [*pitching(names, z)]
     for i in switches(names, heights_of(names)):
         for factor in (*FACTORS, *to_half_a_size(z[i])):
             move = np.zeros(len(z))

@@ -158,6 +158,24 @@ def test_the_place_that_looks_worst_goes_on_if_one_iteration_shows_it_best():
     assert resized(ALONE, behind, seed=0).point.z == pytest.approx(bottom)
 
 
+@dataclass
+class Plate(Bowl):
+    """The same with a plate that rings, and may pitch."""
+
+    @property
+    def parameters(self):
+        names = ("K_N", "compliant_support.frequency", "compliant_support.pitch")
+        return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in names)
+
+
+def test_a_plate_is_looked_at_with_other_pitches_each_with_its_compliance():
+    z = np.array([0.0, 0.9, 0.2])
+    places = z + moves(Plate(np.zeros(3)), z)
+    assert np.any(np.all(np.isclose(places, [0.0, 0.93 * 0.9, 0.5]), axis=1))
+    rigid = np.array([0.0, 0.0, 0.2])
+    assert np.all(moves(Plate(np.zeros(3)), rigid)[:, 1] == 0)
+
+
 def test_only_sizes_of_effects_are_changed_and_the_cheapest_places_come_first():
     bowl = Bowl(np.array([0.3, 1.0, 0.5]))
     z = np.array([0.0, 1.2, 0.5])
