@@ -89,11 +89,14 @@ def completed(setup: Setup, family: Family, seed: int, most: float = np.inf) -> 
     return plainer(resized(setup, family, seed, most), seed)
 
 
-def all_finished(setup: Setup, families: list[Family], seed: int) -> list[Family]:
-    """Families polished; the best of them, and those that are not far behind it then, finished."""
+def all_finished(setup: Setup, families: list[Family], seed: int, reached: float = np.inf) -> list[Family]:
+    """Families polished, best first; those that are then not far behind the best, or behind the mean loss that another
+    one has `reached` at its end, finished."""
     best, *others = sorted(side_by_side(setup, partial(polished, seed=seed), families), key=mean_loss)
-    best = completed(setup, best, seed)
-    loss = mean_loss(best)
+    if mean_loss(best) > BEHIND * reached:
+        return [best, *others]
+    best = completed(setup, best, seed, most=STILL_BEHIND * reached)
+    loss = min(mean_loss(best), reached)
     near = [f for f in others if mean_loss(f) <= BEHIND * loss]
     ended = side_by_side(setup, partial(completed, seed=seed, most=STILL_BEHIND * loss), near)
     return [best, *ended, *others[len(near) :]]
@@ -169,7 +172,7 @@ def taken_in(setup: Setup, ended: Look, tried: list[Family], seed: int, say: Cal
     """The families at their ends, and others; those of these that come near the best are taken to theirs."""
     least = CONTENDS * ended.gains[ended.order[0].effects[-1]]
     near = sorted((f for f in tried if gain_between(ended.kept, f) > least), key=mean_loss)[:CONTENDERS]
-    better = all_finished(setup, near, seed) if near else []
+    better = all_finished(setup, near, seed, mean_loss(ended.order[0])) if near else []
     return ranked(ended.kept, [*ended.order, *tried, *better], say)
 
 

@@ -98,6 +98,16 @@ def test_a_rival_that_is_far_behind_once_polished_is_not_taken_to_its_end(monkey
     np.testing.assert_allclose(found[1].point.z, [0.0, 0.0, 1.0], atol=1e-3)
 
 
+@pytest.mark.parametrize("reached, taken", [(0.99, [1.0197]), (0.9, []), (np.inf, [np.inf])])
+def test_who_comes_late_is_taken_to_its_end_if_it_is_near_what_another_has_reached(monkeypatch, reached, taken):
+    """With the mean loss up to which it may go on more than once."""
+    late = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=1.05), np.array([0.0, 0.0, 0.9]))
+    bars = []
+    monkeypatch.setattr(winning, "completed", lambda setup, f, seed, most=0: (bars.append(most), f)[1])
+    assert [f.effects for f in all_finished(ALONE, [late], 0, reached)] == [DRAG]
+    assert bars == pytest.approx(taken)
+
+
 def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
     kept = family((), Bowl(np.zeros(1), floor=1.2, stuck=True), np.zeros(1))
     winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.03), np.array([0.0, 0.5]))
