@@ -15,7 +15,7 @@ from rockref.discover.fit.search import LITTLE, MISSING, TRIED, Setup
 #: down from two thirds, half and a third of that alike).
 FACTORS = (0.5, 1.5)
 #: Places are tried for one iteration whose objective is at most this many times the fit's own (decided: the right ones
-#: of that cable had 1.04 to 1.25 times it, half the height of a centre of mass that stood at three times its size 1.69
+#: of that cable had 1.04 to 1.25 times it, half the height at which a centre of mass had stopped that has none 1.69
 #: times, and 0.95 times after three iterations); most of them, the cheapest first, and most that are gone on from.
 AFFORDABLE, TRIED_ONCE, PLACES = 2.0, 8, 4
 #: Most times that a fit goes on, and most iterations that take it to its end.
