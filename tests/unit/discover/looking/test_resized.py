@@ -5,10 +5,22 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from rockref.discover import verdict as rules
 from rockref.discover.fit.approach import HIGHER, higher
-from rockref.discover.fit.families import mean_loss, structured
+from rockref.discover.fit.families import mean_loss, room, structured
 from rockref.discover.fit.parameter import Parameter
-from rockref.discover.looking.resized import AFFORDABLE, LAST, ROUNDS, UNSETTLED, cheapest, moves, placed_at, resized
+from rockref.discover.looking.resized import (
+    AFFORDABLE,
+    AT_NOISE,
+    LAST,
+    ROUNDS,
+    UNSETTLED,
+    cheapest,
+    has_arrived,
+    moves,
+    placed_at,
+    resized,
+)
 from tests.unit.discover.bowls import ALONE, WINDOWS, Bowl, family
 
 
@@ -45,6 +57,16 @@ def test_a_fit_that_has_arrived_is_only_taken_to_its_end():
     found = resized(ALONE, arrived, seed=0)
     assert found.fit.iterations == LAST
     assert found.point.z == pytest.approx([0.0, 0.4], abs=0.05 * 0.5**LAST * 1.01)
+
+
+@pytest.mark.parametrize("windows, goes_on", [(40, False), (400, True)])
+def test_a_fit_near_the_noise_goes_on_where_many_units_are_left(windows, goes_on):
+    """At 0.99 of the noise forty windows leave sixty-seven units, and ten times as many leave 672."""
+    bowl = Bowl(np.array([0.0, 0.4]), floor=0.99)
+    bowl.series.count = np.full(windows, bowl.series.count[1])
+    near = family(("rolling_resistance",), bowl, bowl.bottom)
+    assert mean_loss(near) < AT_NOISE and (room(near) > rules.UNFINISHED) is goes_on
+    assert has_arrived(near) is not goes_on
 
 
 @dataclass
