@@ -83,9 +83,10 @@ def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], N
     plain = nominal_beside(setup, first.kept)
     begun = plain.fit.run(plain.point, LOOKS, np.random.default_rng(setup.seed))
     leading = [start.effects[-1], *(f.effects[-1] for f in first.order if f.effects != start.effects)]
-    found = promises(setup, plain.fit, begun, candidates_beside(setup, ()), leading)
+    offered = candidates_beside(setup, ())
+    found = promises(setup, plain.fit, begun, offered, leading)
     tried = side_by_side(setup, lambda own, p: stepped_along(own, plain.fit, begun, p), found[:RACED])
-    tried += side_by_side(setup, searched, with_unseen(leading))
+    tried += side_by_side(setup, searched, with_unseen(leading, offered))
     raced = sorted(refit_all(setup, tried, LOOKS, setup.seed), key=mean_loss)
     for f in raced:
         say(f"  two at once: {' + '.join(f.effects)} {mean_loss(f):.2f}")
@@ -129,11 +130,12 @@ def promises(
     return sorted(found, key=lambda p: -p.gain)
 
 
-def with_unseen(leading: Sequence[str]) -> list[tuple[str, str]]:
-    """Each effect that has no derivative while it is absent, with the leaders of a look; who led more stands first."""
+def with_unseen(leading: Sequence[str], offered: Sequence[type[Effect]]) -> list[tuple[str, str]]:
+    """Each offered effect that has no derivative while it is absent, with the leaders of a look; who led more stands
+    first."""
     order = {id: i for i, id in enumerate(leading)}
     found = []
-    for id in SETTLES_LATE:
+    for id in [kind.id for kind in offered if kind.id in SETTLES_LATE]:
         for other in [k for k in leading if k != id][:LEADERS]:
             found.append((id, other) if order.get(id, len(order)) < order[other] else (other, id))
     return found

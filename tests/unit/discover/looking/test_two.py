@@ -20,6 +20,8 @@ from tests.unit.discover.synthetic import experiment
 
 KINDS = [catalogue.find(id) for id in ("quadratic_drag", "spin_friction", "gyro_scale", "adhesion", "plate_tilt")]
 
+SUPPORT = catalogue.find("compliant_support")
+
 
 @pytest.fixture(scope="module")
 def hidden():
@@ -68,7 +70,7 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
         return pairs
 
     monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
-    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: (SUPPORT,))
     monkeypatch.setattr(two, "promises", promised)
     monkeypatch.setattr(
         two, "stepped_along", lambda setup, fit, point, p: family(p.effects, bowls[p.effects[0]], np.zeros(3))
@@ -87,21 +89,23 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
 
 
 def test_a_plate_that_rings_is_searched_for_beside_the_leaders_of_a_look():
-    """What led more stands first, and it is paired with three others at most."""
-    beside = two.with_unseen(["spin_friction", "compliant_support", "adhesion", "plate_tilt", "gyro_scale"])
+    """What led more stands first, and it is paired with three others at most; not where the model has it already."""
+    leading = ["spin_friction", "compliant_support", "adhesion", "plate_tilt", "gyro_scale"]
+    beside = two.with_unseen(leading, [*KINDS, SUPPORT])
     assert beside == [
         ("spin_friction", "compliant_support"),
         ("compliant_support", "adhesion"),
         ("compliant_support", "plate_tilt"),
     ]
-    assert two.with_unseen(["adhesion"]) == [("adhesion", "compliant_support")]
+    assert two.with_unseen(["adhesion"], [SUPPORT]) == [("adhesion", "compliant_support")]
+    assert two.with_unseen(["adhesion"], KINDS) == []
 
 
 def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_search(monkeypatch):
     """One step sees nothing of a plate that rings; the lines of both effects do."""
     start, far_off = left(("spin_friction",), 0.8), Bowl(np.zeros(3), floor=2.1)
     monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
-    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: (SUPPORT,))
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("spin_friction", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
     monkeypatch.setattr(two, "searched", lambda setup, effects: family(effects, Bowl(np.zeros(3)), np.zeros(3)))
