@@ -60,7 +60,8 @@ FAR = 0.2
 #: with speed, the right look ended at 1.04, wrong ones at 1.55 and more).
 NEAR = 1.1
 #: What windows hand on from one to the next, and so settles by one window an iteration: it gets as many iterations
-#: again (decided: a plate that rang at 89 Hz stood at 1.80 and fell, where others had stopped at 1.72).
+#: again (decided: a plate that rang at 89 Hz stood at 1.80 and fell, where others had stopped at 1.72). While it is
+#: absent no derivative shows at what tone it rings, so beside another effect it is searched for (`looking/two.py`).
 SETTLES_LATE = ("compliant_support",)
 
 
