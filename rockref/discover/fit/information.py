@@ -8,7 +8,6 @@ import numpy as np
 
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.parameter import Parameter
-from rockref.discover.windows.series import STATES
 
 
 @dataclass(frozen=True)
@@ -35,31 +34,20 @@ def information(
     z, c = point.z, point.corrections
     r = fit.residual(z, c)
     Js = fit.state_jacobian(z, c, r)
-    Jg = fit.parameter_jacobian(z, c, r, Js)
+    Jg = [fit.parameter_jacobian(z, c, r, Js)]
     if extra is not None:
         assert z_extra is not None
-        more = extra.parameter_jacobian(z_extra, c, r, Js, only=range(len(z), len(extra.parameters)))
-        Jg = np.concatenate([Jg, more], axis=1)
+        Jg.append(extra.parameter_jacobian(z_extra, c, r, Js, only=range(len(z), len(extra.parameters))))
     w = fit.weights(r) if weighted else np.ones_like(r)
     return by_run(fit, r, Js, Jg, w, c)
 
 
 def by_run(fit: Fit, r, Js, Jg, w, c) -> Information:
-    """The reduction of :meth:`Fit.reduced`, summed run by run: residuals (B, M, 3), Jacobians (B, ., M, 3), weights."""
-    B, G = Jg.shape[:2]
-    root = np.sqrt(w)[:, None]
-    A, D = (Js * root).reshape(B, STATES, -1), (Jg * root).reshape(B, G, -1)
-    e = (r[:, None] * root).reshape(B, 1, -1)
-    H_ss = A @ A.swapaxes(1, 2) + np.einsum("bi,ij->bij", 1 / fit.state_prior**2, np.eye(STATES))
-    g_s = (A @ e.swapaxes(1, 2))[..., 0] + c / fit.state_prior**2
-    H_sg = A @ D.swapaxes(1, 2)
-    K = np.linalg.solve(H_ss, H_sg)
-    H_b = D @ D.swapaxes(1, 2) - H_sg.swapaxes(1, 2) @ K
-    g_b = (D @ e.swapaxes(1, 2))[..., 0] - np.einsum("bsg,bs->bg", K, g_s)
-    runs = fit.series.run_of
-    H, g = np.zeros((fit.runs, G, G)), np.zeros((fit.runs, G))
-    np.add.at(H, runs, H_b)
-    np.add.at(g, runs, g_b)
+    """What the windows of each run add to the normal equations (:meth:`Fit.by_window`)."""
+    H_b, g_b, _ = fit.by_window(r, Js, Jg, w, c)
+    H, g = np.zeros((fit.runs, *H_b.shape[1:])), np.zeros((fit.runs, g_b.shape[1]))
+    np.add.at(H, fit.series.run_of, H_b)
+    np.add.at(g, fit.series.run_of, g_b)
     return Information(H, g)
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -140,7 +140,13 @@ class Fit:
         """Residuals of the windows `which` in sigmas, of their first `upto` samples (default all)."""
         models, tilt = self.models(z)
         r = self.series.residual(models, tilt, corrections, which, upto)
-        return r if self.averaged == 1 else running_mean(r, self.averaged)
+        for rows, n in self.pieces(which) if self.averaged > 1 else ():
+            r[rows, :n] = running_mean(r[rows, :n], self.averaged)
+        return r
+
+    def pieces(self, which=None) -> list[tuple[slice, int]]:
+        """Neighbours among the windows, and how many samples of them have residuals (averages reach further)."""
+        return self.series.pieces(which, self.averaged if self.averaged > 1 else 0)
 
     def counts(self, which=None, upto=None) -> np.ndarray:
         """Sample values of each window that count."""
@@ -149,16 +155,11 @@ class Fit:
         return self.series.count[which] if upto is None else self.series.counted(which, upto)
 
     def cauchy(self, r: np.ndarray, which=None) -> np.ndarray:
-        """Cauchy loss of each window, summed over its samples.
-
-        Most of r is what short windows lack to the longest one: zeros, of which no logarithm is taken.
-        """
-        square = (r / CAUCHY) ** 2
-        if self.averaged > 1:  # averages reach beyond the samples that count
-            there: Any = True
-        else:
-            there = (self.series.valid if which is None else self.series.valid[which])[:, :, None]
-        return CAUCHY**2 / 2 * np.sum(np.log1p(square, out=square, where=there), axis=(1, 2))
+        """Cauchy loss of each window, summed over its samples."""
+        total = np.empty(len(r))
+        for rows, n in self.pieces(which):
+            total[rows] = CAUCHY**2 / 2 * np.sum(np.log1p((r[rows, :n] / CAUCHY) ** 2), axis=(1, 2))
+        return total
 
     def window_loss(self, r: np.ndarray, which=None, upto=None) -> np.ndarray:
         """Robust loss of each window, as half a sum of squares: Cauchy per sample, logarithm above CAP."""
@@ -171,7 +172,10 @@ class Fit:
         """Weight of each squared residual for which Gauss and Newton see the robust loss, (B, M, 3)."""
         count = self.counts(which, upto)
         mean = self.cauchy(r, which) / count * 2
-        return (1 / (1 + (r / CAUCHY) ** 2)) * np.where(mean <= CAP, 1.0, CAP / mean)[:, None, None]
+        capped, weights = np.where(mean <= CAP, 1.0, CAP / mean)[:, None, None], np.ones_like(r)
+        for rows, n in self.pieces(which):
+            weights[rows, :n] = capped[rows] / (1 + (r[rows, :n] / CAUCHY) ** 2)
+        return weights
 
     def penalties(self, corrections: np.ndarray, which=None) -> np.ndarray:
         """Prior cost of the corrections of each window."""
@@ -197,12 +201,15 @@ class Fit:
 
     def state_jacobian(self, z: np.ndarray, corrections: np.ndarray, r: np.ndarray, which=None, upto=None):
         """d residual / d corrections, (B, STATES, M, 3); the release windows have none."""
-        J = np.empty((len(r), STATES, *r.shape[1:]))
+        J = np.zeros((len(r), STATES, *r.shape[1:]))
+        pieces = self.pieces(which)
 
         def column(fit: Fit, j: int) -> None:
             moved = corrections.copy()
             moved[:, j] += STATE_STEP[j]
-            J[:, j] = (fit.residual(z, moved, which, upto) - r) / STATE_STEP[j]
+            there = fit.residual(z, moved, which, upto)
+            for rows, n in pieces:
+                J[rows, j, :n] = (there[rows, :n] - r[rows, :n]) / STATE_STEP[j]
 
         self.on_twins(column, range(STATES))
         J[self.series.first if which is None else self.series.first[which]] = 0
@@ -218,7 +225,7 @@ class Fit:
         only = range(len(z)) if only is None else only
         adding_up = any(self.parameters[j].name.startswith(ADDING_UP) for j in only)
         begun = self.series.starts(*self.models(z)) if adding_up else None
-        columns = np.zeros((len(only), *r.shape))
+        columns, pieces = np.zeros((len(only), *r.shape)), self.pieces()
         together: dict[str, list[int]] = {}
         for at, j in enumerate(only):
             p = self.parameters[j]
@@ -228,16 +235,19 @@ class Fit:
             moved = z.copy()
             for at in group:
                 moved[only[at]] += self.parameters[only[at]].step_from(z[only[at]])
+            shift = None
             if begun is not None and self.parameters[only[group[0]]].name.startswith(ADDING_UP):
                 shift = moved_by(begun, fit.series.starts(*fit.models(moved)))
                 shift[self.series.first] = 0
-                change = fit.residual(moved, corrections - shift) - r + np.einsum("bi,bimk->bmk", shift, Js)
-            else:
-                change = fit.residual(moved, corrections) - r
-            for at in group:
-                p = self.parameters[only[at]]
-                mine = slice(None) if p.run is None else self.series.run_of == p.run
-                columns[at][mine] = change[mine] / p.step_from(z[only[at]])
+            there = fit.residual(moved, corrections if shift is None else corrections - shift)
+            for rows, n in pieces:
+                change = there[rows, :n] - r[rows, :n]
+                if shift is not None:
+                    change += np.einsum("bi,bimk->bmk", shift[rows], Js[rows, :, :n])
+                for at in group:
+                    p = self.parameters[only[at]]
+                    mine = 1 if p.run is None else (self.series.run_of[rows] == p.run)[:, None, None]
+                    columns[at, rows, :n] = change * mine / p.step_from(z[only[at]])
 
         self.on_twins(some, list(together.values()))
         return columns.swapaxes(0, 1)
@@ -299,23 +309,27 @@ class Fit:
         Js = self.state_jacobian(z, c, r)
         Jg = self.parameter_jacobian(z, c, r, Js)
         w = self.weights(r)
-        return self.reduced(r, Js, Jg, w, c)
+        return self.reduced(r, Js, [Jg], w, c)
 
     def reduced(self, r, Js, Jg, w, c):
-        """The reduction itself, from residuals, Jacobians and weights."""
-        B, G = self.series.B, Jg.shape[1]
-        root = np.sqrt(w)[:, None]
-        A = (Js * root).reshape(B, STATES, -1)
-        D = (Jg * root).reshape(B, G, -1)
-        e = (r[:, None] * root).reshape(B, 1, -1)
-        At, Dt, et = A.swapaxes(1, 2), D.swapaxes(1, 2), e.swapaxes(1, 2)
-        H_ss = A @ At + np.einsum("bi,ij->bij", 1 / self.state_prior**2, np.eye(STATES))
-        H_sg, H_gg = A @ Dt, (D @ Dt).sum(axis=0)
-        g_s, g_g = (A @ et)[..., 0] + c / self.state_prior**2, (D @ et)[..., 0].sum(axis=0)
+        """The reduction itself, from residuals, Jacobians and weights; Jg: the one of the parameters, in parts."""
+        H, g, back = self.by_window(r, Js, Jg, w, c)
+        return H.sum(axis=0), g.sum(axis=0), back
+
+    def by_window(self, r, Js, Jg, w, c):
+        """What each window adds to it: H (B, G, G), gradient (B, G), and what back-substitution needs."""
+        ends = np.cumsum([STATES, *(part.shape[1] for part in Jg)])
+        products = np.empty((len(r), ends[-1], ends[-1] + 1))
+        for rows, n in self.pieces():
+            J = np.concatenate([part[rows, :, :n] for part in (Js, *Jg, r[:, None])], axis=1)
+            J = (J * np.sqrt(w[rows, None, :n])).reshape(len(J), ends[-1] + 1, -1)
+            products[rows] = J[:, :-1] @ J.swapaxes(1, 2)
+        s, g = slice(STATES), slice(STATES, ends[-1])
+        H_ss = products[:, s, s] + np.einsum("bi,ij->bij", 1 / self.state_prior**2, np.eye(STATES))
+        H_sg, g_s = products[:, s, g], products[:, s, -1] + c / self.state_prior**2
         K = np.linalg.solve(H_ss, H_sg)
-        H = H_gg - np.einsum("bsg,bsh->gh", H_sg, K)
-        g = g_g - np.einsum("bsg,bs->g", K, g_s)
-        return H, g, (H_ss, H_sg, g_s, K)
+        H = products[:, g, g] - H_sg.swapaxes(1, 2) @ K
+        return H, products[:, g, -1] - np.einsum("bsg,bs->bg", K, g_s), (H_ss, H_sg, g_s, K)
 
     def step(self, point: Point, lam: float) -> tuple[Point, float]:
         """One damped Gauss-Newton step of everything; returns the better point and the next damping."""

@@ -36,7 +36,7 @@ def with_priors(H: np.ndarray, g: np.ndarray, prior: np.ndarray, z: np.ndarray) 
 
 def promise(fit: Fit, point: Point, r, Js, Jg, w) -> float:
     """What one Gauss-Newton step without any candidate promises to gain."""
-    H, g, _ = fit.reduced(r, Js, Jg, w, point.corrections)
+    H, g, _ = fit.reduced(r, Js, [Jg], w, point.corrections)
     H, g = with_priors(H, g, fit.prior, point.z)
     return float(g @ np.linalg.solve(H, g) / 2)
 
@@ -77,7 +77,7 @@ def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, le
     r, Js, Jg, w = linear
     c = point.corrections
     z0, Jc = own_columns(wide, point, effects[-1], r, Js)
-    H, g, (H_ss, H_sg, g_s, _) = wide.reduced(r, Js, np.concatenate([Jg, Jc], axis=1), w, c)
+    H, g, (H_ss, H_sg, g_s, _) = wide.reduced(r, Js, [Jg, Jc], w, c)
     H, g = with_priors(H, g, wide.prior, z0)
     dz = np.clip(-np.linalg.solve(H, g), -3, 3)
     absent = Point(z0, c.copy(), point.loss.copy(), point.penalty)

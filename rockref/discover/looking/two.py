@@ -117,7 +117,7 @@ def promises(
     mine = {id: list(range(end - len(p), end)) for id, p, end in zip(ids, priors, ends, strict=True)}
     prior = np.concatenate([fit.prior, *priors])
     z = np.concatenate([z, np.zeros(len(prior) - G)])
-    H, g, _ = fit.reduced(r, Js, np.concatenate([Jg, *columns], axis=1), w, c)
+    H, g, _ = fit.reduced(r, Js, [Jg, *columns], w, c)
     H, g = with_priors(H, g, prior, z)
     order = {id: i for i, id in enumerate(leading)}
     found = []

@@ -37,7 +37,7 @@ def _filter(x, n, b0, b1, b2, a1, a2, x1, x2, y1, y2):
 
 
 @numba.njit(cache=True, error_model="numpy", nogil=True)
-def _records(states, A, fast, slow, has_slow, follows, length, M, per, start, dt, bias, drift, limit, softness, out):
+def _records(states, A, fast, slow, has_slow, follows, length, per, start, dt, bias, drift, limit, softness, out):
     R, soft = states.shape[1], softness > 0 and limit < np.inf
     x = np.empty(R)
     memory = np.zeros((3, 4))
@@ -70,8 +70,6 @@ def _records(states, A, fast, slow, has_slow, follows, length, M, per, start, dt
                 y = x[k * per] + bias[j] + drift[j] * t
                 hard = min(max(y, -limit), limit)
                 out[b, k, j] = hard + softness * (limit * np.tanh(y / limit) - hard) if soft else hard
-            for k in range(length[b], M):
-                out[b, k, j] = 0.0
 
 
 def records(
@@ -84,10 +82,10 @@ def records(
     length (B,) samples; start (B,) [s] and dt [s] on the device's clock; bias, drift, limit (its range), softness as
     in `Sensor`.
     """
-    out = np.empty((states.shape[0], M, 3))
+    out = np.zeros((states.shape[0], M, 3))
     has_slow = slow is not None
     _records(
-        states, matrix, np.array(fast), np.array(slow if has_slow else fast), has_slow, follows, length, M, per,
+        states, matrix, np.array(fast), np.array(slow if has_slow else fast), has_slow, follows, length, per,
         start, dt, np.asarray(bias, float), np.asarray(drift, float), float(limit), float(softness), out,
     )  # fmt: skip
     return out

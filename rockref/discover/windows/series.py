@@ -19,6 +19,7 @@ from rockref.discover.windows.clipped import let_go, unclipped
 from rockref.discover.windows.handed_on import leaves_dents, plate_of, spin_slip
 from rockref.discover.windows.on_time import gyro_of
 from rockref.discover.windows.own import own_of, run_own
+from rockref.discover.windows.pieces import pieces
 from rockref.discover.windows.reconstruct import (
     attitudes,
     local_rates,
@@ -197,6 +198,7 @@ class Series:
         self._rates: dict = {}
         self._rows = np.empty((0, col.STATE))
         self._prepared: tuple | None = None
+        self._wanted: tuple | None = None
         self._releases: list[Problem] = []
         self._carried, self._pressed = np.zeros((self.B, 4)), np.zeros((self.B, 1))
 
@@ -270,6 +272,12 @@ class Series:
         _, _, _, _, Lambda, W, *_ = self.prepared(models, tilt, sensor_of(models[0]))
         return Lambda, W
 
+    def pieces(self, which=None, beyond: int = 0) -> list[tuple[slice, int]]:
+        """Neighbours among the windows `which` (default all) that are alike, and how many samples of them count, and so
+        many `beyond`."""
+        length, first = (self.length, self.first) if which is None else (self.length[which], self.first[which])
+        return pieces(length + beyond, first, self.M)
+
     def stepped(self, batch: Batch, which: np.ndarray) -> np.ndarray:
         """States of the windows `which` at the steps that are wanted, (len(which), R, STATE)."""
         out = self._buffer(len(which), batch.wanted.shape[1])
@@ -298,9 +306,16 @@ class Series:
         state[first], memory[first] = release[first], release_memory[first]
         # As many steps for each row of a sample, none longer than STEP; but for rounding of the quotient.
         per_sample = self.ROWS_PER_SAMPLE * math.ceil(self.refine / self.rate / STEP / self.ROWS_PER_SAMPLE - 1e-9)
-        rows = np.arange(int(length.max()) * self.ROWS_PER_SAMPLE + 1) * (per_sample // self.ROWS_PER_SAMPLE)
-        wanted = np.where(rows <= length[:, None] * per_sample, rows, -1).astype(np.int64)
+        wanted = self.wanted(length, per_sample)
         return Batch(body, P, props, memory, effects, state, sensor.clock / self.rate / per_sample, wanted)
+
+    def wanted(self, length: np.ndarray, per_sample: int) -> np.ndarray:
+        """The steps whose states are kept, -1 where there are none, (windows, R); the last answer is kept."""
+        key = (per_sample, length.tobytes())
+        if self._wanted is None or self._wanted[0] != key:
+            rows = np.arange(int(length.max()) * self.ROWS_PER_SAMPLE + 1) * (per_sample // self.ROWS_PER_SAMPLE)
+            self._wanted = (key, np.where(rows <= length[:, None] * per_sample, rows, -1).astype(np.int64))
+        return self._wanted[1]
 
     def carry(self, models, tilt: np.ndarray, corrections: np.ndarray) -> bool:
         """Let the plate and the dents under each window begin as the window before it left them; whether there are any.
@@ -353,9 +368,10 @@ class Series:
     def residual(self, models, tilt: np.ndarray, corrections: np.ndarray, which=None, upto=None) -> np.ndarray:
         """(measured - modelled) / sigma, (len(which), M, 3); zero where a sample does not count."""
         r = self.simulate(models, tilt, corrections, which, upto)
-        own = slice(None) if which is None else np.asarray(which)
-        np.subtract(self.measured[own], r, out=r)
-        r *= self._weight[own]
+        for rows, n in self.pieces(which):
+            own = rows if which is None else which[rows]
+            np.subtract(self.measured[own, :n], r[rows, :n], out=r[rows, :n])
+            r[rows, :n] *= self._weight[own, :n]
         if upto is not None:
             r *= (np.arange(self.M) < upto[:, None])[:, :, None]
         return r

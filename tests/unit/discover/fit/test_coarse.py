@@ -35,6 +35,9 @@ class Rattle:
         r = self.motion(models[0].late) - self.motion(0.0)
         return (r[:, None] + self.noise)[slice(None) if which is None else which]
 
+    def pieces(self, which=None, beyond=0):
+        return [(slice(None), M)]
+
     def carry(self, models, tilt, corrections):
         return False
 

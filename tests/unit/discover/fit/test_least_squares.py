@@ -13,14 +13,25 @@ from rockref.discover.windows.series import STATES
 B, G, M = 6, 4, 5
 
 
+def whole_rows(which=None, beyond=0):
+    """As if all windows were as long as the longest."""
+    return [(slice(None), None)]
+
+
+def two_lengths(which=None, beyond=0):
+    """As if the second to fourth window were short."""
+    return [(slice(0, 1), M), (slice(1, 4), min(M, 2 + beyond)), (slice(4, B), M)]
+
+
 @pytest.fixture
 def problem():
     """A Fit without simulator, with residuals, Jacobians and weights of its own."""
     rng = np.random.default_rng(3)
     fit = object.__new__(Fit)
     fit.series = SimpleNamespace(
-        B=B, run_of=np.array([0, 0, 1, 1, 2, 2]), count=np.full(B, 3 * M), valid=np.ones((B, M), bool), workers=1
+        B=B, run_of=np.array([0, 0, 1, 1, 2, 2]), count=np.full(B, 3 * M), workers=1, pieces=whole_rows
     )
+    fit.averaged = 1
     fit.runs = 3
     fit.state_prior = rng.uniform(0.5, 2.0, (B, STATES))
     r, Js, Jg = rng.normal(size=(B, M, 3)), rng.normal(size=(B, STATES, M, 3)), rng.normal(size=(B, G, M, 3))
@@ -46,7 +57,7 @@ def test_reduced_step_is_the_step_of_everything(problem):
     fit, r, Js, Jg, w, c = problem
     H, g = dense(*problem)
     step = -np.linalg.solve(H, g)
-    h, k, (H_ss, H_sg, g_s, _) = fit.reduced(r, Js, Jg, w, c)
+    h, k, (H_ss, H_sg, g_s, _) = fit.reduced(r, Js, [Jg], w, c)
     dz = -np.linalg.solve(h, k)
     dc = -np.linalg.solve(H_ss, (g_s + H_sg @ dz)[..., None])[..., 0]
     # Both solve the same linear system; it is well conditioned.
@@ -57,14 +68,14 @@ def test_reduced_step_is_the_step_of_everything(problem):
 def test_uncertainty_of_parameters_includes_that_of_the_starts(problem):
     fit, r, Js, Jg, w, c = problem
     H, _ = dense(*problem)
-    h, _, _ = fit.reduced(r, Js, Jg, w, c)
+    h, _, _ = fit.reduced(r, Js, [Jg], w, c)
     np.testing.assert_allclose(np.linalg.inv(h), np.linalg.inv(H)[B * STATES :, B * STATES :], rtol=1e-9)
 
 
 def test_runs_add_up_to_the_whole(problem):
     fit, r, Js, Jg, w, c = problem
-    h, k, _ = fit.reduced(r, Js, Jg, w, c)
-    found = by_run(fit, r, Js, Jg, w, c)
+    h, k, _ = fit.reduced(r, Js, [Jg], w, c)
+    found = by_run(fit, r, Js, [Jg], w, c)
     assert found.H.shape == (3, G, G)
     np.testing.assert_allclose(found.total, h, rtol=1e-10, atol=1e-12)
     np.testing.assert_allclose(found.g.sum(axis=0), k, rtol=1e-10, atol=1e-12)
@@ -72,7 +83,7 @@ def test_runs_add_up_to_the_whole(problem):
 
 def test_eliminating_a_parameter_leaves_the_step_of_the_others(problem):
     fit, r, Js, Jg, w, c = problem
-    h, k, _ = fit.reduced(r, Js, Jg, w, c)
+    h, k, _ = fit.reduced(r, Js, [Jg], w, c)
     out, prior = np.array([False, True, False, False]), np.array([np.inf, 0.5, np.inf, np.inf])
     H, g = eliminated(h, k, out, prior)
     whole = np.linalg.solve(h + np.diag(1 / prior**2), k)
@@ -102,7 +113,7 @@ def test_parameter_values():
 def test_parameters_of_runs_are_moved_together_and_kept_apart():
     """One evaluation gives the columns of a parameter that each run has of its own."""
     fit = object.__new__(Fit)
-    fit.series = SimpleNamespace(run_of=np.array([0, 0, 1, 2]), workers=1)
+    fit.series = SimpleNamespace(run_of=np.array([0, 0, 1, 2]), workers=1, pieces=whole_rows)
     slopes = np.random.default_rng(0).normal(size=(5, 4, M, 3))
     make = dict(set=lambda model, value: model, centre=0.0, spread=1.0)
     fit.parameters = (
@@ -137,7 +148,7 @@ def test_a_derivative_is_taken_away_from_an_upper_bound():
     assert Parameter("K_N", None, 6e7, 0.15, log=True).most == np.inf
     assert [share.step_from(z) for z in (0.0, 0.95, 0.96, 1.0)] == [0.05, 0.05, -0.05, -0.05]
     fit = object.__new__(Fit)
-    fit.series = SimpleNamespace(run_of=np.zeros(1, int), workers=1)
+    fit.series = SimpleNamespace(run_of=np.zeros(1, int), workers=1, pieces=whole_rows)
     fit.parameters = (share,)
     fit.residual = lambda z, corrections: np.full((1, M, 3), share.value(z[0]) ** 2)
     for z, slope in ((0.0, 0.05), (1.0, 1.95)):
@@ -167,7 +178,7 @@ def test_what_adds_up_is_seen_from_the_starts_that_there_were():
         return np.einsum("bi,bimk->bmk", whole + 1e6 * whole**3, Js)
 
     first = np.array([False, False, True])
-    fit.series = SimpleNamespace(run_of=np.zeros(3, int), workers=1, starts=starts, first=first)
+    fit.series = SimpleNamespace(run_of=np.zeros(3, int), workers=1, starts=starts, first=first, pieces=whole_rows)
     fit.models, fit.residual = lambda z: (z,), residual
     fit.parameters = (Parameter("gyro_drift.bias_x", None, 0.0, 1.0, step=1.0),)
     J = fit.parameter_jacobian(np.zeros(1), np.zeros((3, STATES)), residual(np.zeros(1), np.zeros((3, STATES))), Js)
@@ -180,13 +191,27 @@ def test_what_adds_up_is_seen_from_the_starts_that_there_were():
 def test_the_loss_is_that_of_the_samples_that_are_there(problem):
     """Zeros behind a shorter window cost nothing, and are not looked at."""
     fit, r, *_ = problem
-    fit.series.valid[1, 3:] = False
-    whole = CAUCHY**2 / 2 * np.sum(np.log1p((np.where(fit.series.valid[:, :, None], r, 0) / CAUCHY) ** 2), axis=(1, 2))
-    there = fit.cauchy(np.where(fit.series.valid[:, :, None], r, 0))
-    assert np.array_equal(there, whole)
+    r[1:4, 2:] = 0
+    whole = CAUCHY**2 / 2 * np.sum(np.log1p((r / CAUCHY) ** 2), axis=(1, 2))
+    fit.series.pieces = two_lengths
+    np.testing.assert_allclose(fit.cauchy(r), whole, rtol=1e-14)
+    np.testing.assert_allclose(fit.weights(r)[1:4, 2:], 1)  # nothing is left to be weighed
     # An average reaches beyond the samples that count, and counts there.
-    fit.averaged = 4
-    assert fit.cauchy(r)[1] > whole[1] and np.array_equal(fit.cauchy(r)[[0, 2]], whole[[0, 2]])
+    fit.averaged, r[1, 2:4] = 2, 1.0
+    assert fit.cauchy(r)[1] > whole[1]
+    np.testing.assert_allclose(np.delete(fit.cauchy(r), 1), np.delete(whole, 1), rtol=1e-14)
+
+
+def test_what_short_windows_lack_to_the_longest_changes_no_equation(problem):
+    fit, r, Js, Jg, w, c = problem
+    for a in (r[1:4, 2:], Js[1:4, :, 2:], Jg[1:4, :, 2:]):
+        a[:] = 0
+    whole = fit.by_window(r, Js, [Jg], w, c)
+    fit.series.pieces = two_lengths
+    H, g, (H_ss, H_sg, g_s, K) = fit.by_window(r, Js, [Jg[:, :1], Jg[:, 1:]], w, c)
+    # Sums of at most 15 products each, in another order.
+    for there, then in zip((H, g, H_ss, H_sg, g_s, K), (whole[0], whole[1], *whole[2]), strict=True):
+        np.testing.assert_allclose(there, then, rtol=1e-11, atol=1e-13)
 
 
 def test_what_all_runs_share_is_set_once_and_before_what_is_their_own():
