@@ -10,7 +10,16 @@ import numpy as np
 from rockref.discover import verdict as rules
 from rockref.discover.fit.approach import approached, approached_beside
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.families import Family, gain_between, leaves_nothing, mean_loss, refit_all, room, structured
+from rockref.discover.fit.families import (
+    Family,
+    gain_between,
+    leaves_nothing,
+    mean_loss,
+    refit,
+    refit_all,
+    room,
+    structured,
+)
 from rockref.discover.fit.least_squares import Fit
 from rockref.discover.fit.search import (
     FIRST_STAGE,
@@ -47,7 +56,9 @@ AHEAD, ALIKE = 0.4, 1.15
 #: Looks of which the best leaves so large a mean loss, and such a share of the middle one's, lead nowhere: one of them
 #: is fitted in full (decided: where nothing of the catalogue was missing the best left 0.94 to 0.99 of the middle, at
 #: 2.7 to 6.7; a right one that began as far off left 0.6). Of pairs that are raced none is fitted in full that leaves
-#: as much (decided: five right ones left 1.1 to 1.5, the best where a gyroscope had soft stops 5.5).
+#: as much (decided: five right ones left 1.1 to 1.5, the best where a gyroscope had soft stops 5.5). Nor does kin that
+#: leaves so many times what the winner leaves at its end (decided: where a plate rang it had 1.10, its kin 2.77 and
+#: more, and fitting them in full took two minutes of a core; kin that came to win had stood at 1.06 times).
 FAR_OFF, ALL_THE_SAME = 2.0, 0.9
 #: Share of structured windows above which small steps lead nowhere and candidates are looked for from nominal
 #: parameters first (decided: from a baseline with 0.39 no small step led on; with 0.18 one did), and above which
@@ -79,12 +90,14 @@ def from_far(
 
     Where most windows are out of step, a small step along an effect changes little, and the parameters of the family
     `kept` have bent so far that an effect added to them cannot unbend them. One step from a baseline that is not yet
-    bent shows what changes every impact, a search along the effect itself what changes the order of the impacts.
+    bent shows what changes every impact, a search along the effect itself what changes the order of the impacts. A
+    second effect that comes no nearer than the first one alone, taken as far, is not fitted in full.
     """
     plain, sure = nominal_beside(setup, kept), leaders[0].effects if leaders else ()
+    as_far = refit(plain, LOOKS, setup.seed)
     looks = sorted(first_looks(setup, kinds, plain), key=lambda f: f.point.objective)
     begun: list[Family] = []
-    for found in (first_steps(setup, kinds, plain), looks):
+    for found in (first_steps(setup, kinds, as_far), looks):
         begun += [f for i, f in enumerate(found) if i < LOOKED_AT or f.effects == sure]
     raced: dict[tuple[str, ...], Family] = {}
     tried = refit_all(setup, begun, LOOKS, setup.seed)
@@ -93,7 +106,8 @@ def from_far(
         raced[f.effects] = min(raced.get(f.effects, f), f, key=mean_loss)
     for f in raced.values():
         say(f"  from nominal: {f.effects[-1]} {mean_loss(f):.2f}")
-    return nearest_in_full(setup, list(raced.values()), kept, sure)
+    nearer = [f for f in raced.values() if not kept.effects or mean_loss(f) < mean_loss(as_far)]
+    return nearest_in_full(setup, nearer, kept, sure) if nearer else []
 
 
 def fitted_anew(
@@ -103,11 +117,12 @@ def fitted_anew(
     say: Callable[[str], None],
     sure: tuple[str, ...] = (),
     patient: bool = True,
+    most: float = np.inf,
 ) -> list[Family]:
     """Sets of effects, each with the z of its last one, fitted from nominal parameters; who comes nearest, in full.
 
     sure : the set that is fitted in full wherever it stands; patient : whether the next ones get their turn, too, where
-    none of the nearest arrives.
+    none of the nearest arrives; most : mean loss on the short windows above which nobody is.
     """
 
     def look(own: Setup, effects: tuple[str, ...]) -> Family:
@@ -116,7 +131,8 @@ def fitted_anew(
         say(f"  from nominal: {effects[-1]} {mean_loss(family):.2f}")
         return family
 
-    return nearest_in_full(setup, side_by_side(setup, look, begun), kept, sure, patient)
+    looked = [f for f in side_by_side(setup, look, begun) if mean_loss(f) <= most]
+    return nearest_in_full(setup, looked, kept, sure, patient) if looked else []
 
 
 def nearest_in_full(
@@ -216,5 +232,4 @@ def first_looks(setup: Setup, kinds: Sequence[type[Effect]], plain: Family) -> l
 
 def first_steps(setup: Setup, kinds: Sequence[type[Effect]], plain: Family) -> list[Family]:
     """Each candidate by one step from the nominal baseline, fitted a little and not yet bent, best first."""
-    begun = plain.fit.run(plain.point, LOOKS, np.random.default_rng(setup.seed))
-    return [Family(t.effects, t.fit, t.point) for t in screen(plain.fit, begun, kinds, setup, plain.effects)]
+    return [Family(t.effects, t.fit, t.point) for t in screen(plain.fit, plain.point, kinds, setup, plain.effects)]

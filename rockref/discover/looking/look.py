@@ -78,7 +78,7 @@ def look_further(setup: Setup, start: Family, seed: int, say) -> Look:
     if leads_on(look, second) or structured(kept) <= FEW_STRUCTURED or (far and structured(kept) > TOO_FAR):
         return look
     others = from_near(setup, offered, start, seed) if far else from_far(setup, offered, kept, say, look.order)
-    return ranked(kept, [*families, *others], say, in_full=True)
+    return ranked(kept, [*families, *others], say, in_full=far or bool(others))
 
 
 def from_near(setup: Setup, offered: Sequence[type[Effect]], start: Family, seed: int) -> list[Family]:

@@ -32,22 +32,25 @@ UNSETTLED = 0.05
 TRIFLE = 0.3
 
 
-def resized(setup: Setup, family: Family, seed: int, most: float = np.inf) -> Family:
+def resized(setup: Setup, family: Family, seed: int, ahead: Family | None = None) -> Family:
     """The family, gone on from averages, from changed sizes and along the feet's heights, as long as that helps.
 
     Least squares stops where corner impacts change their order; a size that is wrong by a factor holds all the other
     parameters with it. A fit that has arrived at the noise is only taken to its end, and one that most windows
-    contradict is left as it is. most : mean loss above which it goes on once only.
+    contradict is left as it is. ahead : a family at its end; where the rounds that are left, each as good as the last
+    one, would not bring this one level with it, it does not go on.
     """
     if structured(family) > MISSING:
         return family
-    for k in range(ROUNDS):
-        if has_arrived(family) or (k and mean_loss(family) > most):
+    for left in reversed(range(ROUNDS)):
+        if has_arrived(family):
             break
         further = next((f for way in (averaged, moved) if is_lower(f := way(setup, family, seed), family)), None)
         if further is None:
             break
-        family = further
+        fell, family = room(family) - room(further), further
+        if ahead is not None and room(family) - room(ahead) > left * fell:
+            break
     return refit(family, LAST, seed)
 
 

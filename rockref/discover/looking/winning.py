@@ -11,7 +11,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import Family, gain_between, mean_loss, refit, room, size_of, structured
 from rockref.discover.fit.search import LITTLE, MISSING, Setup, baseline
-from rockref.discover.looking.far import fitted_anew, in_the_valley_of, kin, own_z
+from rockref.discover.looking.far import FAR, FAR_OFF, fitted_anew, in_the_valley_of, kin, own_z
 from rockref.discover.looking.look import PLAIN, POLISH, Look, candidates_beside, challenge, ranked
 from rockref.discover.looking.plainer import plainer
 from rockref.discover.looking.resized import resized
@@ -22,9 +22,6 @@ CONTENDS, CONTENDERS = 0.7, 2
 #: A rival whose mean loss is so many times that of the best, which is at its end, is not taken to its own (decided: it
 #: may come down by a few per cent there; three that were 25 per cent above took up to 230 s of a core and stayed).
 BEHIND = 1.1
-#: The same after one round of changed sizes (decided: an inertia whose objective was 19 per cent above took 100 s of a
-#: core for the other rounds, and came down to 15).
-STILL_BEHIND = 1.03
 #: What a winner at its end may leave above the noise before its kin are tried in its place (decided: sides that were
 #: named for round feet left 221 twice, the feet themselves 45), and what share of its gain (decided: kin came first
 #: where a winner had left 0.16 of it and more; where uneven feet left 0.06 and 0.08 they were tried for nothing).
@@ -84,21 +81,21 @@ def polished(setup: Setup, family: Family, seed: int) -> Family:
     return refit(family, 3 * POLISH, seed, relative=LITTLE / 5)
 
 
-def completed(setup: Setup, family: Family, seed: int, most: float = np.inf) -> Family:
-    """A polished family from changed sizes (once, where it stays above `most`), less what it has not shown."""
-    return plainer(resized(setup, family, seed, most), seed)
+def completed(setup: Setup, family: Family, seed: int, ahead: Family | None = None) -> Family:
+    """A polished family from changed sizes, as long as it may reach the one `ahead`, less what it has not shown."""
+    return plainer(resized(setup, family, seed, ahead), seed)
 
 
-def all_finished(setup: Setup, families: list[Family], seed: int, reached: float = np.inf) -> list[Family]:
-    """Families polished, best first; those that are then not far behind the best, or behind the mean loss that another
-    one has `reached` at its end, finished."""
+def all_finished(setup: Setup, families: list[Family], seed: int, ahead: Family | None = None) -> list[Family]:
+    """Families polished, best first; those that are then not far behind the best, or behind another one `ahead` that is
+    at its end, finished."""
     best, *others = sorted(side_by_side(setup, partial(polished, seed=seed), families), key=mean_loss)
-    if mean_loss(best) > BEHIND * reached:
+    if ahead is not None and mean_loss(best) > BEHIND * mean_loss(ahead):
         return [best, *others]
-    best = completed(setup, best, seed, most=STILL_BEHIND * reached)
-    loss = min(mean_loss(best), reached)
-    near = [f for f in others if mean_loss(f) <= BEHIND * loss]
-    ended = side_by_side(setup, partial(completed, seed=seed, most=STILL_BEHIND * loss), near)
+    best = completed(setup, best, seed, ahead)
+    first = best if ahead is None else min(best, ahead, key=mean_loss)
+    near = [f for f in others if mean_loss(f) <= BEHIND * mean_loss(first)]
+    ended = side_by_side(setup, partial(completed, seed=seed, ahead=first), near)
     return [best, *ended, *others[len(near) :]]
 
 
@@ -149,13 +146,20 @@ def with_kin(setup: Setup, ended: Look, seed: int, say: Callable[[str], None]) -
     if not others:
         return ended
     tried = in_the_valley_of(setup, winner, others, ended.kept)
-    tried += fitted_anew(setup, {effects: own_z(setup, effects) for effects in others}, ended.kept, say)
+    begun = {effects: own_z(setup, effects) for effects in others}
+    tried += fitted_anew(setup, begun, ended.kept, say, most=FAR_OFF * mean_loss(winner))
     return taken_in(setup, ended, tried, seed, say)
 
 
 def leaves_a_large_part(ended: Look) -> bool:
-    """Whether the first of the families at their ends explains the windows, but leaves a large part of its gain."""
+    """Whether the first of the families at their ends explains the windows, but leaves a large part of its gain.
+
+    Where the family without it is far from the windows everyone has been looked at afresh; a gain, of which each window
+    adds no more than so much, says little there.
+    """
     best = ended.order[0]
+    if structured(ended.kept) > FAR:
+        return False
     return room(best) > max(LEAVES, LARGE_PART * ended.gains[best.effects[-1]]) and structured(best) <= WITHOUT_KIN
 
 
@@ -172,7 +176,7 @@ def taken_in(setup: Setup, ended: Look, tried: list[Family], seed: int, say: Cal
     """The families at their ends, and others; those of these that come near the best are taken to theirs."""
     least = CONTENDS * ended.gains[ended.order[0].effects[-1]]
     near = sorted((f for f in tried if gain_between(ended.kept, f) > least), key=mean_loss)[:CONTENDERS]
-    better = all_finished(setup, near, seed, mean_loss(ended.order[0])) if near else []
+    better = all_finished(setup, near, seed, ended.order[0]) if near else []
     return ranked(ended.kept, [*ended.order, *tried, *better], say)
 
 

@@ -221,6 +221,30 @@ def test_where_none_of_the_nearest_arrives_the_next_are_fitted_in_full(
     assert sorted(f.effects[0] for f in again) == sorted({*ids[:fitted], "gyro_scale"})
 
 
+def test_nobody_is_fitted_in_full_who_stands_above_what_is_given(stages):
+    stages({"adhesion": 1.4, "spin_friction": 2.9, "clock_error": 3.0})
+    kept = Family((), SimpleNamespace(parameters=()), Point(np.zeros(0), None, np.ones(3)))
+    sets = {(id,): np.zeros(1) for id in ("adhesion", "spin_friction", "clock_error")}
+    found = far.fitted_anew(ALONE, sets, kept, lambda line: None, most=2.0)
+    assert [f.effects for f in found] == [("adhesion",)]
+    assert far.fitted_anew(ALONE, sets, kept, lambda line: None, most=1.3) == []
+
+
+@pytest.mark.parametrize("alone, second, fitted", [(1.3, True, 1), (1.1, True, 0), (1.1, False, 1)])
+def test_a_second_effect_that_comes_no_nearer_than_the_first_alone_is_not_fitted_in_full(
+    monkeypatch, alone, second, fitted
+):
+    """Nor does it matter for a first one, whose baseline may not be near anything."""
+    effects = ("rolling_resistance",) if second else ()
+    kept = family(effects, Bowl(np.array([0.0]), floor=alone), [0.0])
+    drag = family((*effects, "quadratic_drag"), Bowl(np.array([0.0, 0.1]), floor=1.2), [0.0, 0.1])
+    monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(far, "first_steps", lambda *a: [drag])
+    monkeypatch.setattr(far, "first_looks", lambda *a: [])
+    monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
+    assert len(far.from_far(ALONE, (), kept, lambda line: None)) == fitted
+
+
 def test_rivals_begun_where_the_winner_ended_are_compared_in_its_valley():
     setup, kept = far_from("quadratic_drag:c=0.8")
     wide = setup.fit(kept.fit.series, ("cable_restraint",))

@@ -9,6 +9,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.fit.approach import HIGHER, higher
 from rockref.discover.fit.families import mean_loss, room, structured
 from rockref.discover.fit.parameter import Parameter
+from rockref.discover.looking import resized as module
 from rockref.discover.looking.resized import (
     AFFORDABLE,
     AT_NOISE,
@@ -41,15 +42,18 @@ def test_a_size_that_is_twice_too_large_is_found():
     assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
 
 
-def test_a_rival_that_stays_behind_goes_on_once():
-    """Twice too large it comes down to 1.05 in one round; where 1.02 is what would be near, that was the last one."""
-    once, on = (Walled(np.array([0.1, 0.4]), floor=1.05) for _ in range(2))
-    start = np.array([0.0, 0.8])
-    near, behind = (
-        resized(ALONE, family(("rolling_resistance",), b, start), 0, most=m) for b, m in ((on, 2), (once, 1.02))
-    )
-    assert mean_loss(behind) < 1.06 and mean_loss(near) <= mean_loss(behind)
-    assert once.iterations < on.iterations
+@pytest.mark.parametrize("falls, rounds", [((120, 70, 40, 10), 1), ((240, 150, 20, 10), 3), ((180, 180, 180, 50), 4)])
+def test_a_rival_goes_on_while_rounds_like_the_last_one_would_bring_it_level(monkeypatch, falls, rounds):
+    """It begins 600 units above the other one; 120 in the first round of four are too few for that."""
+    units = np.cumsum([600.0, *np.negative(falls)])
+    per_unit = 2 / float(np.sum(Bowl(np.zeros(1)).series.count))
+    at = np.array([0.0, 0.4])
+    behind = [family(("rolling_resistance",), Bowl(at, floor=1.01 + u * per_unit), at) for u in units]
+    ahead = family(("quadratic_drag",), Bowl(at, floor=1.01), at)
+    monkeypatch.setattr(module, "averaged", lambda setup, f, seed: behind[behind.index(f) + 1])
+    monkeypatch.setattr(module, "refit", lambda f, iterations, seed: f)
+    assert behind.index(resized(ALONE, behind[0], 0, ahead)) == rounds
+    assert behind.index(resized(ALONE, behind[0], 0)) == 4  # by itself it goes on as long as it falls
 
 
 def test_a_fit_that_has_arrived_is_only_taken_to_its_end():

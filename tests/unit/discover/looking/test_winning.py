@@ -92,20 +92,22 @@ def test_a_rival_that_is_far_behind_once_polished_is_not_taken_to_its_end(monkey
     winner = family(ROLLING, Bowl(np.array([0.0, 0.5])), np.array([0.0, 0.4]))
     rival = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=floor), np.array([0.0, 0.0, 0.9]))
     ended = []
-    monkeypatch.setattr(winning, "completed", lambda setup, f, seed, most=0: (ended.append(f.effects), f)[1])
+    monkeypatch.setattr(winning, "completed", lambda setup, f, seed, ahead: (ended.append(f.effects), f)[1])
     found = all_finished(ALONE, [rival, winner], 0)
     assert ended == taken and [f.effects for f in found] == [ROLLING, DRAG]
     np.testing.assert_allclose(found[1].point.z, [0.0, 0.0, 1.0], atol=1e-3)
 
 
-@pytest.mark.parametrize("reached, taken", [(0.99, [1.0197]), (0.9, []), (np.inf, [np.inf])])
+@pytest.mark.parametrize("reached, taken", [(0.99, True), (0.9, False), (None, True)])
 def test_who_comes_late_is_taken_to_its_end_if_it_is_near_what_another_has_reached(monkeypatch, reached, taken):
-    """With the mean loss up to which it may go on more than once."""
+    """It is told who is ahead."""
     late = family(DRAG, Bowl(np.array([0.0, 0.0, 1.0]), floor=1.05), np.array([0.0, 0.0, 0.9]))
-    bars = []
-    monkeypatch.setattr(winning, "completed", lambda setup, f, seed, most=0: (bars.append(most), f)[1])
-    assert [f.effects for f in all_finished(ALONE, [late], 0, reached)] == [DRAG]
-    assert bars == pytest.approx(taken)
+    at = np.array([0.0, 0.5])
+    ahead = None if reached is None else family(ROLLING, Bowl(at, floor=reached), at)
+    told = []
+    monkeypatch.setattr(winning, "completed", lambda setup, f, seed, ahead: (told.append(ahead), f)[1])
+    assert [f.effects for f in all_finished(ALONE, [late], 0, ahead)] == [DRAG]
+    assert told == ([ahead] if taken else [])
 
 
 def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
@@ -135,8 +137,9 @@ def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left
     monkeypatch.setattr(winning, "in_the_valley_of", valley)
     begun = []
 
-    def afresh(setup, z, over, say):
+    def afresh(setup, z, over, say, most):
         begun.append((z, over))
+        assert most == pytest.approx(winning.FAR_OFF * (1.0 + left), rel=1e-3)
         end = np.array([0.0, 0.0, 1.0])
         return [] if afresh_at is None else [family(DRAG, Bowl(end, floor=1.0 + afresh_at), end)]
 
@@ -271,6 +274,15 @@ def test_where_a_first_effect_leaves_a_large_part_everyone_is_fitted_afresh(monk
     assert asked == ([DRAG] if best == DRAG else [])
 
 
+def test_where_the_baseline_is_far_from_the_windows_everyone_has_been_looked_at_afresh():
+    at = np.array([0.0, 0.5])
+    winner = family(ROLLING, Bowl(at, floor=1.1), at)
+    ended = looked(family((), Bowl(np.zeros(1), floor=1.4, stuck=True), np.zeros(1)), winner)
+    assert winning.leaves_a_large_part(ended)
+    ended.kept = family((), Bowl(np.zeros(1), floor=3.0, stuck=True), np.zeros(1))
+    assert winning.structured(ended.kept) == 1.0 and not winning.leaves_a_large_part(ended)
+
+
 def test_a_winner_whose_kin_were_all_tried_stays_as_it_is(monkeypatch):
     monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: (GyroScale,))
     monkeypatch.setattr(winning, "in_the_valley_of", lambda *a: pytest.fail("tried again"))
@@ -286,7 +298,7 @@ def test_kin_of_all_who_come_near_the_front_are_tried(monkeypatch):
     monkeypatch.setattr(winning, "candidates_beside", lambda setup, effects: offered)
     monkeypatch.setattr(winning, "own_z", lambda setup, effects: np.zeros(1))
     monkeypatch.setattr(winning, "in_the_valley_of", lambda setup, winner, others, kept: asked.extend(others) or [])
-    monkeypatch.setattr(winning, "fitted_anew", lambda setup, begun, kept, say: asked.extend(begun) or [])
+    monkeypatch.setattr(winning, "fitted_anew", lambda setup, begun, *a, **b: asked.extend(begun) or [])
     kept = family((), Bowl(np.zeros(1), floor=1.3), np.zeros(1))
     first, near, far = (
         family((id,), Bowl(np.array([0.0, 0.5]), floor=floor), np.array([0.0, 0.5]))
