@@ -42,7 +42,7 @@ def test_a_size_that_is_twice_too_large_is_found():
     assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
 
 
-@pytest.mark.parametrize("falls, rounds", [((120, 70, 40, 10), 1), ((240, 150, 20, 10), 3), ((180, 180, 180, 50), 4)])
+@pytest.mark.parametrize("falls, rounds", [((120, 70, 40, 20), 1), ((240, 150, 20, 20), 3), ((180, 180, 180, 50), 4)])
 def test_a_rival_goes_on_while_rounds_like_the_last_one_would_bring_it_level(monkeypatch, falls, rounds):
     """It begins 600 units above the other one; 120 in the first round of four are too few for that."""
     units = np.cumsum([600.0, *np.negative(falls)])
