@@ -73,8 +73,6 @@ NEAR = 1.1
 #: What windows hand on from one to the next, and so settles by one window an iteration: it gets as many iterations
 #: again (decided: a plate that rang at 89 Hz stood at 1.80 and fell, where others had stopped at 1.72). While it is
 #: absent no derivative shows at what tone it rings, so beside another effect it is searched for (`looking/two.py`).
-#: What is looked for beside it begins where nothing has settled: a plate stood at 5.07 there, at 1.23 three iterations
-#: later; spin friction, the right one, was the eighth of the looks and promised nothing by a step, and led the race.
 SETTLES_LATE = ("compliant_support",)
 
 
@@ -93,15 +91,14 @@ def from_far(
     Where most windows are out of step, a small step along an effect changes little, and the parameters of the family
     `kept` have bent so far that an effect added to them cannot unbend them. One step from a baseline that is not yet
     bent shows what changes every impact, a search along the effect itself what changes the order of the impacts. A
-    second effect that comes no nearer than the first one alone, taken as far, is not fitted in full. Beside what
-    settles late no look shows anything, since nothing is fitted in it, and all that begin by one step are raced.
+    second effect that comes no nearer than the first one alone, taken as far, is not fitted in full.
     """
     plain, sure = nominal_beside(setup, kept), leaders[0].effects if leaders else ()
     as_far = refit(plain, LOOKS, setup.seed)
-    begun = first_steps(setup, kinds, as_far)
-    if not set(kept.effects) & set(SETTLES_LATE):
-        looks = sorted(first_looks(setup, kinds, plain), key=lambda f: f.point.objective)
-        begun = [f for way in (begun, looks) for i, f in enumerate(way) if i < LOOKED_AT or f.effects == sure]
+    looks = sorted(first_looks(setup, kinds, plain), key=lambda f: f.point.objective)
+    begun: list[Family] = []
+    for found in (first_steps(setup, kinds, as_far), looks):
+        begun += [f for i, f in enumerate(found) if i < LOOKED_AT or f.effects == sure]
     raced: dict[tuple[str, ...], Family] = {}
     tried = refit_all(setup, begun, LOOKS, setup.seed)
     tried += refit_all(setup, [f for f in tried if f.effects[-1] in SETTLES_LATE], LOOKS, setup.seed)

@@ -245,21 +245,6 @@ def test_a_second_effect_that_comes_no_nearer_than_the_first_alone_is_not_fitted
     assert len(far.from_far(ALONE, (), kept, lambda line: None)) == fitted
 
 
-def test_beside_a_plate_that_rings_everyone_is_raced_from_one_step(monkeypatch):
-    """No look is worth anything there, and a step promised nothing of the spin friction that came to lead."""
-    plate, ids = ("compliant_support",), ("a", "b", "c", "d", "e", "spin_friction")
-    kept = family(plate, Bowl(np.array([0.0]), floor=1.3), [0.0])
-    bowls = {id: Bowl(np.array([0.0, 0.1]), floor=1.05 if id == "spin_friction" else 1.2) for id in ids}
-    steps = [family((*plate, id), bowls[id], [0.0, 0.0]) for id in ids]
-    monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
-    monkeypatch.setattr(far, "first_steps", lambda *a: steps)
-    monkeypatch.setattr(far, "first_looks", lambda *a: pytest.fail("looked at"))
-    monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
-    found = far.from_far(ALONE, (), kept, lambda line: None)
-    assert all(bowl.iterations for bowl in bowls.values())
-    assert found[0].effects == (*plate, "spin_friction")
-
-
 def test_rivals_begun_where_the_winner_ended_are_compared_in_its_valley():
     setup, kept = far_from("quadratic_drag:c=0.8")
     wide = setup.fit(kept.fit.series, ("cable_restraint",))
