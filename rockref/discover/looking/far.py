@@ -86,7 +86,7 @@ def from_far(
     """Candidates beside the family `kept`, from nominal parameters: looked at, raced on short windows; who comes
     nearest, in full.
 
-    leaders : who led so far; the first of them is fitted in full wherever it stands.
+    leaders : who led so far; the first of them is fitted in full wherever it stands, but for the last rule below.
 
     Where most windows are out of step, a small step along an effect changes little, and the parameters of the family
     `kept` have bent so far that an effect added to them cannot unbend them. One step from a baseline that is not yet
