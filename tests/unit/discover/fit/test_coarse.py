@@ -24,7 +24,7 @@ class Rattle:
     time, run_of = np.zeros(B), np.zeros(B, int)
     noise = np.random.default_rng(2).normal(size=(B, M, 3))
     first, length, count = np.ones(B, bool), np.full(B, M), np.full(B, 3 * M)
-    valid, workers = np.ones((B, M), bool), 1
+    workers = 1
 
     def motion(self, late: float) -> np.ndarray:
         t = np.arange(M) - late
