@@ -112,6 +112,10 @@ def test_harm_on_held_out_runs_is_not_accepted():
     assert decide(facts(held=(-0.5, -0.5))).verdict == "none"
 
 
+def test_held_out_runs_that_say_the_opposite_of_each_other_prove_no_harm():
+    assert decide(facts(held=(-0.04, 0.014))).verdict == "indicated"
+
+
 @pytest.mark.parametrize("second", [False, True])
 def test_detection_asks_for_gain_and_size(second):
     gain = (rules.SECOND if second else rules.DETECTED) + 1
