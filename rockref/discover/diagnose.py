@@ -34,7 +34,7 @@ from rockref.discover.fit.gates import Gate, gradient_small, off_bounds, runs_ag
 from rockref.discover.fit.information import information
 from rockref.discover.fit.search import FRESH, Setup, baseline
 from rockref.discover.looking.fewer import both_needed, without
-from rockref.discover.looking.look import POLISH, TOO_FAR, Look, duel, look_further
+from rockref.discover.looking.look import POLISH, TOO_FAR, Look, doubt_trifle, duel, look_further
 from rockref.discover.looking.presearch import STRONG, suspects
 from rockref.discover.looking.two import leaves_too_much, settled_by_two
 from rockref.discover.looking.winning import exchanged, finished, to_the_end, upheld
@@ -213,7 +213,9 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
     while len(start.effects) < rules.MOST_EFFECTS and (not start.effects or room(start) > rules.SECOND_ROOM):
         look, second = look_further(setup, start, seed, say), bool(start.effects)
         looks.append(look)
+        doubt_trifle(look, second, seed, say)
         if not look.order or not rules.is_detected(look.gains[look.order[0].effects[-1]], np.inf, second):
+            start = min(start, look.kept, key=mean_loss) if second else start
             break
         wider = look.order[0] if look.in_full else duel(setup, look, say)
         found = upheld(look, wider, second, seed, say)

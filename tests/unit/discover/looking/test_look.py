@@ -58,6 +58,25 @@ def test_no_challenge_where_the_cuts_have_moved():
     assert look.gains == {"gyro_scale": 500.0} and look.kept is kept
 
 
+@pytest.mark.parametrize(
+    ("size", "in_full", "doubted"), [(0.1, False, True), (0.22, False, True), (0.3, False, False), (0.1, True, False)]
+)
+def test_who_leads_by_a_trifle_is_challenged_before_anyone_is_fitted_in_full(size, in_full, doubted):
+    """The family is stuck at z = 0.3, and as good without the effect where that one ended. Of a second effect a quarter
+    of its typical size is a trifle."""
+    kept = family(("adhesion",), Bowl(np.array([0.0]), stuck=True), [0.3])
+    wider = family(("adhesion", "rolling_resistance"), Bowl(np.array([0.0, size])), [0.0, size])
+    look = Look(kept, [wider], {"rolling_resistance": gain_over(kept, wider)}, in_full)
+    lines = []
+    looking.doubt_trifle(look, True, 0, lines.append)
+    assert bool(lines) == doubted == (look.kept.point.z[0] == 0.0)
+    assert rules.is_detected(look.gains["rolling_resistance"], np.inf, True) != doubted
+
+
+def test_a_look_at_nobody_doubts_nobody():
+    looking.doubt_trifle(Look(family((), Bowl(np.array([0.0])), [0.0]), [], {}), False, 0, pytest.fail)
+
+
 def test_a_look_keeps_the_better_family_of_each_name_best_first():
     kept = family((), Bowl(np.array([0.0]), floor=1.2), [0.0])
     worse = family(("rolling_resistance",), Bowl(np.array([0.0, 1.0]), floor=1.15), [0.0, 1.0])
