@@ -65,8 +65,11 @@ LATER: dict[str, dict[str, float]] = {
     "gyro_saturation": {"softness": 0.5},
     "uneven_foot_damping": {"normal_share": 0.5},
     "compliant_support": {"pitch": 0.5},
+    "rounded_feet": {"foot1": 0.75, "foot2": 1.5, "foot3": 0.625, "foot4": 1.25},
 }
-OF_ALL_FEET = ("uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals")
+OF_ALL_FEET = (
+    "uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals", "rounded_feet",
+)  # fmt: skip
 #: A parameter is at work where this share less of it moves the vector by `LEAST` bars. Decided: small enough that the
 #: effect stays what it is, and millions of bars for each parameter that acts.
 SHARE = 0.1

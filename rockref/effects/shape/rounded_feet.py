@@ -4,25 +4,33 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rockref.effects.base import Effect, Quantity
+from rockref.effects.base import POSITIVE, Effect, Quantity
+from rockref.effects.feet import of_foot
+from rockref.model.problem import ContactPoints
 
 
 @dataclass(frozen=True)
 class RoundedFeet(Effect):
-    """Every contact point becomes a sphere of this radius, centred above the point on the body axis.
+    """Every contact point becomes a sphere, centred above the point on the body axis.
 
-    It replaces the radius that the model may give. The contact is at the sphere's lowest point: below the point while
-    the block stands upright, rho sin(tilt) further out while it leans. The tangential spring follows the material
-    velocity there, as in discrete-element codes, so that a foot can roll without friction.
+    `radius` is the geometric mean of the four feet's radii; of the factors `foot1` to `foot4`, by which the radii
+    differ, only the ratios count (decided: so a common factor cannot trade with the radius). Both points of a foot have
+    its radius. It replaces the radius that the model may give. The contact is at the sphere's lowest point: below the
+    point while the block stands upright, rho sin(tilt) further out while it leans. The tangential spring follows the
+    material velocity there, as in discrete-element codes, so that a foot can roll without friction.
     """
 
     id = "rounded_feet"
     question = "shape"
-    quantities = {"radius": Quantity("m", 0.0, 2e-4, 1e-2, 2e-3, "+", "radius of every foot", 0.0)}
+    quantities = {"radius": Quantity("m", 0.0, 2e-4, 1e-2, 2e-3, "+", "mean radius of the feet", 0.0)} | {
+        f"foot{i}": Quantity("1", 1.0, 0.3, 3.0, 1.0, "any", f"radius of foot {i} over the mean", POSITIVE)
+        for i in (1, 2, 3, 4)
+    }
+    switches = ("radius",)
     sentence = (
         "A round foot rolls: its contact moves outward as the block leans, the weight's lever grows, arcs are shorter."
     )
-    equation = r"r = \Lambda(P + \rho\,e_Z) - \rho\,e_z"
+    equation = r"r_i = \Lambda(P_i + \rho_i\,e_Z) - \rho_i\,e_z,\quad \rho_i = \rho\,s_i/(s_1 s_2 s_3 s_4)^{1/4}"
     source = (
         "P. A. Cundall, O. D. L. Strack (1979), Geotechnique 29:47-65, doi:10.1680/geot.1979.29.1.47 (rolling contact)"
     )
@@ -32,8 +40,19 @@ class RoundedFeet(Effect):
     )
 
     radius: float = 0.0
+    foot1: float = 1.0
+    foot2: float = 1.0
+    foot3: float = 1.0
+    foot4: float = 1.0
 
     def points(self, block, points):
         if self.is_absent():
             return block, points
-        return block, replace(points, radius=np.full_like(points.K_N, self.radius))
+        return block, replace(points, radius=self.radius * self.relative(points))
+
+    def relative(self, points: ContactPoints) -> np.ndarray:
+        """(n,) radius of every point over the geometric mean of the four feet's."""
+        feet = (self.foot1, self.foot2, self.foot3, self.foot4)
+        if all(foot == 1 for foot in feet):
+            return np.ones_like(points.K_N)
+        return of_foot(points, np.divide(feet, np.exp(np.mean(np.log(feet)))), self.id)

@@ -121,6 +121,7 @@ def test_what_is_left_out_is_named():
         ("hysteretic_contact", "curved_share"),
         ("gyro_saturation", "softness"),
         ("compliant_support", "pitch"),
+        ("rounded_feet", "foot3"),
         ("inertia_deviation", "xz"),
         ("gyro_misalignment", "yz"),
         ("gyro_bandwidth", "delay"),

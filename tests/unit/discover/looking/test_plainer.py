@@ -49,6 +49,16 @@ def test_what_gains_as_much_as_an_effect_stays():
     assert plainer(found, seed=0) is found
 
 
+def test_radii_of_feet_that_gain_little_become_alike_again():
+    """Factors that shape an effect are typically one: they are held as what is typically none is."""
+    names = ("mu_ext", "rounded_feet.radius", "rounded_feet.foot3")
+    bottom = np.array([0.2, 0.9, 0.0])
+    bowl = Held(bottom, names=names)
+    bottom[2] = np.sqrt(0.9 * DETECTED / (0.5 * bowl.series.count.sum()))
+    found = family(("rounded_feet",), bowl, bottom.copy())
+    assert plainer(found, seed=0).point.z == pytest.approx([0.2, 0.9, 0.0])
+
+
 def test_what_is_none_costs_nothing():
     found = drag(0.0)
     assert plainer(found, seed=0) is found and found.fit.iterations == 0
