@@ -110,12 +110,16 @@ def test_who_comes_late_is_taken_to_its_end_if_it_is_near_what_another_has_reach
     assert told == ([ahead] if taken else [])
 
 
-def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there():
+def test_what_ends_as_a_trifle_wins_only_if_nothing_else_is_there(monkeypatch):
+    """Its kin is asked, though it leaves nothing: one of them may have a size."""
+    asked = []
+    monkeypatch.setattr(winning, "with_kin", lambda setup, ended, seed, say: asked.append(ended.order[0]) or ended)
     kept = family((), Bowl(np.zeros(1), floor=1.2, stuck=True), np.zeros(1))
     winner = family(ROLLING, Bowl(np.array([0.0, 0.5]), floor=1.03), np.array([0.0, 0.5]))
     trifle = family(DRAG, Bowl(np.array([0.0, 0.0, 0.1]), floor=1.0), np.array([0.0, 0.0, 0.1]))
     look = looked(kept, winner, trifle)
     assert to_the_end(ALONE, look, winner, False, 0, quiet).effects == ROLLING
+    assert [f.effects for f in asked] == [DRAG]
 
 
 @pytest.mark.parametrize(
