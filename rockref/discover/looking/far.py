@@ -56,9 +56,7 @@ AHEAD, ALIKE = 0.4, 1.15
 #: Looks of which the best leaves so large a mean loss, and such a share of the middle one's, lead nowhere: one of them
 #: is fitted in full (decided: where nothing of the catalogue was missing the best left 0.94 to 0.99 of the middle, at
 #: 2.7 to 6.7; a right one that began as far off left 0.6). Of pairs that are raced none is fitted in full that leaves
-#: as much (decided: five right ones left 1.1 to 1.5, the best where a gyroscope had soft stops 5.5). Nor does kin that
-#: leaves so many times what the winner leaves at its end (decided: where a plate rang it had 1.10, its kin 2.77 and
-#: more, and fitting the nearest of it in full took a minute of a core; kin that came to win had stood at 1.06 times).
+#: as much (decided: five right ones left 1.1 to 1.5, the best where a gyroscope had soft stops 5.5).
 FAR_OFF, ALL_THE_SAME = 2.0, 0.9
 #: Share of structured windows above which small steps lead nowhere and candidates are looked for from nominal
 #: parameters first (decided: from a baseline with 0.39 no small step led on; with 0.18 one did), and above which

@@ -11,7 +11,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import Family, gain_between, mean_loss, refit, room, size_of, structured
 from rockref.discover.fit.search import LITTLE, MISSING, Setup, baseline
-from rockref.discover.looking.far import FAR, FAR_OFF, fitted_anew, in_the_valley_of, kin, own_z
+from rockref.discover.looking.far import FAR, fitted_anew, in_the_valley_of, kin, own_z
 from rockref.discover.looking.look import PLAIN, POLISH, Look, candidates_beside, challenge, ranked
 from rockref.discover.looking.plainer import plainer
 from rockref.discover.looking.resized import resized
@@ -26,6 +26,10 @@ BEHIND = 1.1
 #: named for round feet left 221 twice, the feet themselves 45), and what share of its gain (decided: kin came first
 #: where a winner had left 0.16 of it and more; where uneven feet left 0.06 and 0.08 they were tried for nothing).
 UNSETTLED, GOOD_PART = 150.0, 0.1
+#: Kin that stands on the short windows at more than so many times what the winner leaves at its end is not fitted in
+#: full. Decided: where a plate rang kin stood at 2.5 times it and more, where dampers were uneven at 1.5 times, and
+#: the nearest three took three minutes of a core; kin that came to win had stood at 1.06 to 1.25 times.
+KIN_BEHIND = 1.4
 #: Share of structured windows above which they are not: another effect is missing, and kin do not stand in for it any
 #: better (decided: of a loose part 0.20 and 0.15 stayed structured by a scale of 18 per cent and by an inertia beside
 #: it; their kin took ten minutes and changed nothing).
@@ -149,7 +153,7 @@ def with_kin(setup: Setup, ended: Look, seed: int, say: Callable[[str], None]) -
         return ended
     tried = in_the_valley_of(setup, winner, others, ended.kept)
     begun = {effects: own_z(setup, effects) for effects in others}
-    tried += fitted_anew(setup, begun, ended.kept, say, most=FAR_OFF * mean_loss(winner))
+    tried += fitted_anew(setup, begun, ended.kept, say, most=KIN_BEHIND * mean_loss(winner))
     return taken_in(setup, ended, tried, seed, say)
 
 

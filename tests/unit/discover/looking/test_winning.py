@@ -143,7 +143,7 @@ def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left
 
     def afresh(setup, z, over, say, most):
         begun.append((z, over))
-        assert most == pytest.approx(winning.FAR_OFF * (1.0 + left), rel=1e-3)
+        assert most == pytest.approx(winning.KIN_BEHIND * (1.0 + left), rel=1e-3)
         end = np.array([0.0, 0.0, 1.0])
         return [] if afresh_at is None else [family(DRAG, Bowl(end, floor=1.0 + afresh_at), end)]
 
