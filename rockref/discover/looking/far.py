@@ -68,10 +68,6 @@ FAR = 0.2
 #: Mean loss of a first look up to which its start needs no second search (decided: 1 is noise; where friction fell
 #: with speed, the right look ended at 1.04, wrong ones at 1.55 and more).
 NEAR = 1.1
-#: Share of the middle one's mean loss above which the last of the looks that are gone on with is no better than the
-#: others, beside another effect (decided: beside a scale of the gyroscope all 27 had 3.43 to 3.51; rolling resistance,
-#: the right one, was the 22nd of them, at 3.46, the first after one iteration, at 1.11, and came down to 0.99).
-SAME = 0.97
 #: What windows hand on from one to the next, and so settles by one window an iteration: it gets as many iterations
 #: again (decided: a plate that rang at 89 Hz stood at 1.80 and fell, where others had stopped at 1.72). While it is
 #: absent no derivative shows at what tone it rings, so beside another effect it is searched for (`looking/two.py`).
@@ -92,15 +88,12 @@ def from_far(
 
     Where most windows are out of step, a small step along an effect changes little, and the parameters of the family
     `kept` have bent so far that an effect added to them cannot unbend them. One step from a baseline that is not yet
-    bent shows what changes every impact, a search along the effect itself what changes the order of the impacts (beside
-    another effect, where that tells nobody apart, one iteration from there). A second effect that comes no nearer than
-    the first one alone, taken as far, is not fitted in full.
+    bent shows what changes every impact, a search along the effect itself what changes the order of the impacts. A
+    second effect that comes no nearer than the first one alone, taken as far, is not fitted in full.
     """
     plain, sure = nominal_beside(setup, kept), leaders[0].effects if leaders else ()
     as_far = refit(plain, LOOKS, setup.seed)
     looks = sorted(first_looks(setup, kinds, plain), key=lambda f: f.point.objective)
-    if kept.effects and all_alike(looks):
-        looks = sorted(refit_all(setup, looks, 1, setup.seed), key=lambda f: f.point.objective)
     begun: list[Family] = []
     for found in (first_steps(setup, kinds, as_far), looks):
         begun += [f for i, f in enumerate(found) if i < LOOKED_AT or f.effects == sure]
@@ -113,15 +106,6 @@ def from_far(
         say(f"  from nominal: {f.effects[-1]} {mean_loss(f):.2f}")
     nearer = [f for f in raced.values() if not kept.effects or mean_loss(f) < mean_loss(as_far)]
     return nearest_in_full(setup, nearer, kept, sure) if nearer else []
-
-
-def all_alike(looks: list[Family]) -> bool:
-    """Whether the last of the first looks that are gone on with is no better than the one in the middle of all.
-
-    Beside another effect the nominal parameters may be so far off that an effect's own line hardly shows.
-    """
-    losses = sorted(map(mean_loss, looks))
-    return len(looks) > LOOKED_AT and losses[LOOKED_AT - 1] > SAME * losses[len(looks) // 2]
 
 
 def fitted_anew(

@@ -256,33 +256,6 @@ def test_rivals_begun_where_the_winner_ended_are_compared_in_its_valley():
     assert truth.point.objective < min(winner.point.objective, scale.point.objective)
 
 
-@pytest.mark.parametrize("second", [False, True])
-def test_beside_another_effect_looks_that_are_all_alike_get_an_iteration_before_the_first_are_taken(
-    monkeypatch, second
-):
-    """Of eight looks at nearly one height the last fall lowest by one iteration."""
-    kept = family(("adhesion",) if second else (), Bowl(np.array([0.0]), floor=1.5), [0.0])
-    ids = "abcdefgh"
-    bowls = [Bowl(np.array([0.0, 0.5]), floor=1.2 - 0.01 * i) for i in range(8)]
-    heights = [0.4 + 0.0105 * i for i in range(8)]
-    looks = [family((ids[i],), bowls[i], [0.0, 0.5 + np.sqrt(heights[i])]) for i in range(8)]
-    assert far.all_alike(looks)
-    monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
-    monkeypatch.setattr(far, "first_steps", lambda *a: [])
-    monkeypatch.setattr(far, "first_looks", lambda *a: looks)
-    monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
-    far.from_far(ALONE, (), kept, lambda line: None)
-    taken = {ids[i] for i in range(8) if bowls[i].iterations > 1}
-    assert taken == set("efgh" if second else "abcd")
-
-
-def test_looks_of_which_some_stand_out_are_not_alike():
-    floors = [1.0, 1.1, 1.1, 1.1, *[2.0] * 8]
-    looks = [family((str(i),), Bowl(np.array([0.0]), floor=f), [0.0]) for i, f in enumerate(floors)]
-    assert not far.all_alike(looks) and not far.all_alike(looks[: far.LOOKED_AT])
-    assert far.all_alike(looks[2:])
-
-
 def test_the_first_of_both_lists_are_raced_and_of_each_name_the_better_start_counts(monkeypatch):
     """Six candidates, in one order by first steps and in the reverse one by first looks; the leader is last of both."""
     kept, ids = family((), Bowl(np.array([0.0]), floor=1.5), [0.0]), ("a", "b", "c", "d", "e", "f", "g", "h")
