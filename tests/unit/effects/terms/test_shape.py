@@ -145,6 +145,24 @@ def test_a_round_foot_has_its_radius_and_stands_where_it_did():
     assert block == "block" and np.array_equal(points.radius, [0.02] * 4) and np.array_equal(points.P, CORNERS)
 
 
+@pytest.mark.parametrize("common", [1.0, 3.0])
+def test_of_the_factors_of_round_feet_only_the_ratios_count(common):
+    """Feet are told by their points' names; the geometric mean stays, and runs side by side have a row each."""
+    feet = {"foot1": common, "foot2": 4 * common, "foot3": 2 * common, "foot4": 2 * common}
+    effect = RoundedFeet(0.02, **feet)
+    block, points = effect.points("block", two_runs(base(names=("3int", "1ext", "2ext", "4int"))))
+    assert block == "block" and points.radius.shape == points.K_N.shape == (2, 4)
+    assert points.radius == pytest.approx(np.array([[0.02, 0.01, 0.04, 0.02]] * 2), rel=ROUNDED)
+    assert not effect.is_absent() and replace(effect, radius=0.0).is_absent()
+
+
+def test_round_feet_that_differ_name_themselves_where_a_point_has_no_foot():
+    odd = base(names=("left", "2ext", "3ext", "4ext"))
+    assert np.array_equal(RoundedFeet(0.02).points("block", odd)[1].radius, [0.02] * 4)
+    with pytest.raises(ValueError, match="^effect rounded_feet: contact point 'left' belongs to no foot"):
+        RoundedFeet(0.02, foot3=2.0).points("block", odd)
+
+
 def test_a_round_corner_is_a_sphere_that_touches_its_three_faces():
     """The engines put the centre a radius above the point, in body axes: it is a radius inside each face."""
     corners = [(3.0, 4.0, -2.0), (-3.0, 4.0, 2.0), (-3.0, -4.0, -2.0), (3.0, -4.0, 2.0)]
