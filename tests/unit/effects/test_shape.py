@@ -150,16 +150,6 @@ def test_rounded_feet_give_every_point_the_radius():
     assert np.array_equal(same.radius, points.radius)
 
 
-def test_round_feet_may_differ_and_keep_their_mean():
-    """Both points of a foot have its radius; the four have the stated geometric mean, whatever the factors have."""
-    feet = {"foot1": 1.0, "foot2": 4.0, "foot3": 2.0, "foot4": 2.0}
-    _, points = Model.table_3_1().replace(effects=(RoundedFeet(2e-3, **feet),)).body()
-    by_name = dict(zip(points.names, points.radius, strict=True))
-    for foot, radius in {"1": 1e-3, "2": 4e-3, "3": 2e-3, "4": 2e-3}.items():
-        assert by_name[f"{foot}ext"] == by_name[f"{foot}int"] == pytest.approx(radius, rel=1e-15)
-    assert RoundedFeet(0.0, **feet).is_absent()
-
-
 def rolled_arc_time(lever, height, radius, tilt, J, mass):
     """Time from rest at `tilt` to upright of a rigid block that rolls on a round edge, by quadrature of its energy.
 
