@@ -131,7 +131,7 @@ def race(setup: Setup, families: list[Family], start: Family, seed: int) -> list
     return families
 
 
-def challenge(look: Look, wider: Family, seed: int) -> None:
+def challenge(look: Look, wider: Family, seed: int, say) -> None:
     """Begin the narrower family once more where the wider one ended, less the effect; if that is better, gains shrink.
 
     A fit that was begun afresh may only have found a better valley, with the effect or without it.
@@ -144,10 +144,14 @@ def challenge(look: Look, wider: Family, seed: int) -> None:
         less = gain_over(look.kept, again)
         look.kept = again
         look.gains = {id: gain - less for id, gain in look.gains.items()}
+    id = wider.effects[-1]
+    told = f"{id}, a trifle," if size_of(wider) < rules.LEAST_SIZE else id
+    say(f"  {told} against the family begun where it ended: {look.gains[id]:.0f}")
 
 
 def doubt_trifle(look: Look, second: bool, seed: int, say) -> None:
-    """Challenge who leads a look by a trifle of its size, before anyone is fitted in full.
+    """Challenge who leads a look by a trifle of its size, before anyone is fitted in full (a second effect by less than
+    counts for one).
 
     What so little of an effect gains the family without it may gain as well, begun where that one ended: beside an
     eccentric mass an inertia of an eighth of its typical size gained 170 units, and six families were fitted afresh.
@@ -156,9 +160,7 @@ def doubt_trifle(look: Look, second: bool, seed: int, say) -> None:
         return
     leader = look.order[0]
     if size_of(leader) < (rules.SECOND_SIZE if second else rules.LEAST_SIZE):
-        challenge(look, leader, seed)
-        id = leader.effects[-1]
-        say(f"  {id}, a trifle, against the family begun where it ended: {look.gains[id]:.0f}")
+        challenge(look, leader, seed, say)
 
 
 def duel(setup: Setup, look: Look, say) -> Family:

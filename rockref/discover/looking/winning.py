@@ -48,15 +48,12 @@ def upheld(look: Look, winner: Family, second: bool, seed: int, say: Callable[[s
     second : whether another effect was found before.
     """
     if (trifle := as_good_a_trifle(look)) is not None:
-        challenge(look, trifle, seed)
-        id = trifle.effects[-1]
-        say(f"  {id}, a trifle, against the family begun where it ended: {look.gains[id]:.0f}")
+        challenge(look, trifle, seed, say)
     sizes = [f for f in look.order if f is not winner and size_of(f) >= rules.LEAST_SIZE]
     for family in (winner, *sizes[:1]):
         id = family.effects[-1]
         if look.gains[id] < PLAIN:
-            challenge(look, family, seed)
-            say(f"  {id} against the family begun where it ended: {look.gains[id]:.0f}")
+            challenge(look, family, seed, say)
         if rules.is_detected(look.gains[id], size_of(family), second):
             return family
     return None

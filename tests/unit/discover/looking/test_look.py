@@ -36,7 +36,7 @@ def test_an_effect_that_only_found_a_better_valley_loses_its_gain():
     gain = gain_over(kept, wider)
     assert gain > 100
     look = Look(kept, [wider], {"rolling_resistance": gain})
-    challenge(look, wider, seed=0)
+    challenge(look, wider, 0, print)
     assert look.gains["rolling_resistance"] == pytest.approx(0.0, abs=1e-9)
     assert look.kept.point.z[0] == 0.0
 
@@ -46,7 +46,7 @@ def test_an_effect_that_is_there_keeps_its_gain():
     wider = family(("rolling_resistance",), Bowl(np.array([0.0, 0.5]), floor=1.0), [0.0, 0.5])
     gain = gain_over(kept, wider)
     look = Look(kept, [wider], {"rolling_resistance": gain})
-    challenge(look, wider, seed=0)
+    challenge(look, wider, 0, print)
     assert look.gains["rolling_resistance"] == gain > 100
 
 
@@ -54,7 +54,7 @@ def test_no_challenge_where_the_cuts_have_moved():
     kept = family((), Bowl(np.array([0.0])), [0.3])
     wider = family(("gyro_scale",), Bowl(np.array([0.0, 0.0]), series=series(7)), [0.0, 0.0])
     look = Look(kept, [wider], {"gyro_scale": 500.0})
-    challenge(look, wider, seed=0)
+    challenge(look, wider, 0, print)
     assert look.gains == {"gyro_scale": 500.0} and look.kept is kept
 
 

@@ -226,7 +226,7 @@ def test_a_trifle_that_does_as_well_as_a_plain_winner_is_challenged(monkeypatch,
     """Round feet of no radius did what an eccentric mass did: neither was needed where they had ended."""
     challenged = []
 
-    def challenge(look, wider, seed):
+    def challenge(look, wider, seed, say):
         challenged.append(wider.effects[-1])
         look.gains = {id: gain - 2 * winning.PLAIN for id, gain in look.gains.items()}
 
