@@ -240,7 +240,7 @@ def test_a_second_effect_that_comes_no_nearer_than_the_first_alone_is_not_fitted
     drag = family((*effects, "quadratic_drag"), Bowl(np.array([0.0, 0.1]), floor=1.2), [0.0, 0.1])
     monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
     monkeypatch.setattr(far, "first_steps", lambda *a: [drag])
-    monkeypatch.setattr(far, "first_looks", lambda *a: [])
+    monkeypatch.setattr(far, "first_looks", lambda *a: [drag])
     monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
     assert len(far.from_far(ALONE, (), kept, lambda line: None)) == fitted
 
@@ -276,3 +276,28 @@ def test_the_first_of_both_lists_are_raced_and_of_each_name_the_better_start_cou
     }
     assert found[0].fit is bowls["look", "d"] and ("h",) in [f.effects for f in found]
     assert [line.split()[2] for line in lines] == ["a", "b", "c", "d", "h", "e", "f"]
+
+
+@pytest.mark.parametrize(
+    "effects, floor, raced",
+    [(("x",), 3.0, True), (("x",), 1.5, False), ((), 3.0, False)],
+    ids=["alike", "near", "first"],
+)
+def test_looks_beside_another_effect_that_tell_nobody_apart_are_halved_an_iteration_at_a_time(
+    monkeypatch, effects, floor, raced
+):
+    """Who is last by its look, and the best by the first iteration, gets into the race; not so where looks are near."""
+    kept, ids = family(effects, Bowl(np.array([0.0]), floor=9.0), [0.0]), "abcdefghijkl"
+    bowls = {id: Bowl(np.array([0.0, 0.0]), floor=floor) for id in ids[:-1]}
+    bowls["l"] = Bowl(np.array([0.0, -0.45]), floor=floor - 0.5)
+    looks = [family((*effects, id), bowls[id], [0.0, 0.3 + 0.01 * i]) for i, id in enumerate(ids)]
+    monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(far, "first_steps", lambda *a: [])
+    monkeypatch.setattr(far, "first_looks", lambda *a: looks)
+    monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
+    lines: list[str] = []
+    far.from_far(ALONE, (), kept, lines.append)
+    assert ("l" in [line.split()[2] for line in lines]) == raced and len(lines) == far.LOOKED_AT
+    before_the_race = far.LOOKS if raced else 0
+    assert sum(bowl.iterations > before_the_race for bowl in bowls.values()) == far.LOOKED_AT
+    assert (bowls["k"].iterations > 0) == raced
