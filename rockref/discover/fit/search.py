@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.approach import along_ridge, approached, placed
+from rockref.discover.fit.approach import along_ridge, approached, placed, ringing_alike
 from rockref.discover.fit.baseline import baseline_parameters, roll_parameters
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.candidates import parameters_of, within_base
@@ -103,19 +103,24 @@ def staged(setup: Setup, effects: tuple[str, ...], z: np.ndarray, lengths: tuple
 def early(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int):
     """The first stage: short windows of the first seconds, where nearly every window finds its place.
 
-    Two fits begin, from z and from the nominal baseline; after a few iterations the better one goes on until it gains
-    little. Which of them finds the valley is luck, on controls too.
+    Two fits begin, from z and from the nominal baseline, with a plate that rings each from several masses of it; after
+    a few iterations the best goes on until it gains little. Which of them finds the valley is luck, on controls too.
     """
     fit = staged(replace(setup, end=min(setup.end, FIRST_STAGE)), effects, z, SHORT)
     first, starts = min(TRIED, iterations), [z]
     if np.any(nominal(fit.parameters, z) != z):
         starts.append(nominal(fit.parameters, z))
 
-    def tried(own: Setup, start: np.ndarray) -> Point:
+    def begun(own: Setup, start: np.ndarray) -> list[Point]:
         twin = fit.twin(own.log)
-        return twin.run(approached(twin, start), first, np.random.default_rng(setup.seed))
+        point = approached(twin, start)
+        return [point, *(placed(twin, point.z + move) for move in ringing_alike(fit, point.z))]
 
-    best = min(side_by_side(setup, tried, starts), key=lambda p: p.objective)
+    def tried(own: Setup, place: Point) -> Point:
+        return fit.twin(own.log).run(place, first, np.random.default_rng(setup.seed))
+
+    places = [place for found in side_by_side(setup, begun, starts) for place in found]
+    best = min(side_by_side(setup, tried, places), key=lambda p: p.objective)
     if iterations == first or (not effects and np.mean(out_of_step(fit, best)) > MISSING):
         return fit, best
     return fit, onward(setup, fit, best, iterations - first)

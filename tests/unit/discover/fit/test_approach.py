@@ -21,6 +21,7 @@ from rockref.discover.fit.approach import (
     pitching,
     placed,
     plainly_best,
+    ringing_alike,
     same_release,
     shares_of,
     switches,
@@ -119,6 +120,34 @@ def test_pitches_are_looked_for_about_the_tone_of_a_plate_that_yields():
     assert sorted(set(places[:, 2].round(12))) == [0.25, 0.5, 0.9, 1.4, 2.0]
     # A pitch that yields makes the tone lower, so that the plate itself is stiffer than it seemed.
     assert places[:, 1].min() == pytest.approx(1.72) and places[:, 1].max() == pytest.approx(2.16)
+
+
+def test_a_plate_of_another_mass_rings_alike_with_the_block_on_it():
+    """The tone of both, the plate's spring under both masses, stays; the plate's own does not.
+
+    A mass that was fitted is left as it is.
+    """
+    fit = started(effects=("compliant_support",))
+    z = fit.begin().z
+    assert len(ringing_alike(fit, z)) == 0
+    soft, heavy = (
+        next(i for i, p in enumerate(fit.parameters) if p.name == f"compliant_support.{k}")
+        for k in ("frequency", "mass")
+    )
+    z[[soft, heavy]] = 1.4, 0.2
+    assert len(ringing_alike(fit, z)) == 0
+    z[heavy] = 0.0
+    moves = ringing_alike(fit, z)
+    assert np.all(np.delete(moves, [soft, heavy], axis=1) == 0) and set(moves[:, heavy] > 0) == {True, False}
+
+    def tones(z):
+        (plate,) = fit.models(z)[0][0].effects
+        _, stiffness, _ = plate.bouncing()
+        return stiffness / (plate.mass + 54.0), plate.frequency
+
+    both, own = zip(*(tones(z + move) for move in moves), strict=True)
+    np.testing.assert_allclose(both, tones(z)[0], rtol=1e-12)  # rounding alone
+    assert min(own) < 0.98 * tones(z)[1] and max(own) > 1.05 * tones(z)[1]
 
 
 def test_a_place_that_is_a_little_better_is_not_plainly_so(monkeypatch):

@@ -150,3 +150,18 @@ def test_averages_that_lead_higher_are_not_followed():
     astray = fit.point(point.z, point.corrections)[0]
     led = led_on(fit, point, 0)
     assert led is point and point.objective < astray.objective
+
+
+@pytest.mark.parametrize("masses, valley", [((0.6, -0.6), 0.7), ((-0.6,), 0.0), ((), 0.0)])
+def test_a_plate_begins_with_several_masses_and_the_one_in_the_valley_goes_on(monkeypatch, masses, valley):
+    """What the others end at is the side valley, where a fit that begins with one mass stays."""
+    fit = TwoValleys(0.7)
+    moves = np.zeros((len(masses), len(NAMES)))
+    moves[:, RIDGE] = np.array(masses).reshape(-1, 1)
+    monkeypatch.setattr(search, "staged", lambda *_: fit)
+    monkeypatch.setattr(search, "approached", lambda fit, z: fit.point(z, np.zeros((WINDOWS, 5)))[0])
+    monkeypatch.setattr(search, "placed", lambda fit, z: fit.point(z, np.zeros((WINDOWS, 5)))[0])
+    monkeypatch.setattr(search, "ringing_alike", lambda fit, z: moves)
+    _, best = early(ALONE, ("compliant_support",), np.zeros(len(NAMES)), search.TRIED)
+    assert np.mean(best.z[RIDGE]) == pytest.approx(valley)
+    assert fit.asked == 1 + len(masses)

@@ -301,3 +301,17 @@ def test_looks_beside_another_effect_that_tell_nobody_apart_are_halved_an_iterat
     before_the_race = far.LOOKS if raced else 0
     assert sum(bowl.iterations > before_the_race for bowl in bowls.values()) == far.LOOKED_AT
     assert (bowls["k"].iterations > 0) == raced
+
+
+def test_a_look_at_a_plate_is_raced_with_other_masses_and_the_best_of_them_counts(monkeypatch):
+    kept = family((), Bowl(np.array([0.0]), floor=1.5), [0.0])
+    plate = family(("compliant_support",), Bowl(np.array([0.0, 0.4]), floor=1.2), [0.0, 0.0])
+    monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(far, "first_steps", lambda *a: [])
+    monkeypatch.setattr(far, "first_looks", lambda *a: [plate])
+    monkeypatch.setattr(far, "placed", lambda fit, z: fit.point(z, plate.point.corrections)[0])
+    monkeypatch.setattr(far, "ringing_alike", lambda fit, z: np.array([[0.0, -0.3], [0.0, 0.4]]))
+    monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
+    lines: list[str] = []
+    (found,) = far.from_far(ALONE, (), kept, lines.append)
+    assert found.point.z == pytest.approx([0.0, 0.4]) and lines == ["  from nominal: compliant_support 1.20"]
