@@ -178,6 +178,11 @@ def ringing_alike(fit: Fit, z: np.ndarray) -> np.ndarray:
     return moves
 
 
+def of_other_masses(fit: Fit, point: Point) -> list[Point]:
+    """The places of a plate that rings with other masses at the same tone, corrections zero; none without a plate."""
+    return [placed(fit, point.z + move) for move in ringing_alike(fit, point.z)]
+
+
 def same_release(fit: Fit, i: int, z: np.ndarray) -> np.ndarray:
     """Changes of one parameter, each with the change of the release tilts that leaves the releases as they are.
 

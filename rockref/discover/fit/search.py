@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.approach import along_ridge, approached, placed, ringing_alike
+from rockref.discover.fit.approach import along_ridge, approached, of_other_masses, placed
 from rockref.discover.fit.baseline import baseline_parameters, roll_parameters
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.candidates import parameters_of, within_base
@@ -114,7 +114,7 @@ def early(setup: Setup, effects: tuple[str, ...], z: np.ndarray, iterations: int
     def begun(own: Setup, start: np.ndarray) -> list[Point]:
         twin = fit.twin(own.log)
         point = approached(twin, start)
-        return [point, *(placed(twin, point.z + move) for move in ringing_alike(fit, point.z))]
+        return [point, *of_other_masses(twin, point)]
 
     def tried(own: Setup, place: Point) -> Point:
         return fit.twin(own.log).run(place, first, np.random.default_rng(setup.seed))

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.fit.approach import approached, approached_beside, placed, ringing_alike
+from rockref.discover.fit.approach import approached, approached_beside, of_other_masses
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import (
     Family,
@@ -99,7 +99,7 @@ def from_far(
     begun: list[Family] = []
     for found in (first_steps(setup, kinds, as_far), looks):
         begun += [f for i, f in enumerate(found) if i < LOOKED_AT or f.effects == sure]
-    begun += [other for f in begun for other in of_other_masses(f)]
+    begun += [replace(f, point=place) for f in begun for place in of_other_masses(f.fit, f.point)]
     raced: dict[tuple[str, ...], Family] = {}
     tried = refit_all(setup, begun, LOOKS, setup.seed)
     tried += refit_all(setup, [f for f in tried if f.effects[-1] in SETTLES_LATE], LOOKS, setup.seed)
@@ -159,12 +159,6 @@ def nearest_in_full(
     if patient and nobody_arrives(nearest, kept):
         ended += side_by_side(setup, in_full, [f for f in near[FITTED:] if f.effects != sure])
     return ended
-
-
-def of_other_masses(look: Family) -> list[Family]:
-    """A look at a plate that rings, with other masses of it, at the same tone."""
-    fit, z = look.fit, look.point.z
-    return [Family(look.effects, fit, placed(fit, z + move)) for move in ringing_alike(fit, z)]
 
 
 def best_and_middle(looked: list[Family]) -> tuple[float, float]:

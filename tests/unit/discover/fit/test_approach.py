@@ -130,10 +130,8 @@ def test_a_plate_of_another_mass_rings_alike_with_the_block_on_it():
     fit = started(effects=("compliant_support",))
     z = fit.begin().z
     assert len(ringing_alike(fit, z)) == 0
-    soft, heavy = (
-        next(i for i, p in enumerate(fit.parameters) if p.name == f"compliant_support.{k}")
-        for k in ("frequency", "mass")
-    )
+    names = [p.name for p in fit.parameters]
+    soft, heavy = (names.index(f"compliant_support.{key}") for key in ("frequency", "mass"))
     z[[soft, heavy]] = 1.4, 0.2
     assert len(ringing_alike(fit, z)) == 0
     z[heavy] = 0.0

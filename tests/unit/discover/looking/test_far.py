@@ -309,8 +309,9 @@ def test_a_look_at_a_plate_is_raced_with_other_masses_and_the_best_of_them_count
     monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
     monkeypatch.setattr(far, "first_steps", lambda *a: [])
     monkeypatch.setattr(far, "first_looks", lambda *a: [plate])
-    monkeypatch.setattr(far, "placed", lambda fit, z: fit.point(z, plate.point.corrections)[0])
-    monkeypatch.setattr(far, "ringing_alike", lambda fit, z: np.array([[0.0, -0.3], [0.0, 0.4]]))
+    monkeypatch.setattr(
+        far, "of_other_masses", lambda fit, p: [fit.point([0.0, z], p.corrections)[0] for z in (-0.3, 0.4)]
+    )
     monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
     lines: list[str] = []
     (found,) = far.from_far(ALONE, (), kept, lines.append)
