@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.fit.approach import approached, approached_beside, of_other_masses
+from rockref.discover.fit.approach import approached, approached_beside
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import (
     Family,
@@ -34,6 +34,7 @@ from rockref.discover.fit.search import (
     onward,
     windows,
 )
+from rockref.discover.looking.ringing import SETTLES_LATE, at_its_tone
 from rockref.discover.looking.screen import screen
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
@@ -68,10 +69,6 @@ FAR = 0.2
 #: Mean loss of a first look up to which its start needs no second search (decided: 1 is noise; where friction fell
 #: with speed, the right look ended at 1.04, wrong ones at 1.55 and more).
 NEAR = 1.1
-#: What windows hand on from one to the next, and so settles by one window an iteration: it gets as many iterations
-#: again (decided: a plate that rang at 89 Hz stood at 1.80 and fell, where others had stopped at 1.72). While it is
-#: absent no derivative shows at what tone it rings, so beside another effect it is searched for (`looking/two.py`).
-SETTLES_LATE = ("compliant_support",)
 
 
 def from_far(
@@ -93,21 +90,21 @@ def from_far(
     """
     plain, sure = nominal_beside(setup, kept), leaders[0].effects if leaders else ()
     as_far = refit(plain, LOOKS, setup.seed)
-    looks = sorted(first_looks(setup, kinds, plain), key=lambda f: f.point.objective)
+    seen = [kind for kind in kinds if kind.id not in SETTLES_LATE]
+    looks = sorted(first_looks(setup, seen, plain), key=lambda f: f.point.objective)
     if kept.effects and leads_nowhere(sorted(looks, key=mean_loss)):
         looks = outlasting(setup, looks)
     begun: list[Family] = []
     for found in (first_steps(setup, kinds, as_far), looks):
         begun += [f for i, f in enumerate(found) if i < LOOKED_AT or f.effects == sure]
-    begun += [replace(f, point=place) for f in begun for place in of_other_masses(f.fit, f.point)]
-    raced: dict[tuple[str, ...], Family] = {}
+    if len(seen) < len(kinds):
+        begun += at_its_tone(setup, plain, as_far, sure[-1:] == SETTLES_LATE)
     tried = refit_all(setup, begun, LOOKS, setup.seed)
     tried += refit_all(setup, [f for f in tried if f.effects[-1] in SETTLES_LATE], LOOKS, setup.seed)
-    for f in tried:
-        raced[f.effects] = min(raced.get(f.effects, f), f, key=mean_loss)
-    for f in raced.values():
+    raced = nearest_of_each(tried)
+    for f in raced:
         say(f"  from nominal: {f.effects[-1]} {mean_loss(f):.2f}")
-    nearer = [f for f in raced.values() if not kept.effects or mean_loss(f) < mean_loss(as_far)]
+    nearer = [f for f in raced if not kept.effects or mean_loss(f) < mean_loss(as_far)]
     return nearest_in_full(setup, nearer, kept, sure) if nearer else []
 
 
@@ -159,6 +156,14 @@ def nearest_in_full(
     if patient and nobody_arrives(nearest, kept):
         ended += side_by_side(setup, in_full, [f for f in near[FITTED:] if f.effects != sure])
     return ended
+
+
+def nearest_of_each(families: Iterable[Family]) -> list[Family]:
+    """Of each set of effects the family that comes nearest, in the order in which the sets first stand."""
+    found: dict[tuple[str, ...], Family] = {}
+    for f in families:
+        found[f.effects] = min(found.get(f.effects, f), f, key=mean_loss)
+    return list(found.values())
 
 
 def best_and_middle(looked: list[Family]) -> tuple[float, float]:

@@ -14,12 +14,14 @@ from itertools import combinations
 import numpy as np
 
 from rockref.discover import verdict as rules
+from rockref.discover.fit.approach import placed
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.families import Family, mean_loss, refit_all, room, size_of, structured
+from rockref.discover.fit.families import Family, mean_loss, refit, refit_all, room, size_of, structured
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.search import Setup, early
-from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, SETTLES_LATE, in_full, nominal_beside
+from rockref.discover.fit.search import Setup
+from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, in_full, nearest_of_each, nominal_beside
 from rockref.discover.looking.look import Look, candidates_beside, look_further, ranked
+from rockref.discover.looking.ringing import SETTLES_LATE, at_its_tone
 from rockref.discover.looking.screen import SHARES, own_columns, with_priors
 from rockref.effects.base import Effect
 
@@ -86,8 +88,9 @@ def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], N
     offered = candidates_beside(setup, ())
     found = promises(setup, plain.fit, begun, offered, leading)
     tried = side_by_side(setup, lambda own, p: stepped_along(own, plain.fit, begun, p), found[:RACED])
-    tried += side_by_side(setup, searched, with_unseen(leading, offered))
-    raced = sorted(refit_all(setup, tried, LOOKS, setup.seed), key=mean_loss)
+    for pairs in side_by_side(setup, lambda own, pair: begun_unseen(own, pair, alone), with_unseen(leading, offered)):
+        tried += pairs
+    raced = sorted(nearest_of_each(refit_all(setup, tried, LOOKS, setup.seed)), key=mean_loss)
     for f in raced:
         say(f"  two at once: {' + '.join(f.effects)} {mean_loss(f):.2f}")
     if mean_loss(raced[0]) > FAR_OFF:
@@ -141,9 +144,20 @@ def with_unseen(leading: Sequence[str], offered: Sequence[type[Effect]]) -> list
     return found
 
 
-def searched(setup: Setup, effects: tuple[str, str]) -> Family:
-    """A pair on short windows, searched for along the lines of all its parameters."""
-    return Family(effects, *early(setup, effects, np.zeros(len(setup.parameters(effects))), LOOKS))
+def begun_unseen(setup: Setup, pair: tuple[str, str], alone: dict[str, Family]) -> list[Family]:
+    """A pair on short windows with an effect that no derivative shows while it is absent: at its tone beside the other
+    one as that was found, where it rings at any; or the other one, as it was found, beside it.
+
+    alone : where each effect that led somewhere ended by itself.
+    """
+    first, second = pair
+    plain = nominal_beside(setup, alone[first])
+    if second in SETTLES_LATE:
+        return at_its_tone(setup, plain, refit(plain, LOOKS, setup.seed))
+    other = alone[second]
+    own = [zi for p, zi in zip(other.fit.parameters, other.point.z, strict=True) if p.name.startswith(second + ".")]
+    wide = setup.fit(plain.fit.series.twin(), pair)
+    return [Family(pair, wide, placed(wide, np.concatenate([plain.point.z, own])))]
 
 
 def stepped_along(setup: Setup, fit: Fit, point: Point, promise: Promise) -> Family:

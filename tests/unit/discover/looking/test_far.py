@@ -303,16 +303,20 @@ def test_looks_beside_another_effect_that_tell_nobody_apart_are_halved_an_iterat
     assert (bowls["k"].iterations > 0) == raced
 
 
-def test_a_look_at_a_plate_is_raced_with_other_masses_and_the_best_of_them_counts(monkeypatch):
-    kept = family((), Bowl(np.array([0.0]), floor=1.5), [0.0])
-    plate = family(("compliant_support",), Bowl(np.array([0.0, 0.4]), floor=1.2), [0.0, 0.0])
+@pytest.mark.parametrize("effects", [(), ("compliant_support",)], ids=["asked", "sure"])
+def test_a_plate_is_raced_wherever_its_tone_comes_nearer_and_the_best_of_its_masses_counts(monkeypatch, effects):
+    """It needs no place among the looks, and is none of them; what led before is sure."""
+    kept, asked = family((), Bowl(np.array([0.0]), floor=1.5), [0.0]), []
+    bowl, looked = Bowl(np.array([0.0, 0.4]), floor=1.2), []
+    plates = [family(("compliant_support",), bowl, [0.0, z]) for z in (0.0, -0.3, 0.4)]
     monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
     monkeypatch.setattr(far, "first_steps", lambda *a: [])
-    monkeypatch.setattr(far, "first_looks", lambda *a: [plate])
-    monkeypatch.setattr(
-        far, "of_other_masses", lambda fit, p: [fit.point([0.0, z], p.corrections)[0] for z in (-0.3, 0.4)]
-    )
+    monkeypatch.setattr(far, "first_looks", lambda setup, kinds, plain: looked.extend(kinds) or [])
+    monkeypatch.setattr(far, "at_its_tone", lambda setup, plain, as_far, sure: asked.append(sure) or plates)
     monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
     lines: list[str] = []
-    (found,) = far.from_far(ALONE, (), kept, lines.append)
+    kinds = [catalogue.find(id) for id in ("adhesion", "compliant_support")]
+    leaders = [family(effects, bowl, [0.0, 0.0])] if effects else []
+    (found,) = far.from_far(ALONE, kinds, kept, lines.append, leaders)
+    assert asked == [bool(effects)] and [kind.id for kind in looked] == ["adhesion"]
     assert found.point.z == pytest.approx([0.0, 0.4]) and lines == ["  from nominal: compliant_support 1.20"]
