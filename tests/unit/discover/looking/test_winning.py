@@ -147,6 +147,7 @@ def test_kin_are_tried_where_a_winner_ended_and_left_something(monkeypatch, left
         end = np.array([0.0, 0.0, 1.0])
         return [] if afresh_at is None else [family(DRAG, Bowl(end, floor=1.0 + afresh_at), end)]
 
+    monkeypatch.setattr(winning, "from_near", lambda *a: [])
     monkeypatch.setattr(winning, "leaves_a_large_part", lambda ended: False)
     monkeypatch.setattr(winning, "own_z", lambda setup, effects: "absent")
     monkeypatch.setattr(winning, "fitted_anew", afresh)
@@ -276,6 +277,36 @@ def test_where_a_first_effect_leaves_a_large_part_everyone_is_fitted_afresh(monk
     assert look.gains["rolling_resistance"] == pytest.approx(gain)
     assert to_the_end(ALONE, look, winner, second, 0, quiet).effects == best
     assert asked == ([DRAG] if best == DRAG else [])
+
+
+@pytest.mark.parametrize(
+    "left, arrives, size, second, stands_in",
+    [
+        (400.0, True, 0.5, False, False),
+        (400.0, False, 0.5, False, True),
+        (400.0, True, 0.1, False, True),
+        (250.0, True, 0.5, False, True),
+        (400.0, True, 0.5, True, True),
+    ],
+    ids=["both arrive", "still above", "a trifle", "little is left", "a second one"],
+)
+def test_nobody_stands_in_for_an_effect_beside_which_another_leaves_nothing(
+    monkeypatch, left, arrives, size, second, stands_in
+):
+    at, beside = np.array([0.0, 0.5]), np.array([0.0, 0.5, size])
+    per_unit = 2 / float(np.sum(Bowl(at).series.count))
+    winner = family(ROLLING, Bowl(at, floor=rules.NOISE + left * per_unit), at)
+    kept = family((), Bowl(np.zeros(1), floor=rules.NOISE + 3 * left * per_unit, stuck=True), np.zeros(1))
+    floor = rules.NOISE - 0.01 if arrives else rules.NOISE + 10 * per_unit
+    pair = family((*ROLLING, *DRAG), Bowl(beside, floor=floor), beside)
+    asked, lines = [], []
+    monkeypatch.setattr(winning, "from_near", lambda *a: [pair])
+    monkeypatch.setattr(winning, "candidates_beside", lambda *a: ())
+    monkeypatch.setattr(winning, "with_kin", lambda setup, ended, seed, say: asked.append("kin") or ended)
+    monkeypatch.setattr(winning, "with_everyone", lambda setup, ended, seed, say: asked.append("everyone") or ended)
+    to_the_end(ALONE, looked(kept, winner), winner, second, 0, lines.append)
+    assert asked == (["kin"] if second else ["kin", "everyone"] if stands_in else [])
+    assert any("quadratic_drag beside rolling_resistance leaves" in line for line in lines) != stands_in
 
 
 def test_where_the_baseline_is_far_from_the_windows_everyone_has_been_looked_at_afresh():
