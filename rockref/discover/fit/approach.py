@@ -161,17 +161,16 @@ def ringing_alike(fit: Fit, z: np.ndarray) -> np.ndarray:
     """Changes of z that make a plate lighter or heavier and leave the tone at which it rings with the block on it.
 
     That tone, (k / (m + m_block))^(1/2), is what the records show best; the plate's own, (k / m)^(1/2), is the number
-    that is fitted, so what is known of it depends on the mass. None where there is no plate that yields, or where its
-    mass has been fitted.
+    that is fitted, so what is known of it depends on the mass. None where there is no plate that yields.
     """
     names = [p.name for p in fit.parameters]
     if "compliant_support.mass" not in names:
         return np.zeros((0, len(z)))
     soft, heavy = names.index("compliant_support.frequency"), names.index("compliant_support.mass")
-    if z[soft] == 0 or z[heavy] != 0:
+    if z[soft] == 0:
         return np.zeros((0, len(z)))
     p, block = fit.parameters[heavy], fit.base.mass
-    m = np.array([p.value(share) for share in (0.0, *HEAVIER)])
+    m = np.array([p.value(z[heavy] + share) for share in (0.0, *HEAVIER)])
     compliance = z[soft] * (m / (m + block)) / (m[0] / (m[0] + block))
     moves = np.zeros((len(HEAVIER), len(z)))
     moves[:, heavy], moves[:, soft] = HEAVIER, compliance[1:] - z[soft]
@@ -179,7 +178,11 @@ def ringing_alike(fit: Fit, z: np.ndarray) -> np.ndarray:
 
 
 def of_other_masses(fit: Fit, point: Point) -> list[Point]:
-    """The places of a plate that rings with other masses at the same tone, corrections zero; none without a plate."""
+    """The places of a plate that rings with other masses at the same tone, corrections zero; none without a plate, or
+    where its mass has been fitted."""
+    heavy = [i for i, p in enumerate(fit.parameters) if p.name == "compliant_support.mass"]
+    if np.any(point.z[heavy] != 0):
+        return []
     return [placed(fit, point.z + move) for move in ringing_alike(fit, point.z)]
 
 
