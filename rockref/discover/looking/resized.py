@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.fit.approach import along_ridge, heights_of, higher, pitching, ringing_alike, switches
+from rockref.discover.fit.approach import LIGHTER, along_ridge, heights_of, higher, pitching, ringing_alike, switches
 from rockref.discover.fit.candidates import FORMS
 from rockref.discover.fit.coarse import coarse_to_fine
 from rockref.discover.fit.families import Family, mean_loss, refit, refit_all, room, structured
@@ -48,13 +50,20 @@ def resized(setup: Setup, family: Family, seed: int, ahead: Family | None = None
     for left in reversed(range(ROUNDS)):
         if has_arrived(family):
             break
-        further = next((f for way in (averaged, moved) if is_lower(f := way(setup, family, seed), family)), None)
+        further = next((f for way in ways(family) if is_lower(f := way(setup, family, seed), family)), None)
         if further is None:
             break
         fell, family = room(family) - room(further), further
         if ahead is not None and room(family) - room(ahead) > left * fell:
             break
     return refit(family, LAST, seed)
+
+
+def ways(family: Family) -> tuple[Callable[[Setup, Family, int], Family], ...]:
+    """In what order a family goes on: one with a plate, whose mass small steps hardly move, from changed places first
+    (decided: of one such fit averages took off a thirtieth of what was left in each of three rounds, places two fifths
+    in one)."""
+    return (moved, averaged) if "compliant_support" in family.effects else (averaged, moved)
 
 
 def has_arrived(family: Family) -> bool:
@@ -78,6 +87,7 @@ def moved(setup: Setup, family: Family, seed: int) -> Family:
     fit, point = family.fit, family.point
     begun = at_places(family, cheapest(point, placed_at(fit, point, moves(fit, point.z))))
     begun = sorted(refit_all(setup, begun, 1, seed), key=lambda f: f.point.objective)[:PLACES]
+    begun += at_places(family, placed_at(fit, point, ringing_alike(fit, point.z, LIGHTER)))
     if structured(family) > UNSETTLED:
         begun += at_places(family, placed_at(fit, point, higher(fit)))
     best = min([family, *refit_all(setup, begun, TRIED, seed)], key=lambda f: f.point.objective)
@@ -106,7 +116,7 @@ def moves(fit: Fit, z: np.ndarray) -> np.ndarray:
     names = [p.name for p in fit.parameters]
     found = [other_form(z, i) for i, name in enumerate(names) if tuple(name.split(".")) in FORMS]
     if "compliant_support.pitch" in names:
-        found += [*pitching(names, z), *ringing_alike(fit, z)]
+        found += [*pitching(names, z)]
     for i in switches(names, heights_of(names)):
         near = NEAR_TONES if names[i] == "compliant_support.frequency" else (*FACTORS, *to_half_a_size(z[i]))
         for factor in near:

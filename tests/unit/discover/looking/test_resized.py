@@ -1,6 +1,7 @@
 """Fits that have stopped beside their valley go on from other sizes of their effects."""
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from rockref.discover import verdict as rules
 from rockref.discover.fit.approach import HIGHER, higher
 from rockref.discover.fit.families import mean_loss, room, structured
+from rockref.discover.fit.least_squares import Point
 from rockref.discover.fit.parameter import Parameter
 from rockref.discover.looking import resized as module
 from rockref.discover.looking.resized import (
@@ -200,6 +202,52 @@ def test_a_plate_is_looked_at_with_other_pitches_each_with_its_compliance():
     assert np.any(np.all(np.isclose(places, [0.0, 0.93 * 0.9, 0.5]), axis=1))
     rigid = np.array([0.0, 0.0, 0.2])
     assert np.all(moves(Plate(np.zeros(3)), rigid)[:, 1] == 0)
+
+
+def test_the_compliance_of_a_plate_is_changed_by_a_twelfth_and_not_by_half():
+    z = np.array([0.0, 1.0, 0.0])
+    found = moves(Plate(np.zeros(3)), z)
+    alone = sorted(found[found[:, 2] == 0, 1])
+    assert alone == pytest.approx([-0.08, 0.08])
+
+
+@dataclass
+class Heavy(Bowl):
+    """A plate that rings, of a mass that no small step moves: only within a tenth of the right one a fit comes down."""
+
+    @property
+    def base(self):
+        return SimpleNamespace(mass=54.0)
+
+    @property
+    def parameters(self):
+        still = [Parameter(n, lambda model, value: model, 0.0, 1.0) for n in ("K_N", "compliant_support.frequency")]
+        return (*still, Parameter("compliant_support.mass", lambda model, value: model, 100.0, 0.7, log=True))
+
+    def point(self, z, corrections):
+        off = abs(z[2] - self.bottom[2])
+        mean = self.floor + (0.2 if off > 0.02 else 2 * AFFORDABLE if z[0] == 0 else 0.0)
+        return Point(np.array(z, float), corrections, 0.5 * mean * self.series.count, 0.0), None
+
+    def run(self, point, iterations, rng, relative=0.0):
+        self.iterations += iterations
+        end = point.z.copy()
+        end[0] = 1.0 if abs(point.z[2] - self.bottom[2]) < 0.02 else 0.0
+        return self.point(end, point.corrections)[0]
+
+
+def test_a_plate_comes_to_its_mass_though_the_place_looks_unaffordable_at_first(monkeypatch):
+    """Its tone stays, and averages, which would take the rounds, come after it."""
+    monkeypatch.setattr(module, "averaged", lambda *a: pytest.fail("averaged"))
+    stuck = family(("compliant_support",), Heavy(np.array([0.0, 1.2, -0.3]), floor=0.97), np.array([0.0, 1.2, 0.0]))
+    found = resized(ALONE, stuck, seed=0)
+    assert mean_loss(found) == pytest.approx(0.97) and found.point.z[2] == pytest.approx(-0.3)
+    light = 100 * np.exp(-0.3 * 0.7)
+    assert found.point.z[1] == pytest.approx(1.2 * (light / (light + 54)) / (100 / 154))
+
+
+def test_others_go_on_from_averages_first():
+    assert module.ways(family(("rolling_resistance",), Bowl(np.zeros(2)), np.zeros(2)))[0] is module.averaged
 
 
 def test_only_sizes_of_effects_are_changed_and_the_cheapest_places_come_first():
