@@ -297,7 +297,7 @@ def test_nobody_stands_in_for_an_effect_beside_which_another_leaves_nothing(
     per_unit = 2 / float(np.sum(Bowl(at).series.count))
     winner = family(ROLLING, Bowl(at, floor=rules.NOISE + left * per_unit), at)
     kept = family((), Bowl(np.zeros(1), floor=rules.NOISE + 3 * left * per_unit, stuck=True), np.zeros(1))
-    floor = rules.NOISE - 0.01 if arrives else rules.NOISE + 10 * per_unit
+    floor = rules.NOISE + (0.05 if arrives else 0.15) * left * per_unit
     pair = family((*ROLLING, *DRAG), Bowl(beside, floor=floor), beside)
     asked, lines = [], []
     monkeypatch.setattr(winning, "from_near", lambda *a: [pair])
