@@ -25,7 +25,8 @@ TONES = np.geomspace(0.25, 3.2, 12)
 #: How many of them go on after the first iteration, and after the second.
 HEARD = (6, 3)
 #: Share of what the family without a plate leaves, after three iterations, up to which the tones go on after their
-#: first one, and up to which the best of them is a look at a plate after its last.
+#: first one, and up to which the best of them is a look at a plate after its last (decided: of those plates it was 0.5
+#: to 1.07 after the first and 0.4 to 0.8 after the last; of 17 cases of other effects 0.98 and more).
 PROMISING, RINGS = 1.15, 0.95
 
 
