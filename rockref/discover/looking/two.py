@@ -21,7 +21,7 @@ from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup
 from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, in_full, nearest_of_each, nominal_beside
 from rockref.discover.looking.look import Look, candidates_beside, look_further, ranked
-from rockref.discover.looking.ringing import SETTLES_LATE, at_its_tone
+from rockref.discover.looking.ringing import PLATE, at_its_tone
 from rockref.discover.looking.screen import SHARES, own_columns, with_priors
 from rockref.effects.base import Effect
 
@@ -88,8 +88,9 @@ def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], N
     offered = candidates_beside(setup, ())
     found = promises(setup, plain.fit, begun, offered, leading)
     tried = side_by_side(setup, lambda own, p: stepped_along(own, plain.fit, begun, p), found[:RACED])
-    for pairs in side_by_side(setup, lambda own, pair: begun_unseen(own, pair, alone), with_unseen(leading, offered)):
-        tried += pairs
+    unseen = with_a_plate(leading, offered)
+    for begun_so in side_by_side(setup, lambda own, pair: begun_pair(own, pair, alone), unseen):
+        tried += begun_so
     raced = sorted(nearest_of_each(refit_all(setup, tried, LOOKS, setup.seed)), key=mean_loss)
     for f in raced:
         say(f"  two at once: {' + '.join(f.effects)} {mean_loss(f):.2f}")
@@ -133,29 +134,29 @@ def promises(
     return sorted(found, key=lambda p: -p.gain)
 
 
-def with_unseen(leading: Sequence[str], offered: Sequence[type[Effect]]) -> list[tuple[str, str]]:
-    """Each offered effect that no derivative shows while it is absent, with the leaders of a look; who led more stands
-    first."""
+def with_a_plate(leading: Sequence[str], offered: Sequence[type[Effect]]) -> list[tuple[str, str]]:
+    """A plate that rings, if it is offered, with the leaders of a look; who led more stands first.
+
+    No derivative shows it while it is absent, so that no step promises anything of it.
+    """
+    if PLATE not in [kind.id for kind in offered]:
+        return []
     order = {id: i for i, id in enumerate(leading)}
-    found = []
-    for id in [kind.id for kind in offered if kind.id in SETTLES_LATE]:
-        for other in [k for k in leading if k != id][:LEADERS]:
-            found.append((id, other) if order.get(id, len(order)) < order[other] else (other, id))
-    return found
+    others = [id for id in leading if id != PLATE][:LEADERS]
+    return [(PLATE, id) if order.get(PLATE, len(order)) < order[id] else (id, PLATE) for id in others]
 
 
-def begun_unseen(setup: Setup, pair: tuple[str, str], alone: dict[str, Family]) -> list[Family]:
-    """A pair on short windows with an effect that no derivative shows while it is absent: at its tone beside the other
-    one as that was found, where it rings at any; or the other one, as it was found, beside it.
+def begun_pair(setup: Setup, pair: tuple[str, str], alone: dict[str, Family]) -> list[Family]:
+    """A pair with a plate on short windows: the plate at its tone beside the other effect as that was found, if it
+    rings at any; or the other one, as it was found, beside the plate.
 
     alone : where each effect that led somewhere ended by itself.
     """
     first, second = pair
     plain = nominal_beside(setup, alone[first])
-    if second in SETTLES_LATE:
+    if second == PLATE:
         return at_its_tone(setup, plain, refit(plain, LOOKS, setup.seed))
-    other = alone[second]
-    own = [zi for p, zi in zip(other.fit.parameters, other.point.z, strict=True) if p.name.startswith(second + ".")]
+    own = alone[second].point.z[len(setup.parameters()) :]
     wide = setup.fit(plain.fit.series.twin(), pair)
     return [Family(pair, wide, placed(wide, np.concatenate([plain.point.z, own])))]
 

@@ -75,7 +75,7 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
     monkeypatch.setattr(
         two, "stepped_along", lambda setup, fit, point, p: family(p.effects, bowls[p.effects[0]], np.zeros(3))
     )
-    monkeypatch.setattr(two, "begun_unseen", lambda setup, pair, alone: [family(pair, bowls["a"], np.zeros(3))] * 2)
+    monkeypatch.setattr(two, "begun_pair", lambda setup, pair, alone: [family(pair, bowls["a"], np.zeros(3))] * 2)
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     lines: list[str] = []
     look = two_at_once(ALONE, Look(left((), 0.9), [start, other], {}), start, lines.append)
@@ -91,14 +91,14 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
 def test_a_plate_that_rings_is_searched_for_beside_the_leaders_of_a_look():
     """What led more stands first, and it is paired with three others at most; not where the model has it already."""
     leading = ["spin_friction", "compliant_support", "adhesion", "plate_tilt", "gyro_scale"]
-    beside = two.with_unseen(leading, [*KINDS, SUPPORT])
+    beside = two.with_a_plate(leading, [*KINDS, SUPPORT])
     assert beside == [
         ("spin_friction", "compliant_support"),
         ("compliant_support", "adhesion"),
         ("compliant_support", "plate_tilt"),
     ]
-    assert two.with_unseen(["adhesion"], [SUPPORT]) == [("adhesion", "compliant_support")]
-    assert two.with_unseen(["adhesion"], KINDS) == []
+    assert two.with_a_plate(["adhesion"], [SUPPORT]) == [("adhesion", "compliant_support")]
+    assert two.with_a_plate(["adhesion"], KINDS) == []
 
 
 def test_a_plate_is_begun_at_its_tone_beside_another_effect_as_that_was_found_and_so_the_other_way_round(
@@ -117,9 +117,9 @@ def test_a_plate_is_begun_at_its_tone_beside_another_effect_as_that_was_found_an
 
     monkeypatch.setattr(two, "at_its_tone", tones)
     monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
-    assert two.begun_unseen(setup, ("spin_friction", "compliant_support"), alone) == ["plates"]
+    assert two.begun_pair(setup, ("spin_friction", "compliant_support"), alone) == ["plates"]
     assert asked == [("spin_friction",)]
-    (found,) = two.begun_unseen(setup, ("compliant_support", "spin_friction"), alone)
+    (found,) = two.begun_pair(setup, ("compliant_support", "spin_friction"), alone)
     z = {p.name: zi for p, zi in zip(found.fit.parameters, found.point.z, strict=True)}
     assert found.effects == ("compliant_support", "spin_friction")
     assert (z["compliant_support.frequency"], z["spin_friction.radius"], z["K_N"]) == (1.3, 0.7, 0.4)
@@ -132,7 +132,7 @@ def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_tone(monkeyp
     monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: (SUPPORT,))
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("spin_friction", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
-    monkeypatch.setattr(two, "begun_unseen", lambda setup, pair, alone: [family(pair, Bowl(np.zeros(3)), np.zeros(3))])
+    monkeypatch.setattr(two, "begun_pair", lambda setup, pair, alone: [family(pair, Bowl(np.zeros(3)), np.zeros(3))])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     look = two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None)
     assert look.kept is start and [f.effects for f in look.order] == [("spin_friction", "compliant_support")]
@@ -144,7 +144,7 @@ def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
     monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("gyro_scale", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
-    monkeypatch.setattr(two, "begun_unseen", lambda setup, pair, alone: [family(pair, far_off, np.zeros(3))])
+    monkeypatch.setattr(two, "begun_pair", lambda setup, pair, alone: [family(pair, far_off, np.zeros(3))])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: pytest.fail("fitted in full"))
     assert two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None) is None
 
