@@ -91,12 +91,7 @@ def from_far(
     plain, sure = nominal_beside(setup, kept), leaders[0].effects if leaders else ()
     as_far = refit(plain, LOOKS, setup.seed)
     others = [kind for kind in kinds if kind.id != PLATE]
-    looks = sorted(first_looks(setup, others, plain), key=lambda f: f.point.objective)
-    if kept.effects and leads_nowhere(sorted(looks, key=mean_loss)):
-        looks = outlasting(setup, looks)
-    begun: list[Family] = []
-    for found in (first_steps(setup, kinds, as_far), looks):
-        begun += [f for i, f in enumerate(found) if i < LOOKED_AT or f.effects == sure]
+    begun = begun_beside(setup, others, plain, as_far, sure)
     if len(others) < len(kinds):
         begun += at_its_tone(setup, plain, as_far, sure[-1:] == (PLATE,))
     tried = refit_all(setup, begun, LOOKS, setup.seed)
@@ -107,6 +102,20 @@ def from_far(
         say(f"  from nominal: {f.effects[-1]} {mean_loss(f):.2f}")
     nearer = [f for f in raced if not kept.effects or mean_loss(f) < mean_loss(as_far)]
     return nearest_in_full(setup, nearer, kept, sure) if nearer else []
+
+
+def begun_beside(
+    setup: Setup, kinds: Sequence[type[Effect]], plain: Family, as_far: Family, sure: tuple[str, ...] = ()
+) -> list[Family]:
+    """The first candidates beside the family `plain` by one step, and by a look; and the set that is sure, too.
+
+    as_far : that family, fitted as far as a race goes; the steps are taken from there.
+    """
+    looks = sorted(first_looks(setup, kinds, plain), key=lambda f: f.point.objective)
+    if plain.effects and leads_nowhere(sorted(looks, key=mean_loss)):
+        looks = outlasting(setup, looks)
+    lists = (first_steps(setup, kinds, as_far), looks)
+    return [f for found in lists for i, f in enumerate(found) if i < LOOKED_AT or f.effects == sure]
 
 
 def fitted_anew(

@@ -116,9 +116,9 @@ def at_places(family: Family, places: list[Point]) -> list[Family]:
 
 def moves(fit: Fit, z: np.ndarray) -> np.ndarray:
     """Changes of z, (moves, G): each size of an effect by the factors, or to half a size; each form of a law into the
-    other one; the pitches of a plate; the ridge of the feet."""
+    others; the pitches of a plate; the ridge of the feet."""
     names = [p.name for p in fit.parameters]
-    found = [other_form(z, i) for i, name in enumerate(names) if tuple(name.split(".")) in FORMS]
+    found = [m for i, name in enumerate(names) if tuple(name.split(".")) in FORMS for m in other_forms(z, i)]
     if "compliant_support.pitch" in names:
         found += [*pitching(names, z)]
     for i in switches(names, heights_of(names)):
@@ -129,11 +129,14 @@ def moves(fit: Fit, z: np.ndarray) -> np.ndarray:
     return np.concatenate([np.array(found).reshape(-1, len(z)), along_ridge(fit)])
 
 
-def other_form(z: np.ndarray, i: int) -> np.ndarray:
-    """The change that makes one form of a law of the other: share i, 0 or nearly, becomes 1, or the other way round."""
-    move = np.zeros(len(z))
-    move[i] = (1.0 if z[i] < 0.5 else 0.0) - z[i]
-    return move
+def other_forms(z: np.ndarray, i: int) -> list[np.ndarray]:
+    """The changes that make each pure form of a law, share i none and all of it, of what is not that form already."""
+    found = []
+    for share in [pure for pure in (0.0, 1.0) if pure != z[i]]:
+        move = np.zeros(len(z))
+        move[i] = share - z[i]
+        found.append(move)
+    return found
 
 
 def to_half_a_size(z: float) -> tuple[float, ...]:

@@ -14,12 +14,11 @@ from itertools import combinations
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.fit.approach import placed
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import Family, mean_loss, refit, refit_all, room, size_of, structured
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup
-from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, in_full, nearest_of_each, nominal_beside
+from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, begun_beside, in_full, nearest_of_each, nominal_beside
 from rockref.discover.looking.look import Look, candidates_beside, look_further, ranked
 from rockref.discover.looking.ringing import PLATE, at_its_tone
 from rockref.discover.looking.screen import SHARES, own_columns, with_priors
@@ -88,9 +87,7 @@ def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], N
     offered = candidates_beside(setup, ())
     found = promises(setup, plain.fit, begun, offered, leading)
     tried = side_by_side(setup, lambda own, p: stepped_along(own, plain.fit, begun, p), found[:RACED])
-    unseen = with_a_plate(leading, offered)
-    for begun_so in side_by_side(setup, lambda own, pair: begun_pair(own, pair, alone), unseen):
-        tried += begun_so
+    tried += with_a_plate(setup, alone, leading, offered)
     raced = sorted(nearest_of_each(refit_all(setup, tried, LOOKS, setup.seed)), key=mean_loss)
     for f in raced:
         say(f"  two at once: {' + '.join(f.effects)} {mean_loss(f):.2f}")
@@ -134,31 +131,30 @@ def promises(
     return sorted(found, key=lambda p: -p.gain)
 
 
-def with_a_plate(leading: Sequence[str], offered: Sequence[type[Effect]]) -> list[tuple[str, str]]:
-    """A plate that rings, if it is offered, with the leaders of a look; who led more stands first.
+def with_a_plate(
+    setup: Setup, alone: dict[str, Family], leading: Sequence[str], offered: Sequence[type[Effect]]
+) -> list[Family]:
+    """Pairs with a plate that rings, if it is offered, on short windows; who led more stands first.
 
-    No derivative shows it while it is absent, so that no step promises anything of it.
-    """
-    if PLATE not in [kind.id for kind in offered]:
-        return []
-    order = {id: i for i, id in enumerate(leading)}
-    others = [id for id in leading if id != PLATE][:LEADERS]
-    return [(PLATE, id) if order.get(PLATE, len(order)) < order[id] else (id, PLATE) for id in others]
-
-
-def begun_pair(setup: Setup, pair: tuple[str, str], alone: dict[str, Family]) -> list[Family]:
-    """A pair with a plate on short windows: the plate at its tone beside the other effect as that was found, if it
-    rings at any; or the other one, as it was found, beside the plate.
+    No derivative shows a plate while it is absent, so that no step promises anything of it. It stands at its tone
+    beside the leaders of a look that came before it; beside it, as it was found, stands what one step or a look shows.
 
     alone : where each effect that led somewhere ended by itself.
     """
-    first, second = pair
-    plain = nominal_beside(setup, alone[first])
-    if second == PLATE:
-        return at_its_tone(setup, plain, refit(plain, LOOKS, setup.seed))
-    own = alone[second].point.z[len(setup.parameters()) :]
-    wide = setup.fit(plain.fit.series.twin(), pair)
-    return [Family(pair, wide, placed(wide, np.concatenate([plain.point.z, own])))]
+    if PLATE not in [kind.id for kind in offered]:
+        return []
+    ahead = leading[: leading.index(PLATE)] if PLATE in leading else leading
+
+    def at_tone(own: Setup, id: str) -> list[Family]:
+        plain = nominal_beside(own, alone[id])
+        return at_its_tone(own, plain, refit(plain, LOOKS, own.seed))
+
+    found = [family for families in side_by_side(setup, at_tone, ahead[:LEADERS]) for family in families]
+    if PLATE in leading:
+        plain = nominal_beside(setup, alone[PLATE])
+        others = [kind for kind in offered if kind.id != PLATE]
+        found += begun_beside(setup, others, plain, refit(plain, LOOKS, setup.seed))
+    return found
 
 
 def stepped_along(setup: Setup, fit: Fit, point: Point, promise: Promise) -> Family:

@@ -119,7 +119,8 @@ def test_pitches_are_looked_for_about_the_tone_of_a_plate_that_yields():
     assert len(pitching(names, np.zeros(3))) == 0
     places = np.array([0.3, 2.0, 0.1]) + pitching(names, np.array([0.3, 2.0, 0.1]))
     assert np.all(places[:, 0] == 0.3)
-    assert sorted(set(places[:, 2].round(12))) == [0.25, 0.5, 0.9, 1.4, 2.0]
+    assert sorted(set(places[:, 2].round(12))) == [0.0, 0.25, 0.5, 0.9, 1.4, 2.0]
+    assert 0.5 not in pitching(names, np.array([0.3, 2.0, 0.5]))[:, 2] + 0.5
     # A pitch that yields makes the tone lower, so that the plate itself is stiffer than it seemed.
     assert places[:, 1].min() == pytest.approx(1.72) and places[:, 1].max() == pytest.approx(2.16)
 

@@ -97,7 +97,7 @@ class Spinning(Seen):
         return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in names)
 
 
-@pytest.mark.parametrize("right, stuck_at", [(1.0, 0.0), (0.0, 0.9)])
+@pytest.mark.parametrize("right, stuck_at", [(1.0, 0.0), (0.0, 0.9), (0.0, 0.4)])
 def test_the_other_form_of_a_law_is_found(right, stuck_at):
     bottom = np.array([0.1, 0.8, right])
     stuck = family(("spin_friction",), Spinning(bottom, floor=0.97), np.array([0.1, 0.8, stuck_at]))

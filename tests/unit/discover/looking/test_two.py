@@ -75,7 +75,8 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
     monkeypatch.setattr(
         two, "stepped_along", lambda setup, fit, point, p: family(p.effects, bowls[p.effects[0]], np.zeros(3))
     )
-    monkeypatch.setattr(two, "begun_pair", lambda setup, pair, alone: [family(pair, bowls["a"], np.zeros(3))] * 2)
+    unseen = [("gyro_scale", "compliant_support"), ("adhesion", "compliant_support")]
+    monkeypatch.setattr(two, "with_a_plate", lambda *_: 2 * [family(pair, bowls["a"], np.zeros(3)) for pair in unseen])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     lines: list[str] = []
     look = two_at_once(ALONE, Look(left((), 0.9), [start, other], {}), start, lines.append)
@@ -83,46 +84,32 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
     assert look.kept is other and look.in_full
     assert [f.effects for f in look.order] == [("adhesion", "plate_tilt")] and look.gains["plate_tilt"] > 0
     raced = [tuple(line.split()[3:6:2]) for line in lines[:6]]
-    unseen = [("gyro_scale", "compliant_support"), ("adhesion", "compliant_support")]
     assert raced[0] == ("adhesion", "plate_tilt") and {a for a, _ in raced} == {"adhesion", "a", "b", "d", "gyro_scale"}
     assert all(pair in raced for pair in unseen)
 
 
-def test_a_plate_that_rings_is_searched_for_beside_the_leaders_of_a_look():
-    """What led more stands first, and it is paired with three others at most; not where the model has it already."""
-    leading = ["spin_friction", "compliant_support", "adhesion", "plate_tilt", "gyro_scale"]
-    beside = two.with_a_plate(leading, [*KINDS, SUPPORT])
-    assert beside == [
-        ("spin_friction", "compliant_support"),
-        ("compliant_support", "adhesion"),
-        ("compliant_support", "plate_tilt"),
-    ]
-    assert two.with_a_plate(["adhesion"], [SUPPORT]) == [("adhesion", "compliant_support")]
-    assert two.with_a_plate(["adhesion"], KINDS) == []
-
-
-def test_a_plate_is_begun_at_its_tone_beside_another_effect_as_that_was_found_and_so_the_other_way_round(
-    hidden, monkeypatch
+@pytest.mark.parametrize(
+    "leading, at_tone, beside_it",
+    [
+        (["spin_friction", "compliant_support", "adhesion"], ["spin_friction"], True),
+        (["compliant_support", "spin_friction"], [], True),
+        (["adhesion", "spin_friction", "gyro_scale", "plate_tilt"], ["adhesion", "spin_friction", "gyro_scale"], False),
+    ],
+)
+def test_a_plate_stands_at_its_tone_beside_those_that_led_more_and_the_others_beside_it(
+    monkeypatch, leading, at_tone, beside_it
 ):
-    setup, fit, _ = hidden
-    alone, asked = {}, []
-    for id, own in (("spin_friction", 0.7), ("compliant_support", 1.3)):
-        wide = setup.fit(fit.series.twin(), (id,))
-        z = np.array([own if p.name.startswith(id) else 0.4 for p in wide.parameters])
-        alone[id] = Family((id,), wide, wide.point(z, wide.begin().corrections)[0])
-
-    def tones(setup, plain, as_far):
-        asked.append(plain.effects)
-        return ["plates"]
-
-    monkeypatch.setattr(two, "at_its_tone", tones)
+    """Beside it all candidates are looked at, and not the plate once more; beside three leaders at most it is."""
     monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
-    assert two.begun_pair(setup, ("spin_friction", "compliant_support"), alone) == ["plates"]
-    assert asked == [("spin_friction",)]
-    (found,) = two.begun_pair(setup, ("compliant_support", "spin_friction"), alone)
-    z = {p.name: zi for p, zi in zip(found.fit.parameters, found.point.z, strict=True)}
-    assert found.effects == ("compliant_support", "spin_friction")
-    assert (z["compliant_support.frequency"], z["spin_friction.radius"], z["K_N"]) == (1.3, 0.7, 0.4)
+    monkeypatch.setattr(two, "at_its_tone", lambda setup, plain, as_far: [(*plain.effects, "compliant_support")])
+    monkeypatch.setattr(
+        two, "begun_beside", lambda setup, kinds, plain, as_far: [(*plain.effects, kind.id) for kind in kinds]
+    )
+    alone = {id: left((id,), 0.9) for id in leading}
+    found = two.with_a_plate(ALONE, alone, leading, [*KINDS, SUPPORT])
+    others = [("compliant_support", kind.id) for kind in KINDS] if beside_it else []
+    assert found == [*((id, "compliant_support") for id in at_tone), *others]
+    assert two.with_a_plate(ALONE, alone, leading, KINDS) == []
 
 
 def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_tone(monkeypatch):
@@ -132,7 +119,8 @@ def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_tone(monkeyp
     monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: (SUPPORT,))
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("spin_friction", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
-    monkeypatch.setattr(two, "begun_pair", lambda setup, pair, alone: [family(pair, Bowl(np.zeros(3)), np.zeros(3))])
+    ringing = family(("spin_friction", "compliant_support"), Bowl(np.zeros(3)), np.zeros(3))
+    monkeypatch.setattr(two, "with_a_plate", lambda *_: [ringing])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     look = two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None)
     assert look.kept is start and [f.effects for f in look.order] == [("spin_friction", "compliant_support")]
@@ -144,7 +132,6 @@ def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
     monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("gyro_scale", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
-    monkeypatch.setattr(two, "begun_pair", lambda setup, pair, alone: [family(pair, far_off, np.zeros(3))])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: pytest.fail("fitted in full"))
     assert two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None) is None
 
