@@ -97,11 +97,18 @@ class Spinning(Seen):
         return tuple(Parameter(n, lambda model, value: model, 0.0, 1.0) for n in names)
 
 
-@pytest.mark.parametrize("right, stuck_at", [(1.0, 0.0), (0.0, 0.9), (0.0, 0.4)])
+@pytest.mark.parametrize("right, stuck_at", [(1.0, 0.0), (0.0, 0.9)])
 def test_the_other_form_of_a_law_is_found(right, stuck_at):
     bottom = np.array([0.1, 0.8, right])
     stuck = family(("spin_friction",), Spinning(bottom, floor=0.97), np.array([0.1, 0.8, stuck_at]))
     assert resized(ALONE, stuck, seed=0).point.z == pytest.approx(bottom, abs=0.01)
+
+
+@pytest.mark.parametrize("share, pure", [(0.0, [1]), (1.0, [0]), (0.4, [0, 1]), (0.7, [0, 1])])
+def test_a_share_between_two_forms_is_tried_as_either(share, pure):
+    z = np.array([0.1, 0.0, share])
+    places = z + moves(Spinning(np.zeros(3)), z)
+    assert sorted(places[places[:, 2] != share, 2]) == pure
 
 
 @dataclass
