@@ -77,10 +77,11 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
     )
     unseen = [("gyro_scale", "compliant_support"), ("adhesion", "compliant_support")]
     monkeypatch.setattr(two, "with_a_plate", lambda *_: 2 * [family(pair, bowls["a"], np.zeros(3)) for pair in unseen])
+    monkeypatch.setattr(two, "looked_beside", lambda setup, first, offered: asked.update(beside=first) or [])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     lines: list[str] = []
     look = two_at_once(ALONE, Look(left((), 0.9), [start, other], {}), start, lines.append)
-    assert asked["leading"] == ["gyro_scale", "adhesion"]
+    assert asked["leading"] == ["gyro_scale", "adhesion"] and asked["beside"] is start
     assert look.kept is other and look.in_full
     assert [f.effects for f in look.order] == [("adhesion", "plate_tilt")] and look.gains["plate_tilt"] > 0
     raced = [tuple(line.split()[3:6:2]) for line in lines[:6]]
@@ -89,27 +90,51 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
 
 
 @pytest.mark.parametrize(
-    "leading, at_tone, beside_it",
+    "leading, at_tone",
     [
-        (["spin_friction", "compliant_support", "adhesion"], ["spin_friction"], True),
-        (["compliant_support", "spin_friction"], [], True),
-        (["adhesion", "spin_friction", "gyro_scale", "plate_tilt"], ["adhesion", "spin_friction", "gyro_scale"], False),
+        (["spin_friction", "compliant_support", "adhesion"], ["spin_friction"]),
+        (["compliant_support", "spin_friction"], []),
+        (["adhesion", "spin_friction", "gyro_scale", "plate_tilt"], ["adhesion", "spin_friction", "gyro_scale"]),
     ],
 )
-def test_a_plate_stands_at_its_tone_beside_those_that_led_more_and_the_others_beside_it(
-    monkeypatch, leading, at_tone, beside_it
-):
-    """Beside it all candidates are looked at, and not the plate once more; beside three leaders at most it is."""
+def test_a_plate_stands_at_its_tone_beside_those_that_led_more(monkeypatch, leading, at_tone):
+    """Three of them at most, and none where the model has a plate already."""
     monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
     monkeypatch.setattr(two, "at_its_tone", lambda setup, plain, as_far: [(*plain.effects, "compliant_support")])
-    monkeypatch.setattr(
-        two, "begun_beside", lambda setup, kinds, plain, as_far: [(*plain.effects, kind.id) for kind in kinds]
-    )
     alone = {id: left((id,), 0.9) for id in leading}
     found = two.with_a_plate(ALONE, alone, leading, [*KINDS, SUPPORT])
-    others = [("compliant_support", kind.id) for kind in KINDS] if beside_it else []
-    assert found == [*((id, "compliant_support") for id in at_tone), *others]
+    assert found == [(id, "compliant_support") for id in at_tone]
     assert two.with_a_plate(ALONE, alone, leading, KINDS) == []
+
+
+def test_beside_an_effect_that_was_found_all_others_are_looked_at_but_for_a_plate(monkeypatch):
+    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(two, "begun_beside", lambda setup, kinds, plain, as_far: [(plain, kind.id) for kind in kinds])
+    first = left(("spin_friction",), 0.9)
+    found = two.looked_beside(ALONE, first, [*KINDS, SUPPORT])
+    assert found == [(first, id) for id in ("quadratic_drag", "gyro_scale", "adhesion", "plate_tilt")]
+
+
+def test_a_pair_that_only_a_look_beside_the_leader_shows_wins_the_race(monkeypatch):
+    """Beside a plate that leads, too, and once only where it leads all."""
+    start, ringing = left(("gyro_scale",), 0.8), left(("compliant_support",), 0.9)
+    far_off, beside = Bowl(np.zeros(3), floor=2.1), []
+
+    def look_beside(setup, first, offered):
+        beside.append(first)
+        return [family((*first.effects, "rolling_resistance"), Bowl(np.zeros(3)), np.zeros(3))]
+
+    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("gyro_scale", "adhesion"), 1.0, np.zeros(3))])
+    monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
+    monkeypatch.setattr(two, "looked_beside", look_beside)
+    monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
+    look = two_at_once(ALONE, Look(left((), 0.9), [start, ringing], {}), start, lambda line: None)
+    assert [f.effects for f in look.order] == [("gyro_scale", "rolling_resistance")]
+    assert beside == [start, ringing]
+    two_at_once(ALONE, Look(left((), 0.9), [ringing, start], {}), ringing, lambda line: None)
+    assert beside == [start, ringing, ringing]
 
 
 def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_tone(monkeypatch):
@@ -121,9 +146,37 @@ def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_tone(monkeyp
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
     ringing = family(("spin_friction", "compliant_support"), Bowl(np.zeros(3)), np.zeros(3))
     monkeypatch.setattr(two, "with_a_plate", lambda *_: [ringing])
+    monkeypatch.setattr(two, "looked_beside", lambda *_: [])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     look = two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None)
     assert look.kept is start and [f.effects for f in look.order] == [("spin_friction", "compliant_support")]
+
+
+def test_pairs_that_the_race_does_not_tell_apart_are_both_fitted_in_full(monkeypatch):
+    """Drag is a trifle ahead of rolling resistance on the short windows, and behind it in full."""
+    start = left(("gyro_scale",), 0.6)
+    floors = {"quadratic_drag": 1.0, "rolling_resistance": 1.01, "cable_restraint": 1.015, "adhesion": 1.04}
+    asked = []
+
+    def in_full(setup, looked):
+        asked.append(looked.effects[1])
+        return family(looked.effects, Bowl(np.zeros(3), floor=2.0 - floors[looked.effects[1]]), np.zeros(3))
+
+    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
+    monkeypatch.setattr(
+        two, "promises", lambda *_: [two.Promise(("gyro_scale", id), 1.0, np.zeros(3)) for id in floors]
+    )
+    monkeypatch.setattr(
+        two,
+        "stepped_along",
+        lambda setup, fit, point, p: family(p.effects, Bowl(np.zeros(3), floor=floors[p.effects[1]]), np.zeros(3)),
+    )
+    monkeypatch.setattr(two, "looked_beside", lambda *_: [])
+    monkeypatch.setattr(two, "in_full", in_full)
+    look = two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None)
+    assert asked == ["quadratic_drag", "rolling_resistance"]
+    assert look.order[0].effects == ("gyro_scale", "rolling_resistance")
 
 
 def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
@@ -132,6 +185,7 @@ def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
     monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("gyro_scale", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
+    monkeypatch.setattr(two, "looked_beside", lambda *_: [])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: pytest.fail("fitted in full"))
     assert two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None) is None
 
