@@ -98,7 +98,7 @@ def from_far(
     # What windows hand on settles by one window an iteration: a plate of 89 Hz stood at 1.80 after three, and fell.
     tried += refit_all(setup, [f for f in tried if f.effects[-1] == PLATE], LOOKS, setup.seed)
     raced = nearest_of_each(tried)
-    say(f"  from nominal: {' + '.join(kept.effects) or 'nothing of the catalogue'} {mean_loss(as_far):.2f}")
+    say(f"  from nominal: {' + '.join(kept.effects) or 'nothing more'} {mean_loss(as_far):.2f}")
     for f in raced:
         say(f"  from nominal: {f.effects[-1]} {mean_loss(f):.2f}")
     nearer = [f for f in raced if not kept.effects or mean_loss(f) < mean_loss(as_far)]
