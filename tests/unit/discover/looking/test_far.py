@@ -304,6 +304,40 @@ def test_looks_beside_another_effect_that_tell_nobody_apart_are_halved_an_iterat
     assert (bowls["k"].iterations > 0) == raced
 
 
+class Slow(Bowl):
+    """A fit that falls after more iterations than a race has, and not before."""
+
+    def run(self, point, iterations, rng, relative=0.0):
+        self.iterations += iterations
+        if iterations > far.LOOKS:
+            return self.point(self.bottom, point.corrections)[0]
+        return point
+
+
+@pytest.mark.parametrize(
+    "effects, alone, right, found",
+    [
+        ((), 1.4, 1.04, ["slow"]),  # all others stand at 1.38: nobody is nearer, so that all are taken further
+        ((), 1.4, 1.37, ["slow"]),  # nor is anybody then: the best alone is fitted in full
+        ((), 2.4, 1.04, ["a"]),  # so far off nothing is taken further
+        (("gyro_scale",), 1.4, 1.04, ["a"]),  # nor beside another effect
+    ],
+    ids=["further", "in vain", "far off", "second"],
+)
+def test_where_no_candidate_comes_nearer_all_of_them_are_taken_further(monkeypatch, effects, alone, right, found):
+    """Twice the iterations of a race, where the baseline is near; else no more than one is fitted in full."""
+    kept = family(effects, Bowl(np.array([0.0]), floor=alone), [0.0])
+    looks = [family((*effects, id), Bowl(np.zeros(2), floor=alone - 0.02), [0.0, 0.0]) for id in "abcdef"]
+    slow = Slow(np.array([0.0, 0.2]), floor=right)
+    looks.append(family((*effects, "slow"), slow, [0.0, 0.2 + np.sqrt(alone - right)]))
+    monkeypatch.setattr(far, "nominal_beside", lambda setup, kept: kept)
+    monkeypatch.setattr(far, "first_steps", lambda *a: [])
+    monkeypatch.setattr(far, "first_looks", lambda *a: looks)
+    monkeypatch.setattr(far, "in_full", lambda setup, looked: looked)
+    ended = far.from_far(ALONE, (), kept, lambda line: None)
+    assert [f.effects[-1] for f in ended] == found
+
+
 @pytest.mark.parametrize("effects", [(), ("compliant_support",)], ids=["asked", "sure"])
 def test_a_plate_is_raced_wherever_its_tone_comes_nearer_and_the_best_of_its_masses_counts(monkeypatch, effects):
     """It needs no place among the looks, and is none of them; what led before is sure."""
