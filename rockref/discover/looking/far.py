@@ -91,7 +91,8 @@ def from_far(
     Where most windows are out of step, a small step along an effect changes little, and the parameters of the family
     `kept` have bent so far that an effect added to them cannot unbend them. One step from a baseline that is not yet
     bent shows what changes every impact, a search along the effect itself what changes the order of the impacts. A
-    second effect that comes no nearer than the first one alone, taken as far, is not fitted in full.
+    second effect that comes no nearer than the first one alone, taken as far, is not fitted in full. Where nobody comes
+    plainly nearer one at most is, after all of them were taken further beside a baseline that is near.
     """
     plain, sure = nominal_beside(setup, kept), leaders[0].effects if leaders else ()
     as_far = refit(plain, LOOKS, setup.seed)
