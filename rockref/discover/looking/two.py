@@ -18,7 +18,16 @@ from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import Family, mean_loss, refit, refit_all, room, size_of, structured
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup
-from rockref.discover.looking.far import FAR, FAR_OFF, LOOKS, begun_beside, in_full, nearest_of_each, nominal_beside
+from rockref.discover.looking.far import (
+    FAR,
+    FAR_OFF,
+    LOOKS,
+    begun_beside,
+    in_full,
+    nearest_of_each,
+    nominal_beside,
+    without_plate,
+)
 from rockref.discover.looking.look import Look, candidates_beside, look_further, ranked
 from rockref.discover.looking.ringing import PLATE, at_its_tone
 from rockref.discover.looking.screen import SHARES, own_columns, with_priors
@@ -91,9 +100,7 @@ def two_at_once(setup: Setup, first: Look, start: Family, say: Callable[[str], N
     offered = candidates_beside(setup, ())
     found = promises(setup, plain.fit, begun, offered, leading)
     tried = side_by_side(setup, lambda own, p: stepped_along(own, plain.fit, begun, p), found[:RACED])
-    tried += with_a_plate(setup, alone, leading, offered)
-    for id in dict.fromkeys([start.effects[-1], *(id for id in leading if id == PLATE)]):
-        tried += looked_beside(setup, alone[id], offered)
+    tried += beside_leaders(setup, alone, leading, offered)
     raced = sorted(nearest_of_each(refit_all(setup, tried, LOOKS, setup.seed)), key=mean_loss)
     for f in raced:
         say(f"  two at once: {' + '.join(f.effects)} {mean_loss(f):.2f}")
@@ -138,34 +145,32 @@ def promises(
     return sorted(found, key=lambda p: -p.gain)
 
 
-def with_a_plate(
+def beside_leaders(
     setup: Setup, alone: dict[str, Family], leading: Sequence[str], offered: Sequence[type[Effect]]
 ) -> list[Family]:
-    """A plate that rings, if it is offered, at its tone on short windows, beside the leaders of a look that came before
-    it: no derivative shows it while it is absent, so that no step promises anything of it.
+    """Pairs on short windows with leaders of a look as they were found: a plate, if it is offered, at its tone beside
+    those that led more than it; the others, by one step and by a look, beside the first, and beside a plate that led.
+
+    While a plate is rigid no derivative shows it. A step promises nothing, either, of what has to be there for its
+    derivative to show: of feet that resist spin beside a plate, of rolling resistance beside a scale of the gyroscope.
 
     alone : where each effect that led somewhere ended by itself.
     """
-    if PLATE not in [kind.id for kind in offered]:
-        return []
+    others = without_plate(offered)
     ahead = leading[: leading.index(PLATE)] if PLATE in leading else leading
+    ringing = ahead[:LEADERS] if len(others) < len(offered) else []
+    looked = [id for i, id in enumerate(leading) if i == 0 or id == PLATE]
 
-    def at_tone(own: Setup, id: str) -> list[Family]:
+    def begun(own: Setup, id: str) -> list[Family]:
         plain = nominal_beside(own, alone[id])
-        return at_its_tone(own, plain, refit(plain, LOOKS, own.seed))
+        as_far = refit(plain, LOOKS, own.seed)
+        found = at_its_tone(own, plain, as_far) if id in ringing else []
+        if id in looked:
+            found += begun_beside(own, [kind for kind in others if kind.id != id], plain, as_far)
+        return found
 
-    return [family for families in side_by_side(setup, at_tone, ahead[:LEADERS]) for family in families]
-
-
-def looked_beside(setup: Setup, first: Family, offered: Sequence[type[Effect]]) -> list[Family]:
-    """Others on short windows beside an effect as it was found, by one step and by a look; no plate.
-
-    A step promises nothing of what has to be there for its derivative to show: of feet that resist spin beside a plate
-    that rings, of rolling resistance beside a scale of the gyroscope.
-    """
-    plain = nominal_beside(setup, first)
-    others = [kind for kind in offered if kind.id not in (PLATE, *first.effects)]
-    return begun_beside(setup, others, plain, refit(plain, LOOKS, setup.seed))
+    leaders = [id for id in leading if id in ringing or id in looked]
+    return [family for families in side_by_side(setup, begun, leaders) for family in families]
 
 
 def stepped_along(setup: Setup, fit: Fit, point: Point, promise: Promise) -> Family:

@@ -76,12 +76,12 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
         two, "stepped_along", lambda setup, fit, point, p: family(p.effects, bowls[p.effects[0]], np.zeros(3))
     )
     unseen = [("gyro_scale", "compliant_support"), ("adhesion", "compliant_support")]
-    monkeypatch.setattr(two, "with_a_plate", lambda *_: 2 * [family(pair, bowls["a"], np.zeros(3)) for pair in unseen])
-    monkeypatch.setattr(two, "looked_beside", lambda setup, first, offered: asked.update(beside=first) or [])
+    begun = 2 * [family(pair, bowls["a"], np.zeros(3)) for pair in unseen]
+    monkeypatch.setattr(two, "beside_leaders", lambda setup, alone, *_: asked.update(alone=alone) or begun)
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     lines: list[str] = []
     look = two_at_once(ALONE, Look(left((), 0.9), [start, other], {}), start, lines.append)
-    assert asked["leading"] == ["gyro_scale", "adhesion"] and asked["beside"] is start
+    assert asked["leading"] == ["gyro_scale", "adhesion"] and asked["alone"] == {"gyro_scale": start, "adhesion": other}
     assert look.kept is other and look.in_full
     assert [f.effects for f in look.order] == [("adhesion", "plate_tilt")] and look.gains["plate_tilt"] > 0
     raced = [tuple(line.split()[3:6:2]) for line in lines[:6]]
@@ -90,51 +90,47 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
 
 
 @pytest.mark.parametrize(
-    "leading, at_tone",
+    "leading, at_tone, looked",
     [
-        (["spin_friction", "compliant_support", "adhesion"], ["spin_friction"]),
-        (["compliant_support", "spin_friction"], []),
-        (["adhesion", "spin_friction", "gyro_scale", "plate_tilt"], ["adhesion", "spin_friction", "gyro_scale"]),
+        (["spin_friction", "compliant_support", "adhesion"], ["spin_friction"], ["spin_friction", "compliant_support"]),
+        (["compliant_support", "spin_friction"], [], ["compliant_support"]),
+        (
+            ["adhesion", "spin_friction", "gyro_scale", "drift"],
+            ["adhesion", "spin_friction", "gyro_scale"],
+            ["adhesion"],
+        ),
     ],
 )
-def test_a_plate_stands_at_its_tone_beside_those_that_led_more(monkeypatch, leading, at_tone):
-    """Three of them at most, and none where the model has a plate already."""
-    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
+def test_a_plate_stands_at_its_tone_beside_those_that_led_more_and_others_beside_the_first_and_a_plate(
+    monkeypatch, leading, at_tone, looked
+):
+    """Three leaders at most get a plate, and none where the model has it already; each leader is begun at once only."""
+    begun = []
+    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: begun.append(kept.effects[0]) or kept)
     monkeypatch.setattr(two, "at_its_tone", lambda setup, plain, as_far: [(*plain.effects, "compliant_support")])
+    monkeypatch.setattr(
+        two, "begun_beside", lambda setup, kinds, plain, as_far: [(*plain.effects, kind.id) for kind in kinds]
+    )
     alone = {id: left((id,), 0.9) for id in leading}
-    found = two.with_a_plate(ALONE, alone, leading, [*KINDS, SUPPORT])
-    assert found == [(id, "compliant_support") for id in at_tone]
-    assert two.with_a_plate(ALONE, alone, leading, KINDS) == []
-
-
-def test_beside_an_effect_that_was_found_all_others_are_looked_at_but_for_a_plate(monkeypatch):
-    monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
-    monkeypatch.setattr(two, "begun_beside", lambda setup, kinds, plain, as_far: [(plain, kind.id) for kind in kinds])
-    first = left(("spin_friction",), 0.9)
-    found = two.looked_beside(ALONE, first, [*KINDS, SUPPORT])
-    assert found == [(first, id) for id in ("quadratic_drag", "gyro_scale", "adhesion", "plate_tilt")]
+    found = two.beside_leaders(ALONE, alone, leading, [*KINDS, SUPPORT])
+    plates = {(id, "compliant_support") for id in at_tone}
+    others = {(id, kind.id) for id in looked for kind in KINDS if kind.id != id}
+    assert len(found) == len(plates | others) and set(found) == plates | others
+    assert sorted(begun) == sorted({*at_tone, *looked})
+    assert not any("compliant_support" in pair[1:] for pair in two.beside_leaders(ALONE, alone, leading, KINDS))
 
 
 def test_a_pair_that_only_a_look_beside_the_leader_shows_wins_the_race(monkeypatch):
-    """Beside a plate that leads, too, and once only where it leads all."""
-    start, ringing = left(("gyro_scale",), 0.8), left(("compliant_support",), 0.9)
-    far_off, beside = Bowl(np.zeros(3), floor=2.1), []
-
-    def look_beside(setup, first, offered):
-        beside.append(first)
-        return [family((*first.effects, "rolling_resistance"), Bowl(np.zeros(3)), np.zeros(3))]
-
+    start, far_off = left(("gyro_scale",), 0.8), Bowl(np.zeros(3), floor=2.1)
+    rolling = family(("gyro_scale", "rolling_resistance"), Bowl(np.zeros(3)), np.zeros(3))
     monkeypatch.setattr(two, "nominal_beside", lambda setup, kept: kept)
     monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("gyro_scale", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
-    monkeypatch.setattr(two, "looked_beside", look_beside)
+    monkeypatch.setattr(two, "begun_beside", lambda setup, kinds, plain, as_far: [rolling])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
-    look = two_at_once(ALONE, Look(left((), 0.9), [start, ringing], {}), start, lambda line: None)
+    look = two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None)
     assert [f.effects for f in look.order] == [("gyro_scale", "rolling_resistance")]
-    assert beside == [start, ringing]
-    two_at_once(ALONE, Look(left((), 0.9), [ringing, start], {}), ringing, lambda line: None)
-    assert beside == [start, ringing, ringing]
 
 
 def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_tone(monkeypatch):
@@ -145,8 +141,7 @@ def test_a_pair_whose_second_has_no_derivative_wins_the_race_by_its_tone(monkeyp
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("spin_friction", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
     ringing = family(("spin_friction", "compliant_support"), Bowl(np.zeros(3)), np.zeros(3))
-    monkeypatch.setattr(two, "with_a_plate", lambda *_: [ringing])
-    monkeypatch.setattr(two, "looked_beside", lambda *_: [])
+    monkeypatch.setattr(two, "beside_leaders", lambda *_: [ringing])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: looked)
     look = two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None)
     assert look.kept is start and [f.effects for f in look.order] == [("spin_friction", "compliant_support")]
@@ -172,7 +167,7 @@ def test_pairs_that_the_race_does_not_tell_apart_are_both_fitted_in_full(monkeyp
         "stepped_along",
         lambda setup, fit, point, p: family(p.effects, Bowl(np.zeros(3), floor=floors[p.effects[1]]), np.zeros(3)),
     )
-    monkeypatch.setattr(two, "looked_beside", lambda *_: [])
+    monkeypatch.setattr(two, "beside_leaders", lambda *_: [])
     monkeypatch.setattr(two, "in_full", in_full)
     look = two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None)
     assert asked == ["quadratic_drag", "rolling_resistance"]
@@ -185,7 +180,7 @@ def test_pairs_that_are_all_far_off_are_left_there(monkeypatch):
     monkeypatch.setattr(two, "candidates_beside", lambda setup, effects: ())
     monkeypatch.setattr(two, "promises", lambda *_: [two.Promise(("gyro_scale", "adhesion"), 1.0, np.zeros(3))])
     monkeypatch.setattr(two, "stepped_along", lambda setup, fit, point, p: family(p.effects, far_off, np.zeros(3)))
-    monkeypatch.setattr(two, "looked_beside", lambda *_: [])
+    monkeypatch.setattr(two, "beside_leaders", lambda *_: [])
     monkeypatch.setattr(two, "in_full", lambda setup, looked: pytest.fail("fitted in full"))
     assert two_at_once(ALONE, Look(left((), 0.9), [start], {}), start, lambda line: None) is None
 
