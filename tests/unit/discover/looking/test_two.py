@@ -95,7 +95,7 @@ def test_the_best_of_the_race_is_fitted_in_full_on_top_of_the_one_that_led(monke
         (["spin_friction", "compliant_support", "adhesion"], ["spin_friction"], ["spin_friction", "compliant_support"]),
         (["compliant_support", "spin_friction"], [], ["compliant_support"]),
         (
-            ["adhesion", "spin_friction", "gyro_scale", "drift"],
+            ["adhesion", "spin_friction", "gyro_scale", "plate_tilt"],
             ["adhesion", "spin_friction", "gyro_scale"],
             ["adhesion"],
         ),
