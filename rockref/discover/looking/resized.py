@@ -13,7 +13,7 @@ from rockref.discover.fit.coarse import coarse_to_fine
 from rockref.discover.fit.families import Family, mean_loss, refit, refit_all, room, structured
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import LITTLE, MISSING, TRIED, Setup
-from rockref.discover.looking.ringing import COMPLIANCE, PLATE
+from rockref.discover.looking.ringing import COMPLIANCE, PITCH, PLATE
 
 #: Factors by which the sizes of effects are changed (decided: a cable's damping, found at three times its value, came
 #: down from two thirds, half and a third of that alike).
@@ -118,9 +118,9 @@ def moves(fit: Fit, z: np.ndarray) -> np.ndarray:
     """Changes of z, (moves, G): each size of an effect by the factors, or to half a size; each form of a law into the
     others; the pitches of a plate; the ridge of the feet."""
     names = [p.name for p in fit.parameters]
-    found = [m for i, name in enumerate(names) if tuple(name.split(".")) in FORMS for m in other_forms(z, i)]
-    if "compliant_support.pitch" in names:
-        found += [*pitching(names, z)]
+    found = [*pitching(names, z)] if PITCH in names else []
+    forms = [i for i, name in enumerate(names) if tuple(name.split(".")) in FORMS and name != PITCH]
+    found += [move for i in forms for move in other_forms(z, i)]
     for i in switches(names, heights_of(names)):
         for factor in NEAR_TONES if names[i] == COMPLIANCE else (*FACTORS, *to_half_a_size(z[i])):
             move = np.zeros(len(z))

@@ -13,9 +13,9 @@ from rockref.discover.fit.approach import of_other_masses, placed
 from rockref.discover.fit.families import Family, mean_loss, refit_all
 from rockref.discover.fit.search import Setup
 
-#: A plate that yields, and the parameter that brings it in.
+#: A plate that yields, the parameter that brings it in, and how much it turns as it yields.
 PLATE = "compliant_support"
-COMPLIANCE = f"{PLATE}.frequency"
+COMPLIANCE, PITCH = f"{PLATE}.frequency", f"{PLATE}.pitch"
 #: Compliances of a plate from which it is looked for: plates of typical mass that ring at 120 to 33 Hz. Decided: 26 %
 #: more each time; of eleven plates that were hidden, at half, once and twice the typical size, four of which pitch, the
 #: nearest of these led after one iteration in ten, and after three in all; of the one that did not it was the fourth.

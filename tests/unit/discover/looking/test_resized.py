@@ -207,6 +207,7 @@ def test_a_plate_is_looked_at_with_other_pitches_each_with_its_compliance():
     z = np.array([0.0, 0.9, 0.2])
     places = z + moves(Plate(np.zeros(3)), z)
     assert np.any(np.all(np.isclose(places, [0.0, 0.93 * 0.9, 0.5]), axis=1))
+    assert len(np.unique(places.round(9), axis=0)) == len(places)
     rigid = np.array([0.0, 0.0, 0.2])
     assert np.all(moves(Plate(np.zeros(3)), rigid)[:, 1] == 0)
 
