@@ -20,13 +20,16 @@ SHARES = (1.0, 0.4)
 
 @dataclass
 class Trial:
-    """One candidate tried from the baseline: predicted gain of one Gauss-Newton step, the gain found, the point."""
+    """One candidate tried from the baseline: predicted gain of one Gauss-Newton step, the gain found, the point; how
+    much of the prediction is the candidate's own, and where the whole step leads (G,)."""
 
     effects: tuple[str, ...]
     predicted: float
     gain: float
     fit: Fit
     point: Point
+    own: float
+    whole: np.ndarray
 
 
 def with_priors(H: np.ndarray, g: np.ndarray, prior: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -51,12 +54,12 @@ def screen(fit: Fit, point: Point, kinds, setup: Setup, effects: tuple[str, ...]
 
     def tried(own: Setup, id: str) -> Trial:
         wide = own.fit(fit.series.twin(), (*effects, id))
-        trial = stepped(wide, point, (*effects, id), (r, Js, Jg, w), promised + PROMISING)
+        trial = stepped(wide, point, (*effects, id), (r, Js, Jg, w), promised)
         wide.series = fit.series  # what the twin has kept is not needed any more
         return trial
 
     trials = side_by_side(setup, tried, [kind.id for kind in kinds if kind.id not in effects])
-    return sorted(trials, key=lambda t: -t.gain)
+    return sorted(trials, key=lambda t: (-t.gain, -t.own))
 
 
 def own_columns(wide: Fit, point: Point, effect: str, r: np.ndarray, Js: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -69,10 +72,10 @@ def own_columns(wide: Fit, point: Point, effect: str, r: np.ndarray, Js: np.ndar
     return z0, wide.parameter_jacobian(z0, point.corrections, r, Js, only=range(G, G + own))
 
 
-def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, least: float) -> Trial:
+def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, promised: float) -> Trial:
     """One candidate: its fit, the point of the narrower family and its residuals, Jacobians and weights.
 
-    The step is only tried where it promises more than `least`.
+    The step is only tried where it promises more than the narrower family's own, `promised`, and something.
     """
     r, Js, Jg, w = linear
     c = point.corrections
@@ -81,8 +84,9 @@ def stepped(wide: Fit, point: Point, effects: tuple[str, ...], linear: tuple, le
     H, g = with_priors(H, g, wide.prior, z0)
     dz = np.clip(-np.linalg.solve(H, g), -3, 3)
     absent = Point(z0, c.copy(), point.loss.copy(), point.penalty)
-    best = Trial(effects, float(-(g @ dz) / 2), 0.0, wide, absent)
-    for share in SHARES if best.predicted > least else ():
+    predicted = float(-(g @ dz) / 2)
+    best = Trial(effects, predicted, 0.0, wide, absent, predicted - promised, np.minimum(z0 + dz, wide.most))
+    for share in SHARES if best.own > PROMISING else ():
         dc = -np.linalg.solve(H_ss, (g_s + H_sg @ (share * dz))[..., None])[..., 0]
         dc = np.clip(dc, -4 * wide.state_prior, 4 * wide.state_prior)
         dc[wide.series.first] = 0

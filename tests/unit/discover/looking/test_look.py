@@ -9,6 +9,7 @@ from rockref.discover import verdict as rules
 from rockref.discover.fit.families import gain_over, mean_loss, room
 from rockref.discover.looking import look as looking
 from rockref.discover.looking.look import Look, challenge, race, ranked, there
+from rockref.discover.looking.screen import Trial
 from tests.unit.discover.bowls import ALONE, Bowl, family, series
 
 
@@ -115,6 +116,32 @@ def left(effects, share):
     found = family(effects, Bowl(np.array(z)), z)
     found.point.loss[: round(share * len(found.point.loss))] *= 4.0
     return found
+
+
+@pytest.mark.parametrize(
+    "promised, size, stuck, smoothed",
+    [(100.0, 0.3, True, True), (20.0, 0.3, True, False), (100.0, 0.02, True, False), (100.0, 0.3, False, False)],
+    ids=["promised and not gained", "hardly promised", "promised of a trifle", "gained"],
+)
+def test_where_no_step_gains_what_it_promises_a_candidate_goes_on_from_averages(
+    monkeypatch, promised, size, stuck, smoothed
+):
+    start = family((), Bowl(np.zeros(1), floor=1.0 + size**2, stuck=True), [0.0])
+    there = np.array([0.0, size])
+    f = family(("rolling_resistance",), Bowl(there, stuck=stuck), [0.0, 0.0])
+    trial = Trial(f.effects, promised + 10.0, 0.0, f.fit, f.point, promised, there)
+    asked = []
+
+    def averaged(setup, found, seed):
+        asked.append(found.effects)
+        return family(found.effects, found.fit, there)
+
+    monkeypatch.setattr(looking, "screen", lambda *a: [trial])
+    monkeypatch.setattr(looking, "averaged", averaged)
+    families = looking.from_near(ALONE, (), start, 0)
+    assert asked == ([f.effects] if smoothed else [])
+    gain = max(gain_over(start, found) for found in families)
+    assert (gain > rules.DETECTED) is (smoothed or not stuck)
 
 
 @pytest.mark.parametrize(
