@@ -240,8 +240,8 @@ def grown(setup: Setup, start: Family, seed: int, say: Callable[[str], None]) ->
 
 
 def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look], say: Callable[[str], None]) -> Family:
-    """A pair, or its first effect alone where the second leaves more than it gains, or gains little and a rival or the
-    held-out runs say no.
+    """A pair, or its first effect alone where the second leaves more than it gains, or is not told apart from a rival,
+    or gains little and the held-out runs say no.
 
     Effects that were found together at the release are left as they are.
     """
@@ -252,12 +252,12 @@ def proven(setup: Setup, experiment: Experiment, pair: Family, looks: list[Look]
     if rules.is_not_it(gain, room(pair)):
         say(f"  {second} gains {gain:.0f} units and leaves {room(pair):.0f}")
         return alone
+    if rivals := [id for id, g in gains.items() if id not in pair.effects and g > rules.told_apart(gain)]:
+        say(f"  {second} is not told apart from {', '.join(rivals)}")
+        return alone
     if gain > rules.PLAIN_SECOND:
         return pair
     if rules.is_small(gain, room(alone)):
-        return alone
-    if rivals := [id for id, g in gains.items() if id not in pair.effects and g > rules.told_apart(gain)]:
-        say(f"  {second} is not told apart from {', '.join(rivals)}")
         return alone
 
     def fitted(f: Family) -> Losses:

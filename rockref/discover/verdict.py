@@ -20,7 +20,8 @@ DETECTED = 80.0
 #: left unfinished gains something for everyone. Its least size. Decided: four second effects that were there gained
 #: 277 (drag beside a cable) to 1070. Beside eighteen single ones of another law than the name's, which left up to 2650
 #: units, nothing of that size gained 150 to 300; what gained more in two of them, up to 1673, did not settle what was
-#: left, or was not told apart from its rivals.
+#: left, or was not told apart from its rivals. In seventeen right pairs no rival gained more than 0.76 of what the
+#: second did; beside a gyroscope that clipped an inertia gained 1082, sides 1079, and neither was there.
 SECOND, PLAIN_SECOND, SECOND_SIZE = 150.0, 900.0, 0.25
 #: Below the gain SMALL a second effect has to take this part of what the first one left (decided: drag beside a cable
 #: gained 277 of 485; an inertia beside a plate that pitches, where there was none, 207 of 1388).

@@ -107,6 +107,8 @@ def from_averages(setup: Setup, trials: Sequence[Trial], seed: int) -> list[Fami
     gained 33 by them.
     """
     promising = sorted((t for t in trials if t.own > PROMISED and size_promised(t) > AT_SIZE), key=lambda t: -t.own)
+    for t in promising:
+        setup.log(f"{' + '.join(t.effects)}: promises {t.own:.0f}, at {size_promised(t):.2f} of its size")
 
     def smoothed(own: Setup, trial: Trial) -> Family:
         return averaged(own, Family(trial.effects, trial.fit.twin(own.log), trial.point), seed)

@@ -12,7 +12,8 @@ from rockref.discover.fit.search import Setup
 
 #: Size, in typical sizes, at which a candidate's derivative is taken: large enough for laws that do not show at zero.
 PROBE = 0.2
-#: Gain that a candidate must promise by itself for its step to be tried (decided: a sixth of what is called an effect).
+#: Gain that a candidate must promise of its own for its step to be tried (decided: three quarters of what an effect has
+#: to gain).
 PROMISING = 60.0
 #: Shares of a step that are tried.
 SHARES = (1.0, 0.4)

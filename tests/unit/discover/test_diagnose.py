@@ -168,6 +168,8 @@ def test_without_such_a_pair_a_first_that_leaves_most_windows_is_the_last(course
     "gains, held, ends",
     [
         ({"quadratic_drag": 950.0}, 0.0, BOTH),  # it gains enough
+        ({"quadratic_drag": 950.0, "adhesion": 860.0}, 0.0, BOTH),
+        ({"quadratic_drag": 950.0, "adhesion": 930.0}, 0.3, LEVER),  # but a rival gains as much
         ({"quadratic_drag": 500.0}, 0.3, BOTH),  # the held-out runs show it
         ({"quadratic_drag": 500.0}, 0.1, LEVER),  # they show little of it
         ({"quadratic_drag": 500.0, "adhesion": 480.0}, 0.3, LEVER),  # a rival does as well
