@@ -55,8 +55,8 @@ def signature(fit: Fit, point: Point, final: Fit, best: Point) -> dict[str, Any]
     axis = int(np.argmax(axis_excess))
     impacts = [main_impacts(run.t, run.crv) for run in s.runs]
     mean = 2 * point.loss / s.count
-    # What belongs to the release shows in every run; a blow at any time may fall into the first swing of one.
-    at_release, after = float(np.median(mean[s.first])), float(mean[~s.first].mean())
+    # What belongs to the release shows in every run; a blow at any time may fall into the first swing of half of them.
+    at_release, after = float(np.quantile(mean[s.first], 0.5, method="lower")), float(mean[~s.first].mean())
     alike, coherent = repeats(s, r[..., axis]), coherence(s, r[..., axis])
     return {
         "axis": AXES[axis],

@@ -70,9 +70,10 @@ class TestPhase:
         assert found["loss_at_release"] == pytest.approx(11 / 3, rel=0.2)
         assert found["loss_after"] == pytest.approx(1, rel=0.1)
 
-    def test_a_blow_in_the_first_swing_of_one_run_does_not(self, windows):
+    @pytest.mark.parametrize("runs", [1, 2])
+    def test_a_blow_in_the_first_swing_of_half_the_runs_at_most_does_not(self, windows, runs):
         r = noise(windows)
-        r[[0, 20], :, 2] *= 6
+        r[[*np.flatnonzero(windows.first)[:runs], 20], :, 2] *= 6
         found = signature(windows, r)
         assert found["phase"] == "impacts" and found["loss_at_release"] < 1.5
 
