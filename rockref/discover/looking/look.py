@@ -43,8 +43,8 @@ NOWHERE, FEW_STRUCTURED = 0.6, 0.05
 WORTH_A_REFIT = 120.0
 #: Where no step gains what an effect has to, candidates whose step promises so much of its own, at so large a size, go
 #: on from averages; most of them. Decided: of four effects hidden at half their size, where hardly a step gained
-#: anything, it promised 48 to 142, at 0.14 to 0.8 of a size; on forty controls one had that size and promised 44, the
-#: next 30; what promised more (a bandwidth of the gyroscope, up to 96) did so at a size of 0.00.
+#: anything, it promised 48 to 142, at 0.14 to 0.8 of a size; on 42 controls one promised 40 at such a size, and was
+#: none in the end. What promised more there (a bandwidth of the gyroscope, up to 96) did so at a size of 0.00.
 PROMISED, AT_SIZE, SMOOTHED = 40.0, 0.1, 3
 #: Share of the leader's gain below which a candidate is left where it is (decided: refits have doubled a gain).
 BEHIND = 0.4
