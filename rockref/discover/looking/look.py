@@ -93,10 +93,8 @@ def from_near(setup: Setup, offered: Sequence[type[Effect]], start: Family, seed
     trials = screen(start.fit, start.point, offered, setup, start.effects)
     worth = [t for i, t in enumerate(trials[:REFITTED]) if i < 3 or max(t.gain, t.predicted) > WORTH_A_REFIT]
     raced = race(setup, [Family(t.effects, t.fit, t.point) for t in worth], start, seed)
-    needed = rules.SECOND if start.effects else rules.DETECTED
-    if max((gain_over(start, f) for f in raced), default=0.0) > needed:
-        return raced
-    return [*raced, *from_averages(setup, trials, seed)]
+    found = any(rules.is_detected(gain_over(start, f), size_of(f), bool(start.effects)) for f in raced)
+    return raced if found else [*raced, *from_averages(setup, trials, seed)]
 
 
 def from_averages(setup: Setup, trials: Sequence[Trial], seed: int) -> list[Family]:

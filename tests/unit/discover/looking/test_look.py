@@ -144,6 +144,22 @@ def test_where_no_step_gains_what_it_promises_a_candidate_goes_on_from_averages(
     assert (gain > rules.DETECTED) is (smoothed or not stuck)
 
 
+def test_a_trifle_that_gains_something_keeps_nobody_from_averages(monkeypatch):
+    start = family((), Bowl(np.zeros(1), floor=1.05, stuck=True), [0.0])
+    small, there = np.array([0.0, 0.02]), np.array([0.0, 0.0, 0.3])
+    trifle = family(("rolling_resistance",), Bowl(small, stuck=True), small)
+    other = family(("quadratic_drag",), Bowl(there, floor=0.95, stuck=True), [0.0, 0.0, 0.0])
+    trials = [
+        Trial(trifle.effects, 170.0, 160.0, trifle.fit, trifle.point, 160.0, small),
+        Trial(other.effects, 110.0, 0.0, other.fit, other.point, 100.0, there),
+    ]
+    monkeypatch.setattr(looking, "screen", lambda *a: trials)
+    monkeypatch.setattr(looking, "averaged", lambda setup, f, seed: family(f.effects, f.fit, there))
+    families = looking.from_near(ALONE, (), start, 0)
+    assert gain_over(start, families[0]) > rules.DETECTED
+    assert max(families, key=lambda f: gain_over(start, f)).effects == other.effects
+
+
 @pytest.mark.parametrize(
     "at_first, near, far, asked",
     [

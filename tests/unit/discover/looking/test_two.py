@@ -53,6 +53,9 @@ def test_the_step_of_a_pair_leads_lower_than_those_of_its_effects(hidden):
     assert found.effects == best.effects == ("gyro_scale", "spin_friction")
     alone = screen(fit, point, [k for k in KINDS if k.id in found.effects], setup)
     assert found.point.objective < min(t.point.objective for t in alone) < point.objective
+    # What a step promises of its own is less than all of it by what the step without the candidate promises.
+    without = [t.predicted - t.own for t in alone]
+    assert 0 < without[0] < min(t.predicted for t in alone) and without == pytest.approx(without[:1] * len(alone))
     # The columns stand in the order of the effects: the step of the scale moves the scale.
     assert found.point.z[names.index("gyro_scale.x")] < 0 < found.point.z[names.index("spin_friction.radius")]
 
