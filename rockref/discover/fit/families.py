@@ -11,6 +11,7 @@ import numpy as np
 from rockref.discover import verdict as rules
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.candidates import FORMS, SHAPES, value_of
+from rockref.discover.fit.common import shared_out
 from rockref.discover.fit.evidence import clipped_gain
 from rockref.discover.fit.intervals import NINETY, half_widths
 from rockref.discover.fit.least_squares import Fit, Point, out_of_step
@@ -29,7 +30,8 @@ class Family:
 def refit(family: Family, iterations: int, seed: int, relative: float = 0.0) -> Family:
     """Go on from where a family stands; the baseline and every candidate get the same iterations."""
     rng = np.random.default_rng(seed)
-    return Family(family.effects, family.fit, family.fit.run(family.point, iterations, rng, relative=relative))
+    point = family.fit.run(family.point, iterations, rng, relative=relative)
+    return Family(family.effects, family.fit, shared_out(family.fit, point))
 
 
 def refit_all(

@@ -6,18 +6,12 @@ import numpy as np
 
 from rockref.discover import verdict as rules
 from rockref.discover.fit.candidates import SELDOM, SHAPES
+from rockref.discover.fit.common import COMMON
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.parameter import Parameter
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
 NINETY = 1.645
-#: What one factor of all four feet is, looked at from the other side: numbers of the baseline, which no run tells from
-#: it. Decided on ten blind cases, whose factors were right but for a common one of up to 1.34.
-COMMON = {
-    "uneven_foot_stiffness": ("K_N",),
-    "uneven_foot_damping": ("beta_int", "beta_ext"),
-    "uneven_foot_friction": ("mu_int", "mu_ext"),
-}
 #: Half widths, in typical sizes, of numbers that trade with what no window of 50 to 90 ms sees: a common size of the
 #: block, a common height of the feet with the distance and the friction of the inner points, the height of the centre
 #: of mass with the tilt. Decided on the blind cases that had them: the centre 0.45 to 0.58 mm off in height (four of
