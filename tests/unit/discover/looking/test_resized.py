@@ -58,11 +58,28 @@ def test_a_rival_goes_on_while_rounds_like_the_last_one_would_bring_it_level(mon
     assert behind.index(resized(ALONE, behind[0], 0)) == 4  # by itself it goes on as long as it falls
 
 
-def test_a_fit_that_has_arrived_is_only_taken_to_its_end():
-    arrived = family(("rolling_resistance",), Bowl(np.array([0.0, 0.4]), floor=0.9), np.array([0.0, 0.45]))
-    found = resized(ALONE, arrived, seed=0)
-    assert found.fit.iterations == LAST
-    assert found.point.z == pytest.approx([0.0, 0.4], abs=0.05 * 0.5**LAST * 1.01)
+@pytest.mark.parametrize("units, falls, rounds", [(100, (70, 40, 15, 30), 2), (250, (30,) * 5, ROUNDS), (50, (15,), 0)])
+def test_a_fit_that_has_arrived_goes_on_from_averages_while_they_take_something_off(monkeypatch, units, falls, rounds):
+    """And in no other way: right effects had still come down by some hundred units so."""
+    left = units - np.cumsum([0.0, *falls])
+    per_unit = 2 / float(np.sum(Bowl(np.zeros(1)).series.count))
+    at = np.array([0.0, 0.4])
+    places = [family(("rolling_resistance",), Bowl(at, floor=rules.NOISE + u * per_unit), at) for u in left]
+    monkeypatch.setattr(module, "AT_NOISE", 2.0)  # forty windows have less room than the runs of an experiment
+    monkeypatch.setattr(module, "averaged", lambda setup, f, seed: places[places.index(f) + 1])
+    monkeypatch.setattr(module, "moved", lambda *a: pytest.fail("changed places"))
+    monkeypatch.setattr(module, "refit", lambda f, iterations, seed: f)
+    assert places.index(resized(ALONE, places[0], 0)) == rounds
+
+
+def test_a_rival_that_has_arrived_far_behind_is_only_taken_to_its_end(monkeypatch):
+    """More than rivals are forgiven: averages would not bring it level."""
+    monkeypatch.setattr(module, "averaged", lambda *a: pytest.fail("averages"))
+    at = np.array([0.0, 0.4])
+    rival = family(("rolling_resistance",), Bowl(at, floor=0.99), at + 0.02)
+    ahead = family(("quadratic_drag",), Bowl(at, floor=0.80), at)
+    assert has_arrived(rival) and room(rival) - room(ahead) > rules.UNFINISHED
+    assert resized(ALONE, rival, 0, ahead).fit.iterations == LAST
 
 
 @pytest.mark.parametrize("windows, goes_on", [(40, False), (400, True)])
@@ -246,7 +263,7 @@ class Heavy(Bowl):
 
 def test_a_plate_comes_to_its_mass_though_the_place_looks_unaffordable_at_first(monkeypatch):
     """Its tone stays, and averages, which would take the rounds, come after it."""
-    monkeypatch.setattr(module, "averaged", lambda *a: pytest.fail("averaged"))
+    monkeypatch.setattr(module, "averaged", lambda setup, f, seed: f if has_arrived(f) else pytest.fail("averaged"))
     stuck = family(("compliant_support",), Heavy(np.array([0.0, 1.2, -0.3]), floor=0.97), np.array([0.0, 1.2, 0.0]))
     found = resized(ALONE, stuck, seed=0)
     assert mean_loss(found) == pytest.approx(0.97) and found.point.z[2] == pytest.approx(-0.3)
