@@ -26,9 +26,9 @@ SECOND, PLAIN_SECOND, SECOND_SIZE = 150.0, 900.0, 0.25
 #: Below the gain SMALL a second effect has to take this part of what the first one left (decided: drag beside a cable
 #: gained 277 of 485; an inertia beside a plate that pitches, where there was none, 207 of 1388).
 SMALL, OF_WHAT_IS_LEFT = 300.0, 0.4
-#: What must be left for a second effect to be looked for at all. Right fits end 60 to 470 units below the noise: nothing
-#: left is no sign that all is found. Decided: feet of two stiffnesses left 160 units where a friction that differed,
-#: too, gained 460; of eleven single effects that left 43 to 162 none got a second name.
+#: What must be left for a second effect to be looked for at all. Right fits end 60 to 470 units below the noise, so
+#: nothing left is no sign that all is found. Decided: feet of two stiffnesses left 160 units where a friction that
+#: differed, too, gained 460; of eleven single effects that left 43 to 162 none got a second name.
 SECOND_ROOM = -100.0
 #: Share of the fall of the loss on fitted runs that the held-out runs have to show of such a second effect, each of
 #: them some of it, and the mean loss that a window counts there at most, so that one out of step does not decide
