@@ -6,7 +6,7 @@ import numpy as np
 
 from rockref.discover import verdict as rules
 from rockref.discover.fit.candidates import SELDOM, SHAPES
-from rockref.discover.fit.common import COMMON
+from rockref.discover.fit.common_factor import COMMON
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.parameter import Parameter
 
