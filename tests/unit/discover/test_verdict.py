@@ -128,14 +128,14 @@ def test_detection_asks_for_gain_and_size(second):
     "held, proven",
     [
         ([0.1, 0.12], True),
-        ([0.03, 0.06], True),
-        ([0.02, 0.05], False),
+        ([0.04, 0.07], True),
+        ([0.03, 0.06], False),
         ([0.3, -0.01], False),
         ([0.3, 0.0], False),
         ([], False),
     ],
 )
-def test_a_second_effect_is_proven_by_every_held_out_run_and_a_part_of_what_the_fitted_ones_gain(held, proven):
+def test_a_second_effect_is_proven_by_every_held_out_run_and_half_of_what_the_fitted_ones_gain(held, proven):
     assert rules.is_proven(0.1, held) == proven
 
 
