@@ -33,7 +33,7 @@ from rockref.discover.fit.families import (
 from rockref.discover.fit.gates import Gate, gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.fit.information import information
 from rockref.discover.fit.search import FRESH, Setup, baseline
-from rockref.discover.looking.fewer import both_needed, without
+from rockref.discover.looking.fewer import both_needed, one_for_both, without
 from rockref.discover.looking.look import POLISH, TOO_FAR, Look, doubt_trifle, duel, look_further
 from rockref.discover.looking.presearch import STRONG, suspects
 from rockref.discover.looking.two import leaves_too_much, settled_by_two
@@ -148,7 +148,10 @@ def diagnose(
         start = both_needed(setup, start, seed, say)
     if looks and not looks[0].kept.effects:
         null = looks[0].kept
-        if len(start.effects) == 2:
+        if len(start.effects) == 2 and (alone := one_for_both(setup, looks[0], start, seed, say)) is not None:
+            looks.append(alone)
+            start = alone.order[0]
+        elif len(start.effects) == 2:
             start = exchanged(setup, looks[0], start, seed, say)
     if not start.effects:
         # Nothing was found: the baseline itself has to be taken down to what it can reach before that is said.

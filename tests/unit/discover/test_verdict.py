@@ -146,6 +146,22 @@ def test_a_rival_is_told_apart_by_a_share_or_by_what_fits_end_short_of():
     assert rules.told_apart(20.0) == 0.0
 
 
+@pytest.mark.parametrize(
+    "best, rival, verdict",
+    [
+        (528.0, 451.0, "class"),  # round feet of four radii, behind sides that were not off
+        (860.0, 762.0, "named"),
+        (110.0, 50.0, "named"),  # what gains little need not lead by more than half of it
+        (110.0, 60.0, "class"),
+        (3000.0, 2830.0, "class"),  # six per cent of what gains much
+    ],
+)
+def test_a_name_leads_its_rivals_by_what_an_effect_has_to_gain(best, rival, verdict):
+    gains = {"dimension_deviation": best, "rounded_feet": rival}
+    found = decide(facts(("dimension_deviation",), gains))
+    assert found.verdict == verdict
+
+
 def test_second_effect_must_settle_the_windows():
     assert settles(0.5, 0.1) and settles(0.04, 0.03)
     assert not settles(0.125, 0.111)

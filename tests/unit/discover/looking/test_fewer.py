@@ -8,7 +8,8 @@ import pytest
 from rockref.discover import verdict as rules
 from rockref.discover.fit.families import gain_over
 from rockref.discover.looking import fewer
-from rockref.discover.looking.fewer import both_needed, without
+from rockref.discover.looking.fewer import both_needed, one_for_both, without
+from rockref.discover.looking.look import Look
 from tests.unit.discover.bowls import WINDOWS, Bowl, family
 
 BOTH = ("rolling_resistance", "quadratic_drag")
@@ -66,3 +67,33 @@ def test_the_second_of_a_pair_has_to_gain_over_the_first_begun_where_the_pair_en
 
 def alone_with(effects, floor):
     return family(effects, Bowl(np.array([0.1, 1.0]), floor=floor), [0.1, 1.0])
+
+
+@pytest.mark.parametrize("behind, stands", [(-90.0, True), (20.0, True), (40.0, False), (400.0, False)])
+def test_one_effect_stands_in_the_place_of_two_where_it_explains_as_much(monkeypatch, behind, stands):
+    """An inertia and a tilt of the plate were told where the centre of mass alone was off."""
+    pair = family(BOTH, Bowl(np.array([0.1, 0.4, 1.0])), [0.1, 0.4, 1.0])
+    kept = family((), Bowl(np.array([0.1]), floor=1.5), [0.1])
+    first = family(BOTH[:1], Bowl(np.array([0.1, 0.4]), floor=1.2), [0.1, 0.4])
+    per_unit = 2 / float(np.sum(pair.fit.series.count))
+    alone = family(("mass_eccentricity",), Bowl(np.array([0.1, 0.7]), floor=1.0 + behind * per_unit), [0.1, 0.7])
+    look = Look(kept, [first], {BOTH[0]: gain_over(kept, first)})
+    asked = []
+
+    def screen(fit, point, kinds, setup, effects):
+        asked.extend(kind.id for kind in kinds)
+        return [SimpleNamespace(effects=alone.effects, fit=alone.fit, point=alone.point)]
+
+    monkeypatch.setattr(fewer, "screen", screen)
+    monkeypatch.setattr(fewer, "refit_all", lambda setup, families, iterations, seed: families)
+    monkeypatch.setattr(fewer, "finished", lambda setup, found, seed: found)
+    setup = SimpleNamespace(
+        fit=lambda series, effects: Bowl(np.array([0.1])), base=SimpleNamespace(points=8, active_effects=list), own=()
+    )
+    found = one_for_both(setup, look, pair, 0, [].append)
+    assert not set(asked) & set(BOTH) and "mass_eccentricity" in asked
+    assert (found is not None) == stands
+    if stands:
+        assert [f.effects for f in found.order] == [alone.effects, BOTH[:1]] and found.kept is kept
+        assert found.gains["mass_eccentricity"] == pytest.approx(gain_over(kept, alone))
+        assert look.order == [first]
