@@ -207,7 +207,7 @@ def test_effects_that_the_release_shows_need_no_other_proof():
 def whole(monkeypatch):
     """A diagnosis whose every step is made up; returns the null, the end, and what was done between."""
 
-    def prepare(start, looks, null=None, begun=None):
+    def prepare(start, looks, null=None, begun=None, alone=None):
         done = []
         null = null or left((), 0.9)
 
@@ -222,6 +222,7 @@ def whole(monkeypatch):
         monkeypatch.setattr(diagnose, "finished", noted("finished", lambda setup, f, seed: f))
         monkeypatch.setattr(diagnose, "without", noted("without", lambda setup, f, effect: left((effect,), 0.1)))
         monkeypatch.setattr(diagnose, "both_needed", noted("both needed", lambda setup, pair, *a: pair))
+        monkeypatch.setattr(diagnose, "one_for_both", noted("one for both", lambda setup, look, pair, *a: alone))
         monkeypatch.setattr(diagnose, "exchanged", noted("exchanged", lambda setup, look, pair, *a: pair))
         monkeypatch.setattr(diagnose, "refit", noted("refit", lambda f, iterations, seed: left((), 0.05)))
         monkeypatch.setattr(diagnose, "conclude", lambda setup, held, null, final, *a: (null, final))
@@ -244,16 +245,27 @@ def test_of_a_pair_what_came_to_nothing_is_left_out_and_a_rival_of_the_first_is_
     looks = [Look(kept, [], {})]
     pair = left(BOTH, 0.0)
     null, final, done = whole(pair, looks)
-    assert null is kept and final is pair and done == ["exchanged"]
+    assert null is kept and final is pair and done == ["one for both", "exchanged"]
     # Both were found on top of each other: what the second explains the first may have stood in for.
     assert whole(pair, [Look(kept, [], {}), Look(left(LEVER, 0.3), [], {"quadratic_drag": 5e3})])[2] == [
         "both needed",
+        "one for both",
         "exchanged",
     ]
     pair = left(BOTH, 0.0)
     pair.point.z[2] = 0.01
     _, final, done = whole(pair, looks)
     assert final.effects == ("quadratic_drag",) and done == ["without"]
+
+
+def test_one_effect_that_explains_as_much_as_two_takes_their_place_and_is_looked_at_last(whole):
+    looks = [Look(left((), 0.8), [], {})]
+    alone = Look(looks[0].kept, [left(("mass_eccentricity",), 0.0)], {"mass_eccentricity": 1171.0})
+    null, final, done = whole(left(BOTH, 0.0), looks, alone=alone)
+    assert (null, final, done) == (looks[0].kept, alone.order[0], ["one for both"]) and looks[-1] is alone
+    # Where the releases had named an effect before any look, nobody is asked.
+    named = [Look(left(LEVER, 0.3), [], {"quadratic_drag": 5e3})]
+    assert whole(left(BOTH, 0.0), named, alone=alone)[2] == ["both needed"]
 
 
 @pytest.mark.parametrize("room, taken", [(0.0, BOTH), (0.2, LEVER)])
