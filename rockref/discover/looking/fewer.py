@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.fit.families import Family, gain_between, mean_loss, refit_all
+from rockref.discover.fit.families import Family, gain_between, mean_loss, refit_all, size_of
 from rockref.discover.fit.search import Setup, baseline
 from rockref.discover.looking.look import ITERATIONS, REFITTED, Look, candidates_beside
 from rockref.discover.looking.screen import screen
@@ -44,7 +44,7 @@ def one_for_both(setup: Setup, look: Look, pair: Family, seed: int, say: Callabl
     look : the one on top of the plain baseline in which the first of the two was found. An effect that was tried there
     may have ended in a side valley: an inertia came first where the centre of mass was off, and what it left looked
     like a tilt of the plate. Where the two had ended, both taken out, an eccentric mass was 14 units behind them in
-    four iterations, and 90 ahead at its end. None where no single effect comes within CLOSE of the pair.
+    four iterations, and 37 ahead at its end. None where no single effect that has a size comes within CLOSE of them.
     """
     plain = setup.fit(pair.fit.series, look.kept.effects)
     point, _ = plain.point(pair.point.z[: len(plain.parameters)], pair.point.corrections)
@@ -57,7 +57,7 @@ def one_for_both(setup: Setup, look: Look, pair: Family, seed: int, say: Callabl
     best = finished(setup, best, seed)
     gain = gain_between(pair, best)
     say(f"  {best.effects[-1]} in the place of {' + '.join(pair.effects)}: gain {gain:.0f}")
-    if gain < -rules.CLOSE:
+    if gain < -rules.CLOSE or size_of(best) < rules.LEAST_SIZE:
         return None
     id = best.effects[-1]
     others = [f for f in look.order if f.effects != best.effects]

@@ -69,8 +69,11 @@ def alone_with(effects, floor):
     return family(effects, Bowl(np.array([0.1, 1.0]), floor=floor), [0.1, 1.0])
 
 
-@pytest.mark.parametrize("behind, stands", [(-90.0, True), (20.0, True), (40.0, False), (400.0, False)])
-def test_one_effect_stands_in_the_place_of_two_where_it_explains_as_much(monkeypatch, behind, stands):
+@pytest.mark.parametrize(
+    "behind, size, stands",
+    [(-90.0, 0.7, True), (20.0, 0.7, True), (40.0, 0.7, False), (400.0, 0.7, False), (-90.0, 0.1, False)],
+)
+def test_one_effect_stands_in_the_place_of_two_where_it_explains_as_much(monkeypatch, behind, size, stands):
     """An inertia and a tilt of the plate were told where the centre of mass alone was off."""
     pair = family(BOTH, Bowl(np.array([0.1, 0.4, 1.0])), [0.1, 0.4, 1.0])
     kept = family((), Bowl(np.array([0.1]), floor=1.5), [0.1])
@@ -85,6 +88,7 @@ def test_one_effect_stands_in_the_place_of_two_where_it_explains_as_much(monkeyp
         return [SimpleNamespace(effects=alone.effects, fit=alone.fit, point=alone.point)]
 
     monkeypatch.setattr(fewer, "screen", screen)
+    monkeypatch.setattr(fewer, "size_of", lambda found: size)
     monkeypatch.setattr(fewer, "refit_all", lambda setup, families, iterations, seed: families)
     monkeypatch.setattr(fewer, "finished", lambda setup, found, seed: found)
     setup = SimpleNamespace(
