@@ -33,11 +33,11 @@ from rockref.discover.fit.families import (
 from rockref.discover.fit.gates import Gate, gradient_small, off_bounds, runs_agree, step_small
 from rockref.discover.fit.information import information
 from rockref.discover.fit.search import FRESH, Setup, baseline
-from rockref.discover.looking.fewer import both_needed, one_for_both, without
+from rockref.discover.looking.fewer import needed, stood_in_for
 from rockref.discover.looking.look import POLISH, TOO_FAR, Look, doubt_trifle, duel, look_further
 from rockref.discover.looking.presearch import STRONG, suspects
 from rockref.discover.looking.two import leaves_too_much, settled_by_two
-from rockref.discover.looking.winning import exchanged, finished, to_the_end, upheld
+from rockref.discover.looking.winning import finished, to_the_end, upheld
 from rockref.discover.on_this_data import seen_by
 from rockref.discover.plan import switches_of
 from rockref.discover.separating import separating_run
@@ -141,18 +141,12 @@ def diagnose(
     if start.effects and any(start is family for family in begun_with):
         # What the release named, and no look has added to, has not been fitted to its end.
         start = finished(setup, start, seed)
-    if len(start.effects) == 2 and (needless := [e for e in start.effects if size_of(start, e) < rules.LEAST_SIZE]):
-        start = without(setup, start, needless[0])
-        say(f"  without {needless[0]}: structured {structured(start):.3f}, room {room(start):.0f}")
-    elif looks and len(start.effects) == 2 and looks[-1].kept.effects == start.effects[:1]:
-        start = both_needed(setup, start, seed, say)
+    if len(start.effects) == 2:
+        start = needed(setup, start, looks, seed, say)
     if looks and not looks[0].kept.effects:
         null = looks[0].kept
-        if len(start.effects) == 2 and (alone := one_for_both(setup, looks[0], start, seed, say)) is not None:
-            looks.append(alone)
-            start = alone.order[0]
-        elif len(start.effects) == 2:
-            start = exchanged(setup, looks[0], start, seed, say)
+        if len(start.effects) == 2:
+            start = stood_in_for(setup, looks, start, seed, say)
     if not start.effects:
         # Nothing was found: the baseline itself has to be taken down to what it can reach before that is said.
         null = start = refit(null, 2 * POLISH, seed)

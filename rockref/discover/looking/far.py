@@ -269,11 +269,8 @@ def in_the_valley_of(setup: Setup, winner: Family, others: Iterable[tuple[str, .
     A fit that stopped in a side valley lies some hundred units too high; in one valley, and on the winner's windows,
     effects are compared, not valleys. kept : the family over which all of them gain.
     """
-    effects = winner.effects[:-1]
-    plain = setup.fit(winner.fit.series, effects)
-    point, _ = plain.point(winner.point.z[: len(plain.parameters)], winner.point.corrections)
-    trials = screen(plain, point, [catalogue.find(other[-1]) for other in others], setup, effects)
-    begun = [Family(t.effects, t.fit, t.point) for t in trials]
+    plain = cut_back(setup, winner, winner.effects[:-1])
+    begun = first_steps(setup, [catalogue.find(other[-1]) for other in others], plain)
     tried = refit_all(setup, begun, TRIED_FIRST, setup.seed)
     gain = gain_between(kept, winner)
     near: list[Family] = []
@@ -281,6 +278,13 @@ def in_the_valley_of(setup: Setup, winner: Family, others: Iterable[tuple[str, .
     for f in tried:
         (near if gain_between(kept, f) > LEFT_BEHIND * gain else behind).append(f)
     return [*refit_all(setup, near, SWAPPED - TRIED_FIRST, setup.seed, relative=LITTLE / 5), *behind]
+
+
+def cut_back(setup: Setup, ended: Family, effects: tuple[str, ...]) -> Family:
+    """A family where it ended, on its windows, with no more than these first ones of its effects."""
+    fit = setup.fit(ended.fit.series, effects)
+    point, _ = fit.point(ended.point.z[: len(fit.parameters)], ended.point.corrections)
+    return Family(effects, fit, point)
 
 
 def own_z(setup: Setup, effects: tuple[str, ...]) -> np.ndarray:
@@ -311,5 +315,5 @@ def first_looks(setup: Setup, kinds: Sequence[type[Effect]], plain: Family) -> l
 
 
 def first_steps(setup: Setup, kinds: Sequence[type[Effect]], plain: Family) -> list[Family]:
-    """Each candidate by one step from the nominal baseline, fitted a little and not yet bent, best first."""
+    """Each candidate by one step of everything from where the family `plain` is, best first."""
     return [Family(t.effects, t.fit, t.point) for t in screen(plain.fit, plain.point, kinds, setup, plain.effects)]

@@ -7,11 +7,42 @@ from collections.abc import Callable
 import numpy as np
 
 from rockref.discover import verdict as rules
-from rockref.discover.fit.families import Family, gain_between, mean_loss, refit_all, size_of
+from rockref.discover.fit.families import (
+    Family,
+    gain_between,
+    mean_loss,
+    refit_all,
+    room,
+    size_of,
+    structured,
+)
 from rockref.discover.fit.search import Setup, baseline
+from rockref.discover.looking.far import cut_back, first_steps
 from rockref.discover.looking.look import ITERATIONS, REFITTED, Look, candidates_beside
-from rockref.discover.looking.screen import screen
-from rockref.discover.looking.winning import finished, polished
+from rockref.discover.looking.winning import exchanged, finished, polished
+
+
+def needed(setup: Setup, pair: Family, looks: list[Look], seed: int, say: Callable[[str], None]) -> Family:
+    """A pair less what came to nothing, or does not gain beside the other what a second effect has to."""
+    if needless := [e for e in pair.effects if size_of(pair, e) < rules.LEAST_SIZE]:
+        rest = without(setup, pair, needless[0])
+        say(f"  without {needless[0]}: structured {structured(rest):.3f}, room {room(rest):.0f}")
+        return rest
+    if looks and looks[-1].kept.effects == pair.effects[:1]:
+        return both_needed(setup, pair, seed, say)
+    return pair
+
+
+def stood_in_for(setup: Setup, looks: list[Look], pair: Family, seed: int, say: Callable[[str], None]) -> Family:
+    """A pair, one effect that explains as much as both, or a pair with another first effect, which fits better.
+
+    looks : of which the first is on top of the plain baseline; one effect in the place of both is a look of its own.
+    """
+    alone = one_for_both(setup, looks[0], pair, seed, say)
+    if alone is None:
+        return exchanged(setup, looks[0], pair, seed, say)
+    looks.append(alone)
+    return alone.order[0]
 
 
 def without(setup: Setup, family: Family, effect: str) -> Family:
@@ -46,11 +77,9 @@ def one_for_both(setup: Setup, look: Look, pair: Family, seed: int, say: Callabl
     like a tilt of the plate. Where the two had ended, both taken out, an eccentric mass was 14 units behind them in
     four iterations, and 37 ahead at its end. None where no single effect that has a size comes within CLOSE of them.
     """
-    plain = setup.fit(pair.fit.series, look.kept.effects)
-    point, _ = plain.point(pair.point.z[: len(plain.parameters)], pair.point.corrections)
     offered = [kind for kind in candidates_beside(setup, look.kept.effects) if kind.id not in pair.effects]
-    trials = screen(plain, point, offered, setup, look.kept.effects)[:REFITTED]
-    raced = refit_all(setup, [Family(t.effects, t.fit, t.point) for t in trials], ITERATIONS, seed)
+    begun = first_steps(setup, offered, cut_back(setup, pair, look.kept.effects))[:REFITTED]
+    raced = refit_all(setup, begun, ITERATIONS, seed)
     best = max(raced, key=lambda f: gain_between(pair, f), default=None)
     if best is None or gain_between(pair, best) < -rules.UNFINISHED:
         return None
@@ -66,9 +95,7 @@ def one_for_both(setup: Setup, look: Look, pair: Family, seed: int, say: Callabl
 
 def first_alone(setup: Setup, pair: Family, seed: int) -> Family:
     """The first effect of a pair, begun where the pair ended."""
-    fit = setup.fit(pair.fit.series.twin(), pair.effects[:1])
-    point, _ = fit.point(pair.point.z[: len(fit.parameters)], pair.point.corrections)
-    return polished(setup, Family(pair.effects[:1], fit, point), seed)
+    return polished(setup, cut_back(setup, pair, pair.effects[:1]), seed)
 
 
 def less(setup: Setup, family: Family, effect: str) -> Family:

@@ -8,7 +8,7 @@ import pytest
 from rockref.discover import diagnose
 from rockref.discover.diagnose import beginning, ranked_by
 from rockref.discover.fit.evidence import Losses
-from rockref.discover.looking import two
+from rockref.discover.looking import fewer, two
 from rockref.discover.looking.look import Look
 from rockref.effects import catalogue
 from tests.unit.discover.bowls import WINDOWS, Bowl, family, series
@@ -220,10 +220,10 @@ def whole(monkeypatch):
         monkeypatch.setattr(diagnose, "beginning", lambda setup, sets, seen: (null, begun or null, None))
         monkeypatch.setattr(diagnose, "grown", lambda setup, begun, seed, say: (start or begun, looks))
         monkeypatch.setattr(diagnose, "finished", noted("finished", lambda setup, f, seed: f))
-        monkeypatch.setattr(diagnose, "without", noted("without", lambda setup, f, effect: left((effect,), 0.1)))
-        monkeypatch.setattr(diagnose, "both_needed", noted("both needed", lambda setup, pair, *a: pair))
-        monkeypatch.setattr(diagnose, "one_for_both", noted("one for both", lambda setup, look, pair, *a: alone))
-        monkeypatch.setattr(diagnose, "exchanged", noted("exchanged", lambda setup, look, pair, *a: pair))
+        monkeypatch.setattr(fewer, "without", noted("without", lambda setup, f, effect: left((effect,), 0.1)))
+        monkeypatch.setattr(fewer, "both_needed", noted("both needed", lambda setup, pair, *a: pair))
+        monkeypatch.setattr(fewer, "one_for_both", noted("one for both", lambda setup, look, pair, *a: alone))
+        monkeypatch.setattr(fewer, "exchanged", noted("exchanged", lambda setup, look, pair, *a: pair))
         monkeypatch.setattr(diagnose, "refit", noted("refit", lambda f, iterations, seed: left((), 0.05)))
         monkeypatch.setattr(diagnose, "conclude", lambda setup, held, null, final, *a: (null, final))
         return (*diagnose.diagnose("folder"), done)

@@ -83,11 +83,12 @@ def test_one_effect_stands_in_the_place_of_two_where_it_explains_as_much(monkeyp
     look = Look(kept, [first], {BOTH[0]: gain_over(kept, first)})
     asked = []
 
-    def screen(fit, point, kinds, setup, effects):
+    def first_steps(setup, kinds, plain):
+        assert (plain.effects, tuple(plain.point.z)) == ((), (0.1,))
         asked.extend(kind.id for kind in kinds)
-        return [SimpleNamespace(effects=alone.effects, fit=alone.fit, point=alone.point)]
+        return [alone]
 
-    monkeypatch.setattr(fewer, "screen", screen)
+    monkeypatch.setattr(fewer, "first_steps", first_steps)
     monkeypatch.setattr(fewer, "size_of", lambda found: size)
     monkeypatch.setattr(fewer, "refit_all", lambda setup, families, iterations, seed: families)
     monkeypatch.setattr(fewer, "finished", lambda setup, found, seed: found)
