@@ -58,8 +58,8 @@ def test_sixty_cases_are_no_worse_than_the_documentation_says(tmp_path):
     assert all(found["sealed"].values())
     rows = {row["score"]: row["value"] for row in found["scores"]}
     print("\n".join(found["failures"]))
-    # At the last time it had three wrong names, two of which are none since, and 29 of 31 first
-    # (docs/explanation/blind_test.md): one wrong name, and one or two of those first less.
+    # At the last time it had one wrong name and 29 of 31 first (docs/explanation/blind_test.md): no more wrong names,
+    # and one or two of those first less.
     assert rows["controls: false alarms"] == 0
     assert rows["gap closed on held-out runs, median"] > 0.95
     assert rows["all: wrong name"] < 0.017
