@@ -1,12 +1,10 @@
 """Loads, support and release, each against a closed form."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rockref import Model
 from rockref.effects.loads.attachment import half_height
 from rockref.effects.loads.base_vibration import BaseVibration
 from rockref.effects.loads.cable_restraint import CableRestraint
@@ -15,9 +13,8 @@ from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.effects.loads.quadratic_drag import QuadraticDrag
 from rockref.effects.probe import sample_problem
 from rockref.effects.release.release_velocity import ReleaseVelocity
-from rockref.effects.support.compliant_support import CompliantSupport, moment_at_rest
+from rockref.effects.support.compliant_support import CompliantSupport
 from rockref.model.integrator import evaluate_contact
-from rockref.model.problem import stack
 from rockref.model.rotation import apply, apply_to_points, cross, exponential
 from tests.unit.effects.bodies import H, body, last, points_at, puck, walk
 
@@ -183,24 +180,6 @@ def test_pitching_support_swings_with_the_block_on_it():
     rows = np.array([[float(s.memory[0][key]) for key in ("q", "pitch")] for s in walk(problem, 2500)]).T
     # Two periods; the contact is a thousand times stiffer, and semi-implicit steps of 20 us are 1 % of one behind.
     assert np.all(np.abs(rows - swing).max(axis=1) < 0.03 * np.abs(swing).max(axis=1))
-
-
-def test_the_moment_at_rest_is_that_of_the_weight_on_the_lowest_foot():
-    """m g y of the point on which each run of a batch stands; a ball of 50 mm under one foot makes that the lowest."""
-    plain, shallow = (Model.table_3_1().problem(duration=0.01, theta_0=angle) for angle in (0.08, 0.02))
-    radius = np.zeros(plain.points.n)
-    radius[1] = 0.05
-    round_foot = replace(plain, points=replace(plain.points, radius=radius))
-
-    def weight_on(problem, k, R=0.0):
-        y = (problem.start.Lambda @ (problem.points.P[k] + [0, 0, R]))[1]
-        return problem.block.mass * problem.block.g * y
-
-    # Released, the block stands on its outer points 1 and 2.
-    assert moment_at_rest(plain) == pytest.approx(weight_on(plain, 0), rel=1e-12)
-    assert moment_at_rest(round_foot) == pytest.approx(weight_on(plain, 1, 0.05), rel=1e-12)
-    alone = [moment_at_rest(plain), moment_at_rest(shallow)]
-    np.testing.assert_allclose(moment_at_rest(stack([plain, shallow])), alone, rtol=1e-12)
 
 
 def test_support_starts_in_balance():

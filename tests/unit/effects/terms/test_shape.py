@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rockref import Model
 from rockref.effects.contact.adhesion import Adhesion
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
 from rockref.effects.shape.dimension_deviation import DimensionDeviation
@@ -14,9 +15,9 @@ from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.shape.rounded_corners import RoundedCorners
 from rockref.effects.shape.rounded_feet import RoundedFeet
 from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
-from rockref.effects.support.compliant_support import CompliantSupport
+from rockref.effects.support.compliant_support import CompliantSupport, moment_at_rest
 from rockref.model.geometry import EXTERNAL, INTERNAL, cuboid_inertia
-from rockref.model.problem import Block
+from rockref.model.problem import Block, stack
 from rockref.model.rotation import exponential
 from tests.unit.effects.bodies import body, contact, points_at
 
@@ -290,6 +291,24 @@ def test_a_plate_that_pitches_is_level_under_the_weight_at_release():
     assert start == {"q": 0.0, "q_rate": 0.0, "pitch": 0.0, "pitch_rate": 0.0, "moment": pytest.approx(30.0 * 0.3)}
     motion = PITCHING.plate_motion(0.0, start | {"pitch": np.array(1e-3), "pitch_rate": np.array(2e-3)})
     assert np.array_equal(motion, [(0, 0, 0), (0, 0, 0), (1e-3, 0, 0), (2e-3, 0, 0)])
+
+
+def test_the_moment_at_rest_is_that_of_the_weight_on_the_lowest_foot():
+    """m g y of the point on which each run of a batch stands; a ball of 50 mm under one foot makes that the lowest."""
+    plain, shallow = (Model.table_3_1().problem(duration=0.01, theta_0=angle) for angle in (0.08, 0.02))
+    radius = np.zeros(plain.points.n)
+    radius[1] = 0.05
+    round_foot = replace(plain, points=replace(plain.points, radius=radius))
+
+    def weight_on(problem, k, R=0.0):
+        y = (problem.start.Lambda @ (problem.points.P[k] + [0, 0, R]))[1]
+        return problem.block.mass * problem.block.g * y
+
+    # Released, the block stands on its outer points 1 and 2.
+    assert moment_at_rest(plain) == pytest.approx(weight_on(plain, 0), rel=1e-12)
+    assert moment_at_rest(round_foot) == pytest.approx(weight_on(plain, 1, 0.05), rel=1e-12)
+    alone = [moment_at_rest(plain), moment_at_rest(shallow)]
+    np.testing.assert_allclose(moment_at_rest(stack([plain, shallow])), alone, rtol=1e-12)
 
 
 @pytest.mark.parametrize("pitch, pitches", [(0.0, False), (0.01, False), (0.0101, True)])
