@@ -305,10 +305,10 @@ def test_the_moment_at_rest_is_that_of_the_weight_on_the_lowest_foot():
         return problem.block.mass * problem.block.g * y
 
     # Released, the block stands on its outer points 1 and 2.
-    assert moment_at_rest(plain) == pytest.approx(weight_on(plain, 0), rel=1e-12)
-    assert moment_at_rest(round_foot) == pytest.approx(weight_on(plain, 1, 0.05), rel=1e-12)
+    assert moment_at_rest(plain) == pytest.approx(weight_on(plain, 0), rel=ROUNDED)
+    assert moment_at_rest(round_foot) == pytest.approx(weight_on(plain, 1, 0.05), rel=ROUNDED)
     alone = [moment_at_rest(plain), moment_at_rest(shallow)]
-    np.testing.assert_allclose(moment_at_rest(stack([plain, shallow])), alone, rtol=1e-12)
+    np.testing.assert_allclose(moment_at_rest(stack([plain, shallow])), alone, rtol=ROUNDED)
 
 
 @pytest.mark.parametrize("pitch, pitches", [(0.0, False), (0.01, False), (0.0101, True)])
