@@ -26,12 +26,12 @@ from typing import Any
 import numpy as np
 from rich.progress import Progress
 
+from rockref.blind.cases.sealing import unseal, write_json
+from rockref.blind.scoring.evaluation import VERDICT
+from rockref.blind.scoring.marks import mark
+from rockref.blind.scoring.rivals import first_of_ranking, said
+from rockref.blind.scoring.table import scores
 from rockref.discover import verdict as rules
-from rockref.discover.blind.marks import mark
-from rockref.discover.blind.rivals import first_of_ranking, said
-from rockref.discover.blind.scoring import VERDICT
-from rockref.discover.blind.sealing import unseal, write_json
-from rockref.discover.blind.table import scores
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.diagnose import diagnose
 from rockref.discover.fit import search

@@ -4,7 +4,7 @@
     rockref blind score FOLDER
     python benchmarks/other_hands.py --agree     # the blind test's own simulator beside LAMMPS, effect by effect
 
-Only the drawing of a case and its gyroscope are those of `rockref.discover.blind`: the block is one rigid body of eight
+Only the drawing of a case and its gyroscope are those of `rockref.blind`: the block is one rigid body of eight
 spheres of `POINT` radius, integrated by `fix rigid` at `STEP`, on one granular wall a foot. Spring, damper, friction
 with a history, rolling and twisting resistance, Hertz's spring, a wall that shakes, a spring and a damper at the top
 are LAMMPS's own. A world with anything that it does not have is refused.
@@ -22,11 +22,12 @@ from pathlib import Path
 import numpy as np
 from peers import body_line, need_lammps, setting
 
-from rockref.discover.blind import generator, hidden, making, outsiders, posture, recorder
-from rockref.discover.blind.kernel import ARM
-from rockref.discover.blind.plan import CONTROL, OUTSIDER, PAIR, SINGLE, Case
-from rockref.discover.blind.slots import G, P
-from rockref.discover.blind.world import TABLE, World, build
+from rockref.blind.cases import generator, hidden, making, outsiders
+from rockref.blind.cases.plan import CONTROL, OUTSIDER, PAIR, SINGLE, Case
+from rockref.blind.simulator import posture, recorder
+from rockref.blind.simulator.kernel import ARM
+from rockref.blind.simulator.slots import G, P
+from rockref.blind.simulator.world import TABLE, World, build
 
 #: decided: half of it moves the rates of a plain block by at most 0.0014 deg/s up to 0.7 s and 0.06 up to 1 s, where
 #: the noise is 0.05.

@@ -53,8 +53,8 @@ def make(
       rockref blind make blind --seed 7
       rockref blind make small --seed 1 --effects none,cable_restraint,stribeck_friction,gyro_scale,loose_mass_y
     """
+    from rockref.blind.cases import making, plan
     from rockref.commands._progress import progress
-    from rockref.discover.blind import making, plan
     from rockref.model.errors import InputError
     from rockref.report.output import usable_folder
 
@@ -99,11 +99,11 @@ def score(
       rockref blind score blind --workers 2
       rockref blind score blind --json > scores.json
     """
+    from rockref.blind.scoring import evaluation, table
     from rockref.commands._progress import progress
-    from rockref.discover.blind import scoring, table
 
     with progress("diagnosing cases") as ahead:
-        found = scoring.score(folder, workers=workers, dask=dask, with_rivals=rivals, progress=ahead)
+        found = evaluation.score(folder, workers=workers, dask=dask, with_rivals=rivals, progress=ahead)
     if as_json:
         typer.echo(json.dumps(found, indent=1))
     else:

@@ -6,10 +6,10 @@ minutes; `rockref blind make` and `rockref blind score` do the same at full leng
 
 import pytest
 
-from rockref.discover.blind.generator import make_case
-from rockref.discover.blind.making import make
-from rockref.discover.blind.marks import gap_closed
-from rockref.discover.blind.scoring import score
+from rockref.blind.cases.generator import make_case
+from rockref.blind.cases.making import make
+from rockref.blind.scoring.evaluation import score
+from rockref.blind.scoring.marks import gap_closed
 from rockref.discover.diagnose import diagnose
 
 RUNS = (("01", "fit", 0.117, False), ("02", "fit", 0.098, True), ("03", "holdout", 0.108, False))

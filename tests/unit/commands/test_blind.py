@@ -5,7 +5,8 @@ import json
 import pytest
 
 from rockref import cli
-from rockref.discover.blind import making, scoring
+from rockref.blind.cases import making
+from rockref.blind.scoring import evaluation
 
 
 def run(capsys, *arguments):
@@ -55,7 +56,7 @@ def test_make_hands_over_what_was_asked_for(capsys, tmp_path, monkeypatch):
 def test_check_ends_with_1_where_a_goal_is_missed(capsys, tmp_path, monkeypatch):
     row = {"score": "a", "value": 0.5, "low": 0.3, "high": 0.7, "n": 4, "goal": ">= 0.9", "met": False, "percent": True}
     found = {"scores": [row], "failures": ["case-001"], "rivals": {"r": [row]}, "sealed": {"truth": False}}
-    monkeypatch.setattr(scoring, "score", lambda *a, **k: found)
+    monkeypatch.setattr(evaluation, "score", lambda *a, **k: found)
     code, printed = run(capsys, "score", tmp_path, "--check")
     assert code == 1 and "| a | 50.0 % | 30.0 % to 70.0 % | 4 | >= 0.9 | **no** |" in printed.out
     assert "| score | discoverer | r | n |" in printed.out and "| a | 50.0 % | 50.0 % | 4 |" in printed.out
@@ -76,7 +77,7 @@ def test_scores_that_all_meet_their_goals_pass_the_check_and_nothing_else_is_sai
     row = {"score": "a", "value": 0.95, "low": 0.8, "high": 1.0, "n": 4, "goal": ">= 0.9", "met": True, "percent": True}
     found = {"scores": [row], "failures": [], "rivals": {}, "sealed": {"truth": True, "verdicts": True}}
     asked = {}
-    monkeypatch.setattr(scoring, "score", lambda *a, **k: asked.update(k) or found)
+    monkeypatch.setattr(evaluation, "score", lambda *a, **k: asked.update(k) or found)
     code, printed = run(capsys, "score", tmp_path, "--check", "--no-rivals")
     assert code == 0 and printed.err == "" and asked["with_rivals"] is False
     assert "95.0 %" in printed.out and "discoverer" not in printed.out

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from rockref import cli
-from rockref.discover.blind import making, sealing
+from rockref.blind.cases import making, sealing
 from rockref.identify.alone import alone_in
 from rockref.model.errors import InputError
 from tests.shipped import two_runs

@@ -1,0 +1,1 @@
+"""Cases of the blind test: what is drawn, made and sealed."""

@@ -1,0 +1,155 @@
+"""Which cases a blind test has: controls, single effects at three sizes, two at once, effects in no list, twins."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from rockref.blind.cases.generator import RUNS
+from rockref.blind.cases.hidden import EFFECTS
+from rockref.blind.cases.outsiders import OUTSIDERS
+
+CONTROL, SINGLE, PAIR, OUTSIDER, TWIN = "control", "single", "pair", "outsider", "twin"
+#: Share of each kind; after the proportions of a study of verdicts (controls a fifth, half single effects).
+SHARES = {CONTROL: 0.20, SINGLE: 0.50, PAIR: 0.10, OUTSIDER: 0.12, TWIN: 0.08}
+#: Sizes of a single effect, in typical ones.
+SIZES = (0.5, 1.0, 2.0)
+#: Pairs whose members are each other's nearest confounders.
+CONFUSABLE = (
+    ("rolling_resistance", "quadratic_drag"),
+    ("uneven_foot_stiffness", "uneven_foot_friction"),
+    ("plate_tilt", "mass_eccentricity"),
+    ("cable_restraint", "quadratic_drag"),
+    ("gyro_scale", "inertia_deviation"),
+    ("gyro_misalignment", "release_velocity"),
+    ("hertzian_contact", "uneven_foot_damping"),
+    ("spin_friction", "gyro_scale"),
+)
+#: Pairs whose members have nothing to do with each other.
+UNLIKE = (
+    ("cable_restraint", "gyro_scale"),
+    ("plate_tilt", "gyro_drift"),
+    ("base_vibration", "rolling_resistance"),
+    ("lingering_wire_pull", "clock_error"),
+    ("uneven_foot_stiffness", "gyro_misalignment"),
+    ("mass_eccentricity", "stribeck_friction"),
+    ("compliant_support", "spin_friction"),
+    ("gyro_bandwidth", "quadratic_drag"),
+)
+#: Outsiders of a plan. Not among them: creeping feet, whose spring and damper a refit of the baseline may well be able
+#: to stand in for; whether they are another law or another value is then a matter of words.
+ABROAD = tuple(id for id in OUTSIDERS if id != "creeping_feet")
+#: Height of the centre of mass, m: a tilt of the plate times this is the eccentricity that turns the block as much.
+LEVER = 0.344
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case to be made: its kind, effects with sizes, seed, runs, set values, and the class that twins belong to."""
+
+    kind: str
+    effects: tuple[tuple[str, float], ...]
+    seed: int
+    runs: tuple[tuple[str, str, float, bool], ...] = RUNS
+    values: dict[str, dict[str, float]] = field(default_factory=dict)
+    same_as: tuple[str, ...] = ()
+    other_form: bool | None = None
+
+
+def counts(n: int) -> dict[str, int]:
+    """How many cases of each kind n cases have: from five on one of each at least; twins by twos from ten on."""
+    if n < len(SHARES):
+        kinds = (CONTROL, SINGLE, OUTSIDER, PAIR)[:n]
+        return {kind: int(kind in kinds) for kind in SHARES}
+    found = {kind: max(1, int(share * n)) for kind, share in SHARES.items()}
+    found[TWIN] += found[TWIN] % 2 if n >= 10 else 0
+    found[SINGLE] += n - sum(found.values())
+    return found
+
+
+def plan(seed: int, n: int) -> list[Case]:
+    """The n cases of this seed, shuffled."""
+    rng = np.random.default_rng([int(seed), 0])
+    wanted = counts(n)
+    cases = [Case(CONTROL, (), _seed(rng)) for _ in range(wanted[CONTROL])]
+    cases += [Case(SINGLE, (one,), _seed(rng)) for _, one in zip(range(wanted[SINGLE]), _singles(rng), strict=False)]
+    likes, unlikes = rng.permutation(CONFUSABLE), rng.permutation(UNLIKE)
+    for i in range(wanted[PAIR]):
+        a, b = (likes, unlikes)[i % 2][(i // 2) % len(CONFUSABLE)]
+        cases.append(Case(PAIR, ((str(a), 1.0), (str(b), 1.0)), _seed(rng)))
+    abroad = rng.permutation(ABROAD)
+    for i in range(wanted[OUTSIDER]):
+        cases.append(Case(OUTSIDER, ((str(abroad[i % len(abroad)]), (1.0, 1.5)[i // len(abroad) % 2]),), _seed(rng)))
+    twins: list[Case] = []
+    while len(twins) < wanted[TWIN]:
+        twins += _twins(rng, len(twins) // 2)
+    cases += twins[: wanted[TWIN]]
+    return [cases[i] for i in rng.permutation(len(cases))]
+
+
+def listed(seed: int, words: Sequence[str]) -> list[Case]:
+    """Cases from words: "none", "gyro_scale", "gyro_scale:2", "plate_tilt+gyro_drift".
+
+    Raises ValueError with the word for others: an id that nobody knows, no positive size, an effect twice in a case.
+    """
+    rng = np.random.default_rng([int(seed), 0])
+    cases = []
+    for word in words:
+        effects = []
+        for part in [] if word == "none" else word.split("+"):
+            id, _, size = part.partition(":")
+            if id not in EFFECTS and id not in OUTSIDERS:
+                raise ValueError(id)
+            effects.append((id, _size(part, size)))
+        if len({id for id, _ in effects}) < len(effects):
+            raise ValueError(word)
+        kind = CONTROL if not effects else PAIR if len(effects) > 1 else SINGLE
+        if any(id in OUTSIDERS for id, _ in effects):
+            kind = OUTSIDER
+        cases.append(Case(kind, tuple(effects), _seed(rng)))
+    return cases
+
+
+def _size(part: str, size: str) -> float:
+    """How many typical sizes; one without a number. Raises ValueError with the part for what is no positive number."""
+    try:
+        found = float(size or 1.0)
+    except ValueError:
+        raise ValueError(part) from None
+    if not 0.0 < found < math.inf:
+        raise ValueError(part)
+    return found
+
+
+def _seed(rng: np.random.Generator) -> int:
+    return int(rng.integers(1, 2**31))
+
+
+def _singles(rng: np.random.Generator) -> Iterator[tuple[str, float]]:
+    """Every effect once, at sizes that differ from one to the next; then again at another size, and so on."""
+    order = [str(id) for id in rng.permutation(list(EFFECTS))]
+    while True:
+        for turn in range(len(SIZES)):
+            for i, id in enumerate(order):
+                yield id, SIZES[(i + turn) % len(SIZES)]
+
+
+def _twins(rng: np.random.Generator, number: int) -> list[Case]:
+    """Two cases with one seed that differ in the cause alone, in a campaign too poor to tell the causes apart."""
+    seed = _seed(rng)
+    values: dict[str, dict[str, float]]
+    runs: tuple[tuple[str, str, float, bool], ...]
+    if number % 2 == 0:  # never turned: what belongs to the plate and what to the block look alike
+        y = float(rng.choice([-1.0, 1.0]) * rng.uniform(0.7e-3, 1.5e-3))
+        names = ("plate_tilt", "mass_eccentricity")
+        values = {"plate_tilt": {"x": 0.0, "y": y}, "mass_eccentricity": {"x": 0.0, "y": y * LEVER, "z": 0.0}}
+        runs = RUNS[:5]
+    else:  # one tilt only: losses with another dependence on the speed look alike
+        names = ("quadratic_drag", "rolling_resistance")
+        values, runs = {}, RUNS[:3]
+    return [
+        Case(TWIN, ((id, 0.5),), seed, runs, {id: values[id]} if id in values else {}, names, False) for id in names
+    ]

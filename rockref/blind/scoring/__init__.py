@@ -1,0 +1,1 @@
+"""Scores of the blind test: verdicts against truths."""
