@@ -1,7 +1,8 @@
 """Mistakes of somebody whose integrator is another one: the list of `strangers.py --profile scheme`.
 
-The tutorial backend with its step exchanged for a symplectic Euler step or a midpoint step, and one mistake in it: those
-of the two other lists that lie outside the law's integrator, and those of this one. Written down before any was judged.
+The tutorial backend with its step exchanged for a symplectic Euler step or a midpoint step, and one mistake in it:
+those of the two other lists that lie outside the law's integrator, and those of this one. Written down before any was
+judged.
 """
 
 from __future__ import annotations
