@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rockref.measure.clock import EVEN
 from rockref.measure.experiment import Experiment, Gyro, Run
 from rockref.measure.impacts import main_impacts
 from rockref.measure.timebase import RATE_WARNING
@@ -36,7 +37,7 @@ def gyro_of(experiment: Experiment) -> Gyro:
 def on_time(experiment: Experiment) -> Experiment:
     """The experiment with the opened runs at k / sample_rate from the release on; those that are so already are kept.
 
-    The time stamps are believed, but for their rounding: a line through them says at which instants samples were taken.
+    The times of the runs are those of their samples; a line through them takes the rounding of even ones away.
     Raises InputError: E-GYRO; E-START where the beginning is missing; E-SHORT where no main impact shows.
     """
     rate = gyro_of(experiment).sample_rate
@@ -54,9 +55,11 @@ def _on_time(experiment: Experiment, run: Run, rate: float) -> Run:
     if late * rate > LATEST:
         cure = "Give the record from the release on, or leave the run out."
         raise InputError("E-START", where, f"begins {late:.3g} s late: windows follow the block from its release", cure)
-    if abs(interval * rate - 1) < RATE_WARNING and abs(late) * rate < AS_IT_IS:
+    even = np.arange(len(run.t)) * interval + late
+    uneven = np.abs(run.t - even).max() > EVEN * interval
+    if abs(interval * rate - 1) < RATE_WARNING and abs(late) * rate < AS_IT_IS and not uneven:
         return run
-    return _moved(run, run.crv, np.arange(len(run.t)) * interval + late, rate)
+    return _moved(run, run.crv, np.asarray(run.t) if uneven else even, rate)
 
 
 def _moved(run: Run, crv: np.ndarray, taken: np.ndarray, rate: float) -> Run:
