@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar, NamedTuple
 
+import numpy as np
+
 from rockref.model.errors import InputError
 
 #: Least value of a quantity that must be above zero: the smallest normal float64.
@@ -24,6 +26,9 @@ HOOKS = {
     "advance": ("problem", "c", "h", "m"),
     "sensor": ("t", "crv"),
 }
+
+#: The methods by which an effect of the sensor is taken back out of a record, with the names of their arguments.
+UNDO_HOOKS = {"undo": ("t", "crv"), "heard": ("t", "crv")}
 
 
 class Quantity(NamedTuple):
@@ -58,7 +63,8 @@ class Effect:
     Class attributes: `id` (appears in files and verdicts), `file` (of a user's own), `question` (the folder),
     `quantities` (one Quantity per parameter), `switches` (the parameters that bring the effect in; None: all of them),
     `sentence` (the physics), `equation` (LaTeX), `source` (with DOI where there is one), `confounder` (id),
-    `experiment` (what would tell them apart).
+    `experiment` (what would tell them apart), `stage` (where it stands in the measured channel: "mounting", before the
+    data sheet's low-pass; "electronics"; "clock", which says when a sample is taken; "samples", what cuts them).
     The hooks in the order of the step. Arrays as in the model; `m` is the effect's own memory, whose entries may be
     replaced (never changed in place).
 
@@ -90,6 +96,7 @@ class Effect:
     source: ClassVar[str] = ""
     confounder: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
+    stage: ClassVar[str] = "electronics"
 
     @classmethod
     def typical(cls) -> Effect:
@@ -162,6 +169,19 @@ class Effect:
     def sensor(self, t, crv):
         """What the gyroscope makes of the crv, (..., N, 3) [rad/s] at the instants t (N,) [s]."""
         return crv
+
+    def undo(self, t, crv):
+        """True instants (N,) [s] and rates (..., N, 3) [rad/s] of what `sensor` shows as crv at t: its inverse."""
+        return t, crv
+
+    def heard(self, t, crv):
+        """Which of the shown rates tell the true ones: truths (..., N, 3); False where `undo` cannot know."""
+        return np.ones(np.shape(crv), bool)
+
+    @classmethod
+    def changes_target(cls) -> bool:
+        """Whether the true rates behind a record depend on this effect: whether `undo` is not the default."""
+        return cls.undo is not Effect.undo
 
 
 def as_float(value: Any) -> Any:

@@ -37,7 +37,7 @@ from rockref.effects.loads.quadratic_drag import QuadraticDrag
 from rockref.effects.release.none import ReleaseAtRest
 from rockref.effects.release.release_velocity import ReleaseVelocity
 from rockref.effects.sensor.clock_error import ClockError
-from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth
+from rockref.effects.sensor.gyro_bandwidth import DAMPING, GyroBandwidth, even_step, undo_low_pass
 from rockref.effects.sensor.gyro_drift import GyroDrift
 from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
 from rockref.effects.sensor.gyro_saturation import GyroSaturation
@@ -55,7 +55,7 @@ from rockref.effects.support.compliant_support import CompliantSupport
 from rockref.effects.support.none import RigidSupport
 from rockref.effects.tracking.plate_pose import PlatePose
 from rockref.effects.tracking.tag_frame import TagFrame
-from rockref.effects.user import file_and_class, load_user
+from rockref.effects.user import file_and_class, file_beside, load_user
 from rockref.model.errors import InputError
 
 #: All effects in the order in which they act, however they are given: what makes the body, normal force and friction,
@@ -73,11 +73,6 @@ IN_STEP_ORDER: tuple[type[Effect], ...] = (
 
 #: Every effect by its id.
 EFFECTS: dict[str, type[Effect]] = {effect.id: effect for effect in IN_STEP_ORDER}
-
-#: Where effects of the sensor stand in the measured channel, which `analogue` and `digital` put in order: how the
-#: sensor sits, before its electronics; the recorder's clock, which says when a sample is taken; what cuts the samples.
-#: A clock that came after the stops would interpolate across their corners, and show more than the range.
-MOUNTING, CLOCK, OF_SAMPLES = ("gyro_misalignment", "gyro_scale"), ("clock_error",), ("gyro_saturation",)
 
 #: Effects that only tosses know: a released block stands on its feet all the while, and a gyroscope sees no pose. They
 #: are read and written like all others and act after them; what looks for effects in releases does not try them.
@@ -107,7 +102,8 @@ QUESTIONS: dict[str, tuple[type[Effect], ...]] = {
 
 __all__ = [
     "EFFECTS", "IN_STEP_ORDER", "NAMED", "NONE", "OF_TOSSES", "OWN", "QUESTIONS", "analogue", "digital", "find",
-    "from_table", "in_step_order", "load_user", "measured", "named", "own_effect", "parse", "to_table",
+    "from_table", "heard", "in_step_order", "load_user", "measured", "named", "own_effect", "parse", "to_table",
+    "undone",
 ]  # fmt: skip
 
 
@@ -310,18 +306,6 @@ def to_table(effects: Iterable[Effect], beside: Path | None = None) -> dict[str,
     return table
 
 
-def file_beside(file: str, beside: Path | None) -> str:
-    """A "file.py:Class" of the current folder as it is written in a file in the folder `beside`."""
-    path, _, name = file.rpartition(":")
-    if beside is None or Path(path).is_absolute():
-        return file
-    try:
-        path = Path(os.path.relpath(os.path.realpath(path), os.path.realpath(beside))).as_posix()
-    except ValueError:  # on another drive
-        path = os.path.realpath(path)
-    return f"{path}:{name}"
-
-
 def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
     """The effects in the order in which they act; a user's own after the built-in ones, as given.
 
@@ -336,6 +320,12 @@ def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
     return tuple(sorted(effects, key=lambda effect: rank.get(effect.id, len(rank))))
 
 
+def at_stage(effects: Iterable[Effect], *stages: str) -> list[Effect]:
+    """The effects that stand at these stages of the measured channel, in its order."""
+    acting = in_step_order(effects)
+    return [effect for stage in stages for effect in acting if effect.stage == stage]
+
+
 def analogue(
     effects: Iterable[Effect],
     t: np.ndarray,
@@ -347,21 +337,22 @@ def analogue(
     Misalignment, scale, low_pass (that of a data sheet, if any), bandwidth and delay, bias and drift, a user's own, and
     the clock: the recorder takes the sample of its time t at another one.
     """
-    acting = in_step_order(effects)
-    for effect in (e for e in acting if e.id in MOUNTING):
+    effects = tuple(effects)
+    for effect in at_stage(effects, "mounting"):
         crv = effect.sensor(t, crv)
     if low_pass is not None:
         crv = low_pass(crv)
-    for effect in (e for e in acting if e.id not in (*MOUNTING, *CLOCK, *OF_SAMPLES)):
-        crv = effect.sensor(t, crv)
-    for effect in (e for e in acting if e.id in CLOCK):
+    for effect in at_stage(effects, "electronics", "clock"):
         crv = effect.sensor(t, crv)
     return crv
 
 
 def digital(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
-    """What becomes of the samples, noise included: crv (..., N, 3) [rad/s] at t (N,) [s], cut at the range."""
-    for effect in (e for e in in_step_order(effects) if e.id in OF_SAMPLES):
+    """What becomes of the samples, noise included: crv (..., N, 3) [rad/s] at t (N,) [s], cut at the range.
+
+    After the clock: what comes after the stops would interpolate across their corners, and show more than the range.
+    """
+    for effect in at_stage(effects, "samples"):
         crv = effect.sensor(t, crv)
     return crv
 
@@ -374,3 +365,29 @@ def measured(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.nd
     """
     effects = tuple(effects)
     return digital(effects, t, analogue(effects, t, crv))
+
+
+def undone(
+    effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray, bandwidth: float | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """True instants (N,) [s] and rates (..., N, 3) [rad/s] behind a record crv at t: `measured` run backwards.
+
+    bandwidth : of the data sheet's low-pass [Hz], if any. Raises InputError (E-STEP) for a low-pass of uneven rows.
+    """
+    effects = tuple(effects)
+    for effect in reversed(at_stage(effects, "electronics", "clock", "samples")):
+        t, crv = effect.undo(t, crv)
+    if bandwidth is not None and len(t) > 1:
+        crv = undo_low_pass(crv, 1 / even_step(t), ((bandwidth, DAMPING),))
+    for effect in reversed(at_stage(effects, "mounting")):
+        t, crv = effect.undo(t, crv)
+    return t, crv
+
+
+def heard(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
+    """Which rates of a record crv (..., N, 3) [rad/s] tell the true ones, row by row along its own axes: truths."""
+    told = np.ones(np.shape(crv), bool)
+    for effect in reversed(at_stage(effects, "mounting", "electronics", "clock", "samples")):
+        told &= effect.heard(t, crv)
+        t, crv = effect.undo(t, crv)
+    return told

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.effects.base import HOOKS, Effect
+from rockref.effects.base import HOOKS, UNDO_HOOKS, Effect
 from rockref.model.errors import InputError, RockrefError
 from rockref.model.problem import Block, ContactPoints, State
 
@@ -26,7 +26,7 @@ def guard(kind: type[Effect], spec: str) -> None:
     spec : "path/to/file.py:Class". The hooks raise InputError (E-EFFECT) from then on: what fails inside, or what is
     wrong with what they give back.
     """
-    for name in HOOKS:
+    for name in HOOKS | UNDO_HOOKS:
         hook = getattr(kind, name)
         if hook is not getattr(Effect, name):
             setattr(kind, name, guarded(hook, spec, name))
@@ -183,6 +183,19 @@ def look_at_sensor(where: str, arguments: tuple, result: Any) -> None:
     numbers(where, "crv", result, np.shape(arguments[1]))
 
 
+def look_at_undo(where: str, arguments: tuple, result: Any) -> None:
+    """Instants and rates, as many as came in."""
+    for key, a, came in zip(("t", "crv"), pair(where, result), arguments, strict=True):
+        numbers(where, key, a, np.shape(came))
+
+
+def look_at_heard(where: str, arguments: tuple, result: Any) -> None:
+    """A truth for every rate."""
+    numbers(where, "what is heard", result, np.shape(arguments[1]))
+    if np.asarray(result).dtype != bool:
+        raise wrong(where, f"gives back {np.asarray(result).dtype} numbers", "Return truths, such as abs(crv) < 1.")
+
+
 #: What is looked at in the result of each hook.
 LOOKS: dict[str, Callable[[str, tuple, Any], None]] = {
     "points": look_at_points,
@@ -195,4 +208,6 @@ LOOKS: dict[str, Callable[[str, tuple, Any], None]] = {
     "body_wrench": look_at_wrench,
     "advance": look_at_advance,
     "sensor": look_at_sensor,
+    "undo": look_at_undo,
+    "heard": look_at_heard,
 }

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.effects.base import Effect
+from rockref.effects.base import UNDO_HOOKS, Effect
 from rockref.effects.guard import MOTION, numbers, wrong
 from rockref.model.errors import InputError
 from rockref.model.geometry import EXTERNAL, INTERNAL, cuboid_inertia, eight_points
@@ -43,7 +43,13 @@ def probe(effect: Effect, spec: str) -> None:
         probe_step(effect, spec, problem, memory)
     block, points = effect.points(single.block, single.points)
     effect.release(block, points, single.start)
-    effect.sensor(np.arange(50) / 2000, np.full((50, 3), 0.1))
+    for hook in (effect.sensor, effect.undo, effect.heard):
+        hook(*sample_record())
+
+
+def sample_record() -> tuple[np.ndarray, np.ndarray]:
+    """Instants (50,) [s] and rates (50, 3) [rad/s] that a gyroscope is given, or shows."""
+    return np.arange(50) / 2000, np.full((50, 3), 0.1)
 
 
 def probe_step(effect: Effect, spec: str, problem: Problem, m: dict[str, Any]) -> None:
@@ -103,7 +109,7 @@ def absent_arguments(effect: Effect) -> list[tuple[str, tuple[Any, ...]]]:
         ("friction_coefficient", (points.mu_0, points.mu, c.F_N, c.k, points, m)),
         ("point_wrench", (problem, c, m)),
         ("body_wrench", (problem, c, s.x, s.Lambda, s.v, s.W, m)),
-        ("sensor", (np.arange(50) / 2000, np.full((50, 3), 0.1))),
+        *((name, sample_record()) for name in ("sensor", *UNDO_HOOKS)),
     ]
 
 

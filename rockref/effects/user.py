@@ -6,13 +6,14 @@ import ast
 import difflib
 import importlib.util
 import inspect
+import os
 import sys
 from collections.abc import Container
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from types import ModuleType
 
-from rockref.effects.base import HOOKS, Effect, Quantity
+from rockref.effects.base import HOOKS, UNDO_HOOKS, Effect, Quantity
 from rockref.effects.guard import guard, line_in
 from rockref.effects.probe import probe, probe_absent
 from rockref.model.errors import InputError
@@ -62,6 +63,18 @@ def file_and_class(spec: str) -> tuple[str, str]:
     if not path.endswith(".py") or not name.isidentifier():
         raise InputError("E-EFFECT", spec, "names no class in a file", "Write path/to/file.py:Class.")
     return path, name
+
+
+def file_beside(file: str, beside: Path | None) -> str:
+    """A "file.py:Class" of the current folder as it is written in a file in the folder `beside`."""
+    path, _, name = file.rpartition(":")
+    if beside is None or Path(path).is_absolute():
+        return file
+    try:
+        path = Path(os.path.relpath(os.path.realpath(path), os.path.realpath(beside))).as_posix()
+    except ValueError:  # on another drive
+        path = os.path.realpath(path)
+    return f"{path}:{name}"
 
 
 def run_file(path: Path) -> ModuleType:
@@ -155,15 +168,15 @@ def check_hooks(kind: type[Effect], refuse) -> None:
     own = {
         n: f for c in kind.__mro__[: kind.__mro__.index(Effect)] for n, f in vars(c).items() if inspect.isfunction(f)
     }
+    known = HOOKS | UNDO_HOOKS
     for name in own:
-        near = difflib.get_close_matches(name, HOOKS, 1, cutoff=0.75)
-        if name not in HOOKS and near:
+        near = difflib.get_close_matches(name, known, 1, cutoff=0.75)
+        if name not in known and near:
             raise refuse(f"method {name!r} is no hook: nobody would call it", f"Did you mean {near[0]!r}?")
-    hooks = [name for name in own if name in HOOKS]
-    if not hooks:
+    if not any(name in HOOKS for name in own):
         raise refuse("changes nothing", f"Write one of the methods {', '.join(HOOKS)}.")
-    for name in hooks:
-        wanted = HOOKS[name]
+    for name in (name for name in own if name in known):
+        wanted = known[name]
         given = list(inspect.signature(own[name]).parameters)[1:]
         # A hook is called by place: other names are the author's own, the hook's names must stand where they belong.
         swapped = [a for a, b in zip(given, wanted, strict=False) if a.lstrip("_") in wanted and a.lstrip("_") != b]

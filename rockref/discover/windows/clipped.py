@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from rockref.measure.checks import growth_rate, tilts
 from rockref.measure.experiment import Experiment, Run
 from rockref.measure.running import sample_step
@@ -18,9 +17,6 @@ FLAT = 12e-3
 BESIDE, LEAST = 0.04, 6
 #: Resolutions below the limit that a sample at the stops may show (rounding leaves half of one).
 ROUNDED = 0.6
-#: Rates beyond the range, in ranges, that soft stops still tell (decided: there they show 0.995 of it, and noise counts
-#: a hundred times), and places in which the curve is followed by lines, 0.004 ranges apart: they leave 4e-6 of it.
-TOLD, PLACES = 3.0, 1501
 
 
 def flat_tops(experiment: Experiment, runs: Sequence[Run]) -> float | None:
@@ -46,17 +42,6 @@ def unclipped(experiment: Experiment, runs: Sequence[Run]) -> list[np.ndarray]:
     """
     limit = flat_tops(experiment, runs)
     return [run.crv if limit is None else _whole(experiment, run, limit) for run in runs]  # type: ignore[misc]
-
-
-def let_go(crv: np.ndarray, limit: float, softness: float) -> np.ndarray:
-    """Rates whose record a gyroscope with stops of this softness at `limit` shows [rad/s]; hard stops change nothing.
-
-    What is beyond the reach of soft ones, noise at the stops, is the largest rate that is told.
-    """
-    if not softness or not np.isfinite(limit):
-        return crv
-    rates = np.linspace(-TOLD, TOLD, PLACES) * limit
-    return np.interp(crv, GyroSaturation(limit, softness).sensor(rates, rates), rates)
 
 
 def _whole(experiment: Experiment, run: Run, limit: float) -> np.ndarray:

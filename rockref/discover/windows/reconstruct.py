@@ -7,34 +7,9 @@ import math
 import numba
 import numpy as np
 
-from rockref.effects.sensor.gyro_bandwidth import natural_frequency
-
-#: Noise-to-signal power of the regularised inverse filter. Decided: the white noise of a gyroscope is some 1e-3 of
-#: the clatter's amplitude, 1e-6 of its power, in the band that matters; above that band the inverse is cut.
-REGULARISATION = 1e-3
 #: Half width of the quadratic through the rates at a window's start [s]; decided: 17 ms of noise are averaged, and the
 #: clatter between two corner impacts (20 to 40 ms) is still a parabola.
 HALF_WIDTH = 8e-3
-
-
-def undo_low_pass(crv: np.ndarray, rate: float, filters: tuple[tuple[float, float], ...]) -> np.ndarray:
-    """True rates from a record behind second-order low-passes, (N, 3) -> (N, 3) [rad/s].
-
-    Zero-phase Wiener inverse conj(H) / (|H|^2 + r) on the mirrored record; rate [Hz];
-    filters: bandwidth [Hz] and damping of each.
-    """
-    n = len(crv)
-    pad = min(n - 1, int(rate / 2))
-    start = 2 * crv[0] - crv[pad:0:-1]
-    end = 2 * crv[-1] - crv[-2 : -pad - 2 : -1]
-    whole = np.concatenate([start, crv, end])
-    s = 2j * np.pi * np.fft.rfftfreq(len(whole), 1 / rate)
-    H = np.ones_like(s)
-    for bandwidth, damping in filters:
-        omega = natural_frequency(bandwidth, damping)
-        H = H * omega**2 / (s * s + 2 * damping * omega * s + omega**2)
-    G = np.conj(H) / (np.abs(H) ** 2 + REGULARISATION) * (1 + REGULARISATION)
-    return np.fft.irfft(np.fft.rfft(whole, axis=0) * G[:, None], len(whole), axis=0)[pad : pad + n]
 
 
 @numba.njit(cache=True, nogil=True)

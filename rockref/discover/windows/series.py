@@ -15,7 +15,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.threads import threads_left
-from rockref.discover.windows.clipped import let_go, unclipped
+from rockref.discover.windows.clipped import unclipped
 from rockref.discover.windows.handed_on import leaves_dents, plate_of, spin_slip
 from rockref.discover.windows.on_time import gyro_of
 from rockref.discover.windows.own import own_of, run_own
@@ -26,12 +26,12 @@ from rockref.discover.windows.reconstruct import (
     plate_motion,
     roughness,
     standing_place,
-    undo_low_pass,
     yaw_since_touch,
 )
 from rockref.discover.windows.record import filter_coefficients, records
 from rockref.discover.windows.standing import standing_starts
-from rockref.effects.sensor.gyro_bandwidth import DAMPING
+from rockref.effects.sensor.gyro_bandwidth import DAMPING, undo_low_pass
+from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import pack, slots
 from rockref.engines.compiled.batch import Batch, run_batch
@@ -148,7 +148,8 @@ def true_rates(crv: np.ndarray, t: np.ndarray, rate: float, bandwidth: float, se
 
     Sample k of the device stands at t_k * clock in the block's own time.
     """
-    w = let_go(crv, sensor.range, sensor.softness) - sensor.bias - sensor.drift * t[:, None]
+    _, bent_back = GyroSaturation(sensor.range, sensor.softness).undo(t, crv)
+    w = bent_back - sensor.bias - sensor.drift * t[:, None]
     own = ((sensor.bandwidth, sensor.damping),) if np.isfinite(sensor.bandwidth) else ()
     return undo_low_pass(w, rate, ((bandwidth, DAMPING), *own)) @ np.linalg.inv(sensor.matrix()).T
 

@@ -30,6 +30,8 @@ class ClockError(Effect):
     confounder = "inertia_deviation"
     experiment = "Record a second pulse of a known clock, or an hour by a watch: the count tells the rate."
 
+    stage = "clock"
+
     rate: float = 1.0
 
     def sensor(self, t, crv):
@@ -39,3 +41,7 @@ class ClockError(Effect):
 
         t = np.asarray(t, float)
         return CubicSpline(t, crv, axis=-2)(np.clip(self.rate * t, t[0], t[-1]))
+
+    def undo(self, t, crv):
+        """The rows stay, their instants become the true ones; a row that was held is dated as if it were not."""
+        return t if self.is_absent() else self.rate * np.asarray(t, float), crv

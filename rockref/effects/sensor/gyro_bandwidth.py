@@ -10,6 +10,9 @@ from rockref.model.errors import InputError
 
 # decided: the damping of a second-order Butterworth filter, the flattest; data sheets give the bandwidth only.
 DAMPING = 1.0 / math.sqrt(2.0)
+#: Noise-to-signal power of the regularised inverse filter. Decided: the white noise of a gyroscope is some 1e-3 of
+#: the clatter's amplitude, 1e-6 of its power, in the band that matters; above that band the inverse is cut.
+REGULARISATION = 1e-3
 
 
 def natural_frequency(bandwidth: float, damping: float = DAMPING) -> float:
@@ -25,6 +28,40 @@ def natural_frequency(bandwidth: float, damping: float = DAMPING) -> float:
     b = 1.0 - 2.0 * damping**2
     root = b + math.sqrt(b * b + 1.0) if b > 0 else 1.0 / (math.sqrt(b * b + 1.0) - b)
     return 2.0 * math.pi * bandwidth / math.sqrt(root)
+
+
+def undo_low_pass(crv: np.ndarray, rate: float, filters: tuple[tuple[float, float], ...]) -> np.ndarray:
+    """Return the true rates (..., N, 3) [rad/s] of a record behind second-order low-passes, sampled at `rate` Hz.
+
+    Zero-phase Wiener inverse conj(H)/(|H|^2 + r) on the mirrored record: it shifts nothing and ends above the band.
+    filters : bandwidth [Hz] and damping of each.
+    """
+    n = crv.shape[-2]
+    pad = min(n - 1, int(rate / 2))
+    start = 2 * crv[..., :1, :] - crv[..., pad:0:-1, :]
+    end = 2 * crv[..., -1:, :] - crv[..., -2 : -pad - 2 : -1, :]
+    # The transform sees the mirrored ends side by side: where they jumped, all rows would ring at half the rate.
+    meeting = (start[..., :1, :] + end[..., -1:, :]) / 2 if pad else 0.0
+    inward = np.sin(np.pi * np.arange(1, pad + 1) / (2 * pad + 2))[:, None] ** 2
+    start, end = meeting + inward * (start - meeting), meeting + inward[::-1] * (end - meeting)
+    whole = np.concatenate([start, crv, end], axis=-2)
+    total = whole.shape[-2]
+    s = 2j * np.pi * np.fft.rfftfreq(total, 1 / rate)
+    H = np.ones_like(s)
+    for bandwidth, damping in filters:
+        omega = natural_frequency(bandwidth, damping)
+        H = H * omega**2 / (s * s + 2 * damping * omega * s + omega**2)
+    G = np.conj(H) / (np.abs(H) ** 2 + REGULARISATION) * (1 + REGULARISATION)
+    return np.fft.irfft(np.fft.rfft(whole, axis=-2) * G[:, None], total, axis=-2)[..., pad : pad + n, :]
+
+
+def even_step(t: np.ndarray) -> float:
+    """Return the spacing [s] of even instants t (N,) [s]. Raises InputError (E-STEP) where they are not even."""
+    step = (t[-1] - t[0]) / (len(t) - 1)
+    if np.max(np.abs(np.diff(t) - step)) > 0.1 * step:
+        cure = "Choose an output rate that divides the number of steps a second."
+        raise InputError("E-STEP", f"effect {GyroBandwidth.id}", "needs rows at even spacing", cure)
+    return step
 
 
 @dataclass(frozen=True)
@@ -77,14 +114,20 @@ class GyroBandwidth(Effect):
         t = np.asarray(t, float)
         return CubicSpline(t, smooth, axis=-2)(np.maximum(t - self.delay, t[0]))
 
+    def undo(self, t, crv):
+        """The low-pass by its regularised inverse, the delay by earlier instants of the rows. Raises as `smoothed`."""
+        if self.is_absent() or len(t) < 2:
+            return t, crv
+        t = np.asarray(t, float)
+        if math.isfinite(self.frequency):
+            crv = undo_low_pass(crv, 1 / even_step(t), ((self.frequency, self.damping),))
+        return t - self.delay, crv
+
     def smoothed(self, t, crv):
         """The rates (..., N, 3) [rad/s] at even t (N,) [s] after the low-pass. Raises InputError (E-STEP)."""
         from scipy.signal import cont2discrete, lfilter, lfilter_zi
 
-        step = (t[-1] - t[0]) / (len(t) - 1)
-        if np.max(np.abs(np.diff(t) - step)) > 0.1 * step:
-            cure = "Choose an output rate that divides the number of steps a second."
-            raise InputError("E-STEP", f"effect {self.id}", "needs rows at even spacing", cure)
+        step = even_step(t)
         omega = natural_frequency(self.frequency, self.damping)
         analog = ([omega**2], [1, 2 * self.damping * omega, omega**2])
         numerator, denominator, _ = cont2discrete(analog, step, method="foh")

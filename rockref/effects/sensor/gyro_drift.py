@@ -39,6 +39,16 @@ class GyroDrift(Effect):
     def sensor(self, t, crv):
         if self.is_absent():
             return crv
-        bias = np.array((self.bias_x, self.bias_y, self.bias_z), crv.dtype)
-        rate = np.array((self.rate_x, self.rate_y, self.rate_z), crv.dtype)
+        bias, rate = self.vectors(crv.dtype)
         return crv + bias + np.asarray(t, crv.dtype)[:, None] * rate
+
+    def undo(self, t, crv):
+        if self.is_absent():
+            return t, crv
+        bias, rate = self.vectors(crv.dtype)
+        return t, crv - bias - np.asarray(t, crv.dtype)[:, None] * rate
+
+    def vectors(self, dtype):
+        """Bias and its rate of change, two (3,) [rad/s, rad/s2]."""
+        bias, rate = (self.bias_x, self.bias_y, self.bias_z), (self.rate_x, self.rate_y, self.rate_z)
+        return np.array(bias, dtype), np.array(rate, dtype)

@@ -32,6 +32,8 @@ class GyroMisalignment(Effect):
     confounder = "release_velocity"
     experiment = "Mount the sensor turned by 90 degrees: does the signal follow the sensor or the block?"
 
+    stage = "mounting"
+
     x: float = 0.0
     y: float = 0.0
     z: float = 0.0
@@ -42,8 +44,23 @@ class GyroMisalignment(Effect):
     def sensor(self, t, crv):
         if self.is_absent():
             return crv
-        turned = apply(exponential(np.array((self.x, self.y, self.z), crv.dtype)), crv)
-        if not (self.xy or self.xz or self.yz):
-            return turned
-        skew = [[1, self.xy, self.xz], [self.xy, 1, self.yz], [self.xz, self.yz, 1]]
-        return apply(np.array(skew, crv.dtype), turned)
+        turned = apply(self.rotation(crv.dtype), crv)
+        return turned if self.is_square() else apply(self.axes(crv.dtype), turned)
+
+    def undo(self, t, crv):
+        if self.is_absent():
+            return t, crv
+        turned = crv if self.is_square() else apply(np.linalg.inv(self.axes(crv.dtype)), crv)
+        return t, apply(self.rotation(crv.dtype).T, turned)
+
+    def rotation(self, dtype):
+        """R (3, 3)."""
+        return exponential(np.array((self.x, self.y, self.z), dtype))
+
+    def is_square(self) -> bool:
+        """Whether the sensor's axes are at right angles."""
+        return not (self.xy or self.xz or self.yz)
+
+    def axes(self, dtype):
+        """I + S (3, 3)."""
+        return np.array([[1, self.xy, self.xz], [self.xy, 1, self.yz], [self.xz, self.yz, 1]], dtype)

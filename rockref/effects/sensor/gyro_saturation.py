@@ -7,6 +7,13 @@ import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
 
+#: Largest rate that soft stops still tell, in ranges (decided: there they show 0.995 of the range, and noise counts a
+#: hundred times); places in which their curve is followed by lines, 0.004 ranges apart, which leave 4e-6 of a range.
+TOLD, PLACES = 3.0, 1501
+#: Share of the range up to which a rate is told. Decided: rounding to a fiftieth of the range hides no flat top, and
+#: below it stops of any softness bend a rate to a fifty-seventh at most.
+TOP = 0.99
+
 
 @dataclass(frozen=True)
 class GyroSaturation(Effect):
@@ -30,6 +37,8 @@ class GyroSaturation(Effect):
     confounder = "gyro_scale"
     experiment = "Choose the sensor's next larger range; a flat top that stays at one number in every run is the range."
 
+    stage = "samples"
+
     range: float = math.inf
     softness: float = 0.0
 
@@ -40,3 +49,13 @@ class GyroSaturation(Effect):
         if not self.softness:
             return hard
         return hard + self.softness * (self.range * np.tanh(crv / self.range) - hard)
+
+    def undo(self, t, crv):
+        """What hard stops have cut stays cut. What soft ones show beyond their reach is the largest rate they tell."""
+        if self.is_absent() or not self.softness:
+            return t, crv
+        rates = np.linspace(-TOLD, TOLD, PLACES) * self.range
+        return t, np.interp(crv, self.sensor(rates, rates), rates)
+
+    def heard(self, t, crv):
+        return np.abs(crv) < TOP * self.range

@@ -23,6 +23,8 @@ class GyroScale(Effect):
     confounder = "inertia_deviation"
     experiment = "Turn the sensor by hand through 90 degrees between two stops: the integral must be 90 degrees."
 
+    stage = "mounting"
+
     x: float = 1.0
     y: float = 1.0
     z: float = 1.0
@@ -31,3 +33,6 @@ class GyroScale(Effect):
         if self.is_absent():
             return crv
         return crv * np.array((self.x, self.y, self.z), crv.dtype)
+
+    def undo(self, t, crv):
+        return t, crv if self.is_absent() else crv / np.array((self.x, self.y, self.z), crv.dtype)

@@ -220,6 +220,17 @@ def test_a_sensor_shows_as_many_rates_as_came_in():
     assert looked("sensor", given, np.ones((6, 3))) == ("crv has shape (6, 3), the law's has (7, 3)", AXES)
 
 
+def test_a_record_taken_back_has_as_many_rows_and_a_truth_for_every_rate():
+    t, crv = given = (np.arange(7.0), np.zeros((7, 3)))
+    assert passes("undo", given, (t, crv)) and passes("heard", given, np.ones((7, 3), bool))
+    assert looked("undo", given, crv)[0] == "gives back ndarray"
+    assert looked("undo", given, (t[1:], crv)) == ("t has shape (6,), the law's has (7,)", AXES)
+    assert looked("undo", given, (t, crv[1:])) == ("crv has shape (6, 3), the law's has (7, 3)", AXES)
+    assert looked("heard", given, np.ones(7, bool)) == ("what is heard has shape (7,), the law's has (7, 3)", AXES)
+    said = ("gives back float64 numbers", "Return truths, such as abs(crv) < 1.")
+    assert looked("heard", given, np.ones((7, 3))) == said
+
+
 def test_only_the_hooks_that_a_class_has_of_its_own_are_guarded():
     @dataclass(frozen=True)
     class Mine(Effect):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rockref import InputError, Model
-from rockref.effects.base import HOOKS, Effect, Quantity
+from rockref.effects.base import HOOKS, UNDO_HOOKS, Effect, Quantity
 from rockref.effects.guard import AXES
 from rockref.effects.probe import absent_arguments, probe, probe_absent, same, sample_problem
 from rockref.model.integrator import evaluate_contact
@@ -56,7 +56,7 @@ def recording(name):
     return hook
 
 
-for each in HOOKS:
+for each in HOOKS | UNDO_HOOKS:
     if each != "start":
         setattr(Recorder, each, recording(each))
 
@@ -71,10 +71,11 @@ def arguments_of(problem):
         "plate_motion": (0.0, m), "normal_force": (points.K_N * c.k.xi, c.k, points, m),
         "friction_coefficient": (points.mu_0, points.mu, c.F_N, c.k, points, m), "point_wrench": (problem, c, m),
         "body_wrench": (problem, c, s.x, s.Lambda, s.v, s.W, m), "advance": (problem, c, problem.step, m),
-        "sensor": (np.arange(50) / problem.output_rate, np.full((50, 3), 0.1)),
+        **{name: (np.arange(50) / problem.output_rate, np.full((50, 3), 0.1)) for name in RECORD},
     }  # fmt: skip
 
 
+RECORD = ["sensor", "undo", "heard"]
 IN_STEP = ["start", "plate_motion", "normal_force", "friction_coefficient", "point_wrench", "body_wrench", "advance"]
 
 
@@ -83,7 +84,7 @@ def test_every_hook_is_tried_on_one_run_and_those_of_the_step_on_two_side_by_sid
     probe(Recorder(), "mine.py:Mine")
     one = sample_problem()
     wanted = [(name, arguments_of(p)[name]) for p in (one, as_arrays(stack([one, one]))) for name in IN_STEP]
-    wanted += [(name, arguments_of(one)[name]) for name in ("points", "release", "sensor")]
+    wanted += [(name, arguments_of(one)[name]) for name in ("points", "release", *RECORD)]
     assert [name for name, _ in calls] == [name for name, _ in wanted]
     for (name, given), (_, expected) in zip(calls, wanted, strict=True):
         assert alike(given, expected), name
@@ -91,7 +92,7 @@ def test_every_hook_is_tried_on_one_run_and_those_of_the_step_on_two_side_by_sid
 
 def test_an_absent_effect_is_asked_the_same():
     found = absent_arguments(Recorder())
-    assert [name for name, _ in found] == [name for name in HOOKS if name not in ("start", "advance")]
+    assert [name for name, _ in found] == [name for name in HOOKS | UNDO_HOOKS if name not in ("start", "advance")]
     for name, given in found:
         assert alike(given, arguments_of(sample_problem())[name]), name
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rockref.effects.base import HOOKS
+from rockref.effects.base import HOOKS, UNDO_HOOKS
 from rockref.effects.catalogue import EFFECTS, OF_TOSSES
 from rockref.report import gallery
 
@@ -29,7 +29,7 @@ def test_the_page_has_a_section_and_a_picture_for_each():
 
 def test_hooks_are_explained_with_their_arguments():
     howto = (DOCS / "howto/own_effect.md").read_text(encoding="utf-8")
-    for name, arguments in HOOKS.items():
+    for name, arguments in (HOOKS | UNDO_HOOKS).items():
         assert f"| `{name}({', '.join(arguments)})` |" in howto
 
 

@@ -8,8 +8,7 @@ import pytest
 
 from rockref import Model
 from rockref.discover.windows import clipped as windows_clipped
-from rockref.discover.windows.clipped import TOLD, flat_tops, let_go, unclipped
-from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from rockref.discover.windows.clipped import flat_tops, unclipped
 from tests.unit.discover.synthetic import experiment
 
 LIMIT = 0.45
@@ -57,24 +56,6 @@ def test_the_attitude_survives_what_was_cut_off(two_runs, k):
 
 def test_what_is_not_clipped_stays_as_it_is(two_runs):
     assert unclipped(two_runs, two_runs.runs)[0] is two_runs.runs[0].crv
-
-
-@pytest.mark.parametrize("softness", [0.3, 1.0])
-def test_what_soft_stops_have_bent_is_put_back(softness):
-    crv = np.linspace(-0.9, 0.9, 60).reshape(-1, 3)
-    shown = GyroSaturation(0.6, softness).sensor(None, crv)
-    # Lines over h = 0.004 ranges leave |f''/f'| h^2/8 of one, at most 2 h^2/8: 4e-6, of 0.6 rad/s.
-    np.testing.assert_allclose(let_go(shown, 0.6, softness), crv, atol=1e-5)
-
-
-def test_noise_beyond_soft_stops_is_the_largest_rate_that_they_tell():
-    assert let_go(np.array([0.61, -0.7]), 0.6, 1.0) == pytest.approx([TOLD * 0.6, -TOLD * 0.6])
-
-
-@pytest.mark.parametrize("limit, softness", [(0.6, 0.0), (np.inf, 1.0)])
-def test_hard_stops_and_none_leave_the_record(limit, softness):
-    crv = np.ones((4, 3))
-    assert let_go(crv, limit, softness) is crv
 
 
 def swing(t, at=0.6):
