@@ -8,6 +8,7 @@ it imports only Typer and the standard library; what a command needs is imported
 # The order is the order in `rockref --help`. A name here without its module is an error at once, never skipped.
 MODULES: tuple[str, ...] = (
     "demo",
+    "new",
     "simulate",
     "compare",
     "fit",

@@ -1,0 +1,212 @@
+"""What a recording shows before anything is known of its axes and units: standing, release, first swing, main axis.
+
+A block let go on its edge turns by A sinh(p (t - t0)), p^2 = 3g/4R, until its other feet touch (Housner 1963). Its
+sides alone give p and the tipping angle alpha; the time T of the first swing gives the tilt, alpha (1 - 1/cosh(p T)),
+whatever the unit of the rates. The angle that they add up to in that time is therefore a gauge of their unit.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from rockref.measure.checks import growth_rate
+from rockref.measure.impacts import main_impacts
+from rockref.measure.importing.recording import Recording
+from rockref.measure.running import half_width, running_mean, sample_step
+from rockref.model.errors import InputError
+
+# decided: in 50 ms a block that moves leaves the scatter of one that stands, and 25 samples at 500 Hz show it.
+WINDOW = 0.05
+# decided: rates within four noise widths of their mean in a window, for 0.15 s, are those of a block that stands.
+CALM_SIGMAS, CALM_TIME = 4.0, 0.15
+# decided: a slender block falls within two and a half seconds from any tilt that a wire can hold.
+LONGEST_SWING = 2.5
+# decided: the arc's beginning, up to a quarter of a second, as long as the angle is small against the tipping angle.
+ARC = 0.25
+# decided: steps of the search for the release; a tenth of a sample at 1 kHz.
+FINE = 1e-4
+# decided: motion of less than a quarter of the largest is handling, or the block being set up.
+LEAST_TURN = 0.25
+# decided: more of the standing than two seconds adds drift and no accuracy.
+STANDING = 2.0
+# decided: between the last calm moment and the release lies at most this, and the fit of the arc begins there.
+BEFORE = 0.2
+# decided: an angle up to rest that differs from the first swing's by more than this has met a fall, or the range.
+REST_AGREES = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The release in a recording, in the log's own unit and axes.
+
+    Attributes
+    ----------
+    recording : Recording
+    release : float
+        Instant of the release on the recording's clock, s, the gyroscope's delay included.
+    standing : float
+        How long the block is seen to stand before it, s; 0 where the record begins at the release.
+    bias, noise : (3,) float64
+        What the rates show at rest, and their scatter; zero and the record's calmest scatter where nothing stands.
+    impact : float
+        First main impact on the recording's clock, s.
+    main : int
+        The axis about which the block rocks.
+    turn : (3,) float64
+        Rates summed over time from release to first impact, s times the log's unit.
+    angle : float
+        Angle of the release about the main axis, s times the log's unit: up to rest where the record shows it.
+    gauge : float
+        rad/s that one unit of the rates must be worth.
+    """
+
+    recording: Recording = field(repr=False)
+    release: float
+    standing: float
+    bias: np.ndarray
+    noise: np.ndarray
+    impact: float
+    main: int
+    turn: np.ndarray
+    angle: float
+    gauge: float
+
+
+def find_motion(recording: Recording, width: float, height: float) -> Motion:
+    """Return the release and the first swing of a block of `width` and `height` m in a recording.
+
+    Raises InputError E-NO-RELEASE where no stretch of it looks like one.
+    """
+    t, chip = recording.t, recording.chip
+    noise = _calmest(t, chip)
+    calm = _calm_stretches(t, chip, noise)
+    starts = [(first, last) for first, last in calm if t[last] + 0.1 < t[-1]]
+    if not calm or calm[0][0] > half_width(t, WINDOW):
+        starts.insert(0, (0, 0))
+    found = [m for s in starts if (m := _motion_from(recording, s, calm, noise, width, height)) is not None]
+    if not found:
+        cure = "Record from before the release until the block stands again; check width and height."
+        raise InputError("E-NO-RELEASE", recording.source, "no swing of a released block is found", cure)
+    largest = max(abs(float(m.turn[m.main])) for m, _ in found)
+    likely = [(m, misfit) for m, misfit in found if abs(m.turn[m.main]) >= LEAST_TURN * largest]
+    return min(likely, key=lambda pair: pair[1])[0]
+
+
+def _calmest(t: np.ndarray, chip: np.ndarray) -> np.ndarray:
+    """Return the scatter (3,) of the calmest tenth of a recording."""
+    least = np.percentile(_scatter(t, chip), 5.0, axis=0)
+    # Where a coarse gyroscope shows one and the same value, its step is the scatter.
+    return np.maximum(least, 1e-4 * np.abs(chip).max(axis=0) + 1e-300)
+
+
+def _scatter(t: np.ndarray, chip: np.ndarray) -> np.ndarray:
+    """Return the standard deviation (N, 3) of the rates in a window about each sample."""
+    half = half_width(t, WINDOW)
+    centred = chip - chip.mean(axis=0)
+    return np.sqrt(np.maximum(running_mean(centred**2, half) - running_mean(centred, half) ** 2, 0.0))
+
+
+def _calm_stretches(t: np.ndarray, chip: np.ndarray, noise: np.ndarray) -> list[tuple[int, int]]:
+    """Return (first, last) sample of every stretch in which all rates stand still within their scatter."""
+    still = np.all(_scatter(t, chip) < CALM_SIGMAS * noise, axis=1)
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], still.astype(np.int8), [0]))))
+    stretches = [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+    return [(a, b) for a, b in stretches if t[b] - t[a] >= CALM_TIME]
+
+
+def _motion_from(
+    recording: Recording,
+    start: tuple[int, int],
+    calm: list[tuple[int, int]],
+    noise: np.ndarray,
+    width: float,
+    height: float,
+) -> tuple[Motion, float] | None:
+    """Return the motion after a calm stretch, and the share of its arc that is no arc; None where there is no swing."""
+    t, chip = recording.t, recording.chip
+    first, last = start
+    stood = last > first
+    rows = slice(max(first, int(np.searchsorted(t, t[last] - STANDING))), last + 1)
+    bias = chip[rows].mean(axis=0) if stood else _bias_at_the_end(t, chip, calm)
+    scatter = chip[rows].std(axis=0) if stood else noise
+    end = int(np.searchsorted(t, t[last] + LONGEST_SWING))
+    v = chip[last:end] - bias
+    if len(v) < 16:
+        return None
+    main = int(np.argmax(np.abs(np.cumsum(v, axis=0)).max(axis=0)))
+    order = [main, *(axis for axis in range(3) if axis != main)]
+    impacts = main_impacts(t[last:end], v[:, order])
+    if not len(impacts) or impacts.times[0] - t[last] < 2.0 * WINDOW:
+        return None
+    impact = float(impacts.times[0])
+    p = growth_rate(width, height)
+    release, misfit = (float(t[0]), 0.0) if not stood else _release(t, chip[:, main] - bias[main], t[last], impact, p)
+    inside = (t >= release) & (t <= impact)
+    if inside.sum() < 8:
+        return None
+    turn = (chip[inside] - bias).sum(axis=0) * sample_step(t)
+    tilt = math.atan2(width, height) * (1.0 - 1.0 / math.cosh(p * (impact - release)))
+    angle = _angle_to_rest(t, chip[:, main], release, last if stood else None, calm, float(turn[main]), bias[main])
+    motion = Motion(
+        recording,
+        release,
+        float(t[last] - t[first]) if stood else 0.0,
+        bias,
+        scatter,
+        impact,
+        main,
+        turn,
+        angle,
+        tilt / abs(float(turn[main])),
+    )
+    return motion, misfit
+
+
+def _bias_at_the_end(t: np.ndarray, chip: np.ndarray, calm: list[tuple[int, int]]) -> np.ndarray:
+    """Return what the rates show (3,) where the block stands at the end of the record; zero where it does not."""
+    if not calm or t[-1] - t[calm[-1][1]] > WINDOW:
+        return np.zeros(3)
+    return chip[calm[-1][0] : calm[-1][1] + 1].mean(axis=0)
+
+
+def _release(t: np.ndarray, w: np.ndarray, calm: float, impact: float, p: float) -> tuple[float, float]:
+    """Return the instant at which the arc A sinh(p (t - t0)) begins in w (N,), and the share that is no arc.
+
+    The block stands before it. The instant is looked for in steps of 0.1 ms about the last calm moment `calm` s.
+    """
+    begin, end = calm - BEFORE, calm + min(ARC, 0.6 * (impact - calm))
+    rows = (t >= begin) & (t <= end)
+    instants = np.arange(begin + 0.5 * WINDOW, min(calm + WINDOW, end - 0.02), FINE)
+    arcs = np.sinh(p * np.maximum(t[rows] - instants[:, np.newaxis], 0.0))
+    norms = np.maximum((arcs**2).sum(axis=1), 1e-300)
+    sizes = arcs @ w[rows] / norms
+    rest = ((sizes[:, np.newaxis] * arcs - w[rows]) ** 2).sum(axis=1)
+    best = int(np.argmin(rest))
+    return float(instants[best]), float(rest[best] / max(float((w[rows] ** 2).sum()), 1e-300))
+
+
+def _angle_to_rest(
+    t: np.ndarray,
+    w: np.ndarray,
+    release: float,
+    last: int | None,
+    calm: list[tuple[int, int]],
+    first_swing: float,
+    bias: float,
+) -> float:
+    """Return the angle of the release: what the rates add up to until the block stands, or the first swing's.
+
+    What the gyroscope shows at rest may drift from before the release to after the motion: a straight line between.
+    """
+    after = [(a, b) for a, b in calm if t[a] > release + 2.0 * WINDOW and (last is None or a > last)]
+    if not after or t[-1] - t[after[-1][1]] > WINDOW:
+        return first_swing
+    a, b = after[-1]
+    zero_after = float(w[a : b + 1].mean())
+    zero = np.interp(t, (release, t[a]), (bias if last is not None else zero_after, zero_after))
+    inside = (t >= release) & (t <= t[a])
+    angle = float((w - zero)[inside].sum() * sample_step(t))
+    return angle if abs(angle / first_swing - 1.0) < REST_AGREES else first_swing

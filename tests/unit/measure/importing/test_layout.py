@@ -1,0 +1,87 @@
+"""Delimiters, decimal marks, headers and rows of a logger's text."""
+
+import zipfile
+
+import numpy as np
+import pytest
+
+from rockref import InputError
+from rockref.measure.importing.channels import find_channels
+from rockref.measure.importing.layout import read_log
+from rockref.measure.importing.recording import recording
+
+ROWS = [(k * 0.01, 0.1 * k, -0.2 * k, 0.3 + k) for k in range(30)]
+
+
+def text(delimiter, decimal, header="t,gx,gy,gz", ending=""):
+    lines = [header.replace(",", delimiter)] if header else []
+    lines += [delimiter.join(f"{v:.3f}".replace(".", decimal) for v in row) + ending for row in ROWS]
+    return "\n".join(lines) + "\n"
+
+
+@pytest.mark.parametrize(
+    "delimiter, decimal", [(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), (" ", ".")]
+)
+def test_the_layout_is_found(tmp_path, delimiter, decimal):
+    path = tmp_path / "log.txt"
+    path.write_text("# made by a logger\n\n" + text(delimiter, decimal))
+    log = read_log(path)
+    assert log.names == ("t", "gx", "gy", "gz")
+    assert log.values == pytest.approx(np.round(ROWS, 3))
+
+
+def test_a_delimiter_at_the_end_of_rows_is_no_column(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text(text(";", ".", ending=";"))
+    assert find_channels(read_log(path)).rates == (1, 2, 3)
+
+
+@pytest.mark.parametrize(
+    "content, code",
+    [
+        (text(",", ","), "E-DECIMAL-COMMA"),
+        ("a word\nand another\n", "E-LAYOUT"),
+        (text(",", ".", header=""), "E-HEADER"),
+        (text(",", ".", header="a,b,c,d"), "E-COLUMN-MISSING"),
+        (text(",", ".").replace("\n0.0", "\n1,0.0"), "E-FIELDS"),
+    ],
+)
+def test_what_cannot_be_read_is_said(tmp_path, content, code):
+    path = tmp_path / "log.csv"
+    path.write_text(content)
+    with pytest.raises(InputError) as refused:
+        find_channels(read_log(path))
+    assert refused.value.code == code
+
+
+def test_a_phone_archive_is_read(tmp_path):
+    path = tmp_path / "phone.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("2026/Gyroscope.csv", text(",", "."))
+        archive.writestr("Metadata.csv", "a,b\n")
+    assert read_log(path).values.shape == (30, 4)
+    path.write_bytes(b"PK\x03\x04 cut off")
+    with pytest.raises(InputError) as refused:
+        read_log(path)
+    assert refused.value.code == "E-ZIP"
+
+
+def test_columns_are_named_by_words_or_places(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text(text(",", ".", header="when,a,b,c"))
+    log = read_log(path)
+    assert find_channels(log, ("when", "c", "b", "a")).rates == (3, 2, 1)
+    assert find_channels(log, ("1", "4", "3", "2")).time == 0
+    with pytest.raises(InputError) as refused:
+        find_channels(log, ("1", "4", "3", "5"))
+    assert refused.value.code == "E-COLUMN-MISSING"
+
+
+def test_garbled_rows_are_counted(tmp_path):
+    path = tmp_path / "log.csv"
+    lines = text(",", ".").splitlines()
+    lines[5] = "0.04,?,0.1,0.2"
+    path.write_text("\n".join(lines))
+    log = read_log(path)
+    one = recording(log, find_channels(log))
+    assert len(one.t) == 29 and [n.code for n in one.notices] == ["W-ROWS-LOST"]
