@@ -43,7 +43,7 @@ def test_a_delimiter_at_the_end_of_rows_is_no_column(tmp_path):
         ("a word\nand another\n", "E-LAYOUT"),
         (text(",", ".", header=""), "E-HEADER"),
         (text(",", ".", header="a,b,c,d"), "E-COLUMN-MISSING"),
-        (text(",", ".").replace("\n0.0", "\n1,0.0"), "E-FIELDS"),
+        (text(",", ".").replace("\n0.1", "\n1,0.1"), "E-FIELDS"),
     ],
 )
 def test_what_cannot_be_read_is_said(tmp_path, content, code):
