@@ -14,46 +14,25 @@ import numpy as np
 
 from rockref.measure.checks import check_faults, check_release_run, samples_before_a_fall
 from rockref.measure.columns import DEGREE, POSE, RATES
+from rockref.measure.datasheet import completed
+from rockref.measure.keys import BLOCK, FIT, GYRO, HOLDOUT, RELEASE, USES, check_complete, run_fields, top_fields
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import shown
-from rockref.measure.schema import Number, Section, Text, read_fields, read_toml
+from rockref.measure.schema import read_fields, read_toml
 from rockref.measure.table import read_table
 from rockref.measure.timebase import check_forward, regular_samples
 from rockref.model.errors import InputError
 
-FIT, HOLDOUT = "fit", "holdout"
-USES = (FIT, HOLDOUT)
-KINDS = ("release", "toss")
-BASELINES = ("eight_points", "four_points")
 # kg/m3: osmium, the densest element, has 22590 (CRC Handbook of Chemistry and Physics).
 DENSEST = 23e3
 # rad, where a release states none; decided: 1 mm of wire (the source's "±0.08°").
 TILT_UNCERTAINTY = 1.4e-3
 # decided: a campaign of more runs than this is several experiments.
 MAX_RUNS = 1000
+# Endings of what loggers write.
+LOGS = (".csv", ".txt", ".tsv", ".zip")
 # decided: ids and names become parts of file names in reports.
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}", re.ASCII)
-
-_LENGTH = {"m": 1.0, "mm": 1e-3}
-_RATE = {"deg_s": DEGREE, "rad_s": 1.0}
-_ANGLE = {"rad": 1.0, "deg": DEGREE}
-_TURN = {"deg": DEGREE, "rad": 1.0}
-_HZ = {"hz": 1.0}
-
-# decided ranges: a block that two hands or a crane can move, an instrument that can be bought.
-_BLOCK = (
-    Number("mass", {"kg": 1.0}, 1e-3, 1e6),
-    Number("width", _LENGTH, 1e-3, 100.0),
-    Number("height", _LENGTH, 1e-3, 100.0),
-)
-_RELEASE = (Number("tilt_uncertainty", _ANGLE, 0.0, 0.5, required=False),)
-_GYRO = (
-    Number("sample_rate", _HZ, 10.0, 1e6),
-    Number("noise", _RATE, 0.0, 2.0),
-    Number("bandwidth", _HZ, 0.1, 1e6),
-    Number("resolution", _RATE, 0.0, 2.0),
-    Number("range", _RATE, 1e-3, 1e3, required=False),
-)
 
 
 @dataclass(frozen=True)
@@ -177,11 +156,18 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
     folder = Path(folder)
     if not folder.is_dir():
         cure = "Name a folder that holds experiment.toml and the tables of the runs."
+        if folder.is_file() and folder.suffix in LOGS:
+            cure = (
+                f"Make a folder of it and the other logs: rockref new my_block {shown(str(folder.parent / '*'), 200)}."
+            )
         raise InputError("E-FOLDER", shown(str(folder), 200), "is not a folder", cure)
     source = folder / "experiment.toml"
     if not source.is_file() and any(folder.glob("tosses.csv*")):
         cure = "Use it with compare, diagnose, fit, add or reproduce cube."
         raise InputError("E-KIND", shown(str(folder), 200), "holds tosses; this is not for tosses", cure)
+    if not source.is_file() and any(path.suffix in LOGS for path in folder.iterdir()):
+        cure = f"Make one: rockref new my_block {folder} --mass 54kg --width 100mm --height 688mm."
+        raise InputError("E-FILE", str(source), "is not there, and the folder holds logs", cure)
     document, sha256 = read_toml(source)
     experiment = replace(_head(document, folder, str(source)), toml_sha256=sha256)
     runs = _listed_runs(document["run"], experiment, str(source))
@@ -189,6 +175,9 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
     if not any(run.use == HOLDOUT for run in runs):
         cure = "Keep one run in four back, with another tilt or side."
         notices.append(Notice("W-NO-HOLDOUT", str(source), "no run is marked holdout", cure))
+    if "gyro" in document:
+        gyro, found = _gyro(document["gyro"], runs, folder, str(source))
+        experiment, notices = replace(experiment, gyro=gyro), notices + found
     loaded = tuple(_load_run(run, experiment, notices) if run.use in uses else run for run in runs)
     _note_copies(loaded, str(source), notices)
     return replace(experiment, runs=loaded, notices=tuple(notices))
@@ -196,26 +185,12 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
 
 def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:
     release = document.get("kind") != "toss"
-    top = read_fields(
-        document,
-        (
-            Text("name"),
-            Text("kind", KINDS),
-            Text("baseline", BASELINES),
-            Section("block"),
-            Section("release", required=release),
-            Section("gyro", required=release),
-            Section("run", many=True),
-        ),
-        source,
-    )
+    check_complete(document, source)
+    top = read_fields(document, top_fields(release), source)
     if not _NAME.fullmatch(top["name"]):
         raise _bad_name(f"{source}, key name", top["name"])
-    block = read_fields(top["block"], _BLOCK, f"{source}, [block]")
-    tilt = read_fields(top["release"], _RELEASE, f"{source}, [release]") if top["release"] is not None else {}
-    gyro = None
-    if top["gyro"] is not None:
-        gyro = Gyro(**read_fields(top["gyro"], _GYRO, f"{source}, [gyro]"))
+    block = read_fields(top["block"], BLOCK, f"{source}, [block]")
+    tilt = read_fields(top["release"], RELEASE, f"{source}, [release]") if top["release"] is not None else {}
     return Experiment(
         path=folder,
         name=top["name"],
@@ -225,9 +200,17 @@ def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:
         width=block["width"],
         height=block["height"],
         tilt_uncertainty=tilt.get("tilt_uncertainty"),
-        gyro=gyro,
+        gyro=None,
         runs=(),
     )
+
+
+def _gyro(table: Any, runs: tuple[Run, ...], folder: Path, source: str) -> tuple[Gyro, list[Notice]]:
+    """Return the gyroscope, and remarks on what of its data sheet was not stated."""
+    stated = read_fields(table, GYRO, f"{source}, [gyro]")
+    first = next(run for run in runs if run.use == FIT)
+    sheet, notices = completed(stated, folder / first.file, source)
+    return Gyro(**sheet), notices  # type: ignore[arg-type]
 
 
 def _density(experiment: Experiment, source: str) -> list[Notice]:
@@ -278,14 +261,7 @@ def _check_first(first: int, number: int, where: str, what: str) -> None:
 
 def _listed_run(table: Any, experiment: Experiment, where: str) -> Run:
     release = experiment.kind == "release"
-    fields = (
-        Text("id"),
-        Text("file"),
-        Text("use", USES),
-        Number("release_tilt", _ANGLE, -1e6, 1e6, required=release),
-        Number("block_turned", _TURN, -1e6, 1e6, required=release),
-    )
-    values = read_fields(table, fields, where)
+    values = read_fields(table, run_fields(release), where)
     if not _NAME.fullmatch(values["id"]):
         raise _bad_name(f"{where}, key id", values["id"])
     if release:

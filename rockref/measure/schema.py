@@ -28,6 +28,7 @@ class Number:
     low: float
     high: float
     required: bool = True
+    example: str = ""
 
     @property
     def keys(self) -> list[str]:
@@ -42,6 +43,7 @@ class Text:
     name: str
     choices: Sequence[str] = ()
     required: bool = True
+    example: str = ""
 
     @property
     def keys(self) -> list[str]:
@@ -92,7 +94,7 @@ def read_fields(table: Any, fields: Sequence[Field], where: str) -> dict[str, An
     """
     if not isinstance(table, dict):
         raise InputError("E-TYPE", where, f"{_value(table)} is not a table", "Write a table with its keys.")
-    _refuse_unknown(table, fields, where)
+    refuse_unknown(table, fields, where)
     found: dict[str, Any] = {}
     for field in fields:
         present = [key for key in field.keys if key in table]
@@ -109,7 +111,8 @@ def read_fields(table: Any, fields: Sequence[Field], where: str) -> dict[str, An
     return found
 
 
-def _refuse_unknown(table: Mapping[str, Any], fields: Sequence[Field], where: str) -> None:
+def refuse_unknown(table: Mapping[str, Any], fields: Sequence[Field], where: str) -> None:
+    """Refuse a key that no field has. Raises InputError: E-KEY-UNKNOWN, and E-UNIT for one without its unit."""
     known = {key: field for field in fields for key in field.keys}
     for key in table:
         if key in known:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from rockref.measure.datasheet import BANDWIDTH_SHARE
 from rockref.measure.importing.axes import ALONE, Axes, find_axes
 from rockref.measure.importing.channels import find_channels
 from rockref.measure.importing.layout import read_log
@@ -19,9 +20,6 @@ from rockref.measure.noise import noise_floor, smallest_step
 from rockref.measure.notice import Notice
 from rockref.model.errors import InputError
 
-# decided: a digital low-pass lies at a fifth to a half of the sample rate (MPU-6050: 188 Hz at 1 kHz, PS-MPU-6000A-00,
-# section 4; LSM6DS3: ODR/2 to ODR/4, DocID026899, table 69).
-BANDWIDTH_SHARE = 0.3
 # decided: tilts within one standing wire's uncertainty are meant to be the same one: 1 mm in 0.67 m.
 SAME_TILT = 1.5e-3
 # decided: the scale of a gyroscope on a chip is good to one part in a hundred; 1 mm of wire is 0.0014 rad.
@@ -306,7 +304,7 @@ def _remarks(runs: Sequence[ImportedRun], motions: Sequence[Motion], axes: Axes,
             notices.append(Notice("W-ZERO", run.source, what, "Record from a second before the release."))
         if abs(run.tilt / run.measured - 1.0) > TILT_AGREES:
             what = f"a tilt of {run.tilt:.4g} rad is stated, and the rates add up to {run.measured:.4g} rad"
-            notices.append(Notice("W-TILT", run.source, what, "Check the tilt, its unit, and that of the rates."))
+            notices.append(Notice("W-TILT-OFF", run.source, what, "Check the tilt, its unit, and that of the rates."))
     if not axes.up_known:
         what = "no accelerometer says which end of the chip's axis is up"
         cure = "Where it points down, give --axes with the signs of Y and Z turned."

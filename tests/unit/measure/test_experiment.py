@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rockref.measure.experiment import load_experiment
+from rockref.measure.noise import noise_floor
 from rockref.measure.repeatability import repeat_groups
 from rockref.model import storage
 from rockref.model.errors import InputError
@@ -107,13 +108,6 @@ TOML = {
     "mass in grams": ("mass_kg = 54.0", "mass_g = 54000", "E-UNIT", "'mass_g'", "mass_kg"),
     "height twice": ("height_m", "height_mm = 688\nheight_m", "E-KEY-TWICE", "[block]", "height_m and height_mm"),
     "width in millimetres": ("width_m = 0.100", "width_m = 100.1", "E-RANGE", "key width_m", "100.1"),
-    "release missing": (
-        "[release]\ntilt_uncertainty_rad = 0.0014\n",
-        "",
-        "E-KEY-MISSING",
-        "experiment.toml",
-        "release",
-    ),
     "rate zero": (
         "sample_rate_hz = 500",
         "sample_rate_hz = 0",
@@ -121,7 +115,7 @@ TOML = {
         "[gyro], key sample_rate_hz",
         "0 is outside",
     ),
-    "noise missing": ("noise_deg_s = 0.05\n", "", "E-KEY-MISSING", "[gyro]", "noise_deg_s"),
+    "rate missing": ("sample_rate_hz = 500\n", "", "E-KEY-MISSING", "[gyro]", "sample_rate_hz = 1000"),
     "key misspelt": ("bandwidth_hz", "bandwith_hz", "E-KEY-UNKNOWN", "'bandwith_hz'", "Did you mean bandwidth_hz?"),
     "no run": ("[[run]]", "[[runs]]", "E-KEY-UNKNOWN", "'runs'", "Did you mean run?"),
     "use unknown": ('use = "fit"', 'use = "train"', "E-CHOICE", "run[1], key use", "fit, holdout"),
@@ -262,3 +256,40 @@ def test_refused_tilts_and_turns_name_the_key_as_it_is_written(folder):
     assert refused(folder).where.endswith("run[2], key block_turned_deg")
     rewrite(folder, "release_tilt_rad = 0.117", "release_tilt_deg = 12")
     assert refused(folder).where.endswith("run[1], key release_tilt_deg")
+
+
+def test_what_is_missing_is_said_at_once(folder):
+    """Every missing key, with a line to copy; the page of a beginner needs no thirteen tries."""
+    (folder / "experiment.toml").write_text('kind = "release"\n[gyro]\nnoise_deg_s = 0.05\n[[run]]\nid = "01"\n')
+    error = refused(folder)
+    assert error.code == "E-KEY-MISSING" and "10 keys" in error.what
+    for line in ('name = "my_block"', "[block]", "mass_kg = 54.0", "sample_rate_hz = 1000", 'file = "run01.csv"'):
+        assert line in error.cure.splitlines()[0] or f"  {line}" in error.cure.splitlines()
+
+
+def test_a_misspelt_key_is_told_before_it_is_missed(folder):
+    text = (folder / "experiment.toml").read_text()
+    (folder / "experiment.toml").write_text(text.replace("height_m", "hieght_m").replace('name = "made"', ""))
+    assert refused(folder).code == "E-KEY-UNKNOWN"
+
+
+def test_an_open_data_sheet_is_measured_or_taken_by_default(folder):
+    """Noise of the record, three tenths of the sample rate, and a remark on each; the release may be absent."""
+    stated = load_experiment(folder)
+    text = (folder / "experiment.toml").read_text()
+    for line in ("noise_deg_s = 0.05\n", "bandwidth_hz = 200\n", "resolution_deg_s = 0.01\n", "[release]\n"):
+        assert line in text
+        text = text.replace(line, "")
+    (folder / "experiment.toml").write_text(text.replace("tilt_uncertainty_rad = 0.0014\n", ""))
+    found = load_experiment(folder)
+    assert found.gyro.bandwidth == pytest.approx(0.3 * found.gyro.sample_rate)
+    # The calm tenth of a record gives its noise to a fifth.
+    assert found.gyro.noise == pytest.approx(noise_floor(stated.runs[0].t, stated.runs[0].crv).sigma.mean(), rel=1e-9)
+    assert [n.code for n in found.notices if n.code in ("W-DEFAULT", "W-TILT")] == ["W-TILT", "W-DEFAULT", "W-DEFAULT"]
+
+
+def test_logs_without_an_experiment_suggest_the_command(folder):
+    (folder / "experiment.toml").unlink()
+    assert "rockref new" in refused(folder).cure
+    with pytest.raises(InputError, match="rockref new"):
+        load_experiment(folder / "run01.csv")

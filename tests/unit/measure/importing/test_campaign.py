@@ -119,7 +119,7 @@ def test_what_is_stated_goes_before_what_is_measured(measured, tmp_path):
     assert [run.use for run in campaign.runs] == ["fit", "holdout", "fit"]
     assert not any(run.turned for run in campaign.runs)
     assert campaign.axes.signs == (-1, 1, -1)
-    assert "W-TILT" in {n.code for n in campaign.notices}
+    assert "W-TILT-OFF" in {n.code for n in campaign.notices}
 
 
 @pytest.mark.parametrize("words", [("x", "y"), ("x", "x", "z"), ("x", "y", "-z")])
