@@ -6,7 +6,7 @@ For searches and for short windows, where building a `Problem` per run would cos
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -106,15 +106,7 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
             batch.wanted, full, states, forces, memories, written,
         )  # fmt: skip
 
-    workers = workers or os.cpu_count() or 1
-    edges = np.linspace(0, B, min(B, workers * PIECES) + 1).astype(int)
-    pieces = list(zip(edges[:-1], edges[1:], strict=True))
-    if workers == 1 or len(pieces) == 1:
-        for bounds in pieces:
-            piece(bounds)
-    else:
-        with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(piece, pieces))
+    in_pieces(piece, B, workers)
     asked = np.sum(batch.wanted >= 0, axis=1) if out is not None else np.full(B, R)
     for b in np.flatnonzero(written < asked):  # lost, or not asked for
         rest = slice(written[b], asked[b])
@@ -122,6 +114,19 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
         if full:
             forces[b, rest] = memories[b, rest] = np.nan
     return (states, forces, memories) if full else states
+
+
+def in_pieces(piece: Callable[[tuple[int, int]], None], runs: int, workers: int | None) -> None:
+    """Call `piece` with the bounds of pieces of the runs, on threads (None: as many as there are cores)."""
+    workers = workers or os.cpu_count() or 1
+    edges = np.linspace(0, runs, min(runs, workers * PIECES) + 1).astype(int)
+    pieces = list(zip(edges[:-1], edges[1:], strict=True))
+    if workers == 1 or len(pieces) == 1:
+        for bounds in pieces:
+            piece(bounds)
+    else:
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(piece, pieces))
 
 
 def checked(batch: Batch) -> Batch:

@@ -10,8 +10,11 @@ from rockref.engines.compiled.loads import add_loads, resistance
 from rockref.engines.compiled.points import pulled, pushed, roll_moment, spin_moment
 
 
-def make_evaluation(groups: int):
-    """The evaluation with these groups of effects; what belongs to the others is not compiled."""
+def make_evaluation(groups: int, listening: int = 0):
+    """The evaluation with these groups of effects; what belongs to the others is not compiled.
+
+    listening : whether it also sums normal forces and their lever arms, which the correction of a listening run needs.
+    """
     contact, forces_too, moments_too = groups & slots.CONTACT, groups & slots.FORCES, groups & slots.MOMENTS
     loads, plate = groups & slots.LOADS, groups & slots.PLATE
 
@@ -20,8 +23,9 @@ def make_evaluation(groups: int):
         body, centres, props, memory, forces, e, on, timed, sunk,
         x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn,
     ):  # fmt: skip
-        """Acceleration (3), body moment (3), and force and moment on the plate at one pose; forces and memories are
-        written. sunk : q, q_rate, pitch, pitch_rate of the plate.
+        """Acceleration (3), body moment (3), force and moment on the plate at one pose, and the sums of the normal
+        forces and of normal force times lever arm (4); forces and memories are written. sunk : q, q_rate, pitch,
+        pitch_rate of the plate.
 
         Points above the plate are passed over: their forces are zero, and adding zero changes no bit.
         """
@@ -31,6 +35,7 @@ def make_evaluation(groups: int):
         oy = L3 * W0 + L4 * W1 + L5 * W2
         oz = L6 * W0 + L7 * W1 + L8 * W2
         Fx = Fy = Fz = Mx = My = Mz = turning = 0.0
+        place0 = place1 = place2 = 0.0
         if loads:
             resisting = resistance(on, e, v0, v1, v2, ox, oy, oz)
         if forces_too:
@@ -80,6 +85,10 @@ def make_evaluation(groups: int):
             Fx += fx
             Fy += fy
             Fz += fz
+            if listening:
+                place0 += fz * rx
+                place1 += fz * ry
+                place2 += fz * rz
             if plate:
                 turning += (x1 + ry) * fz
             Mx += ry * fz - rz * fy  # A2
@@ -104,6 +113,7 @@ def make_evaluation(groups: int):
                     roll_x += mx
                     roll_y += my
         mass, g, carried = body[col.MASS], body[col.GRAVITY], Fz
+        bearing = (Fz, place0, place1, place2)
         Fz -= mass * g  # A1
         if forces_too:
             if on.adhesion:
@@ -137,6 +147,6 @@ def make_evaluation(groups: int):
         Tx = L0 * Mx + L3 * My + L6 * Mz  # A3
         Ty = L1 * Mx + L4 * My + L7 * Mz
         Tz = L2 * Mx + L5 * My + L8 * Mz
-        return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz, carried, turning
+        return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz, carried, turning, bearing
 
     return evaluate

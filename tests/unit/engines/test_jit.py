@@ -19,9 +19,9 @@ def test_variants_do_not_share_a_file():
 
 
 def test_each_variant_calls_functions_of_its_own():
-    called = [loop.py_func.__globals__["evaluate"] for loop in kernel.LOOPS.values()]
+    called = [loop.py_func.__globals__["steps"] for loop in kernel.LOOPS.values()]
     assert len(set(map(id, called))) == len(called)
-    assert kernel.evaluate is None, "the text of the loop itself belongs to no variant"
+    assert kernel.steps is None, "the text of the loop itself belongs to no variant"
 
 
 def test_what_each_variant_calls_has_a_name_of_its_own():

@@ -1,0 +1,136 @@
+"""Batches of runs that listen to observed rates; only their own rates come out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rockref.engines import ENGINES, has_numba
+from rockref.model.errors import InputError
+from rockref.model.listening import Target, listen
+from rockref.model.problem import Problem
+
+if TYPE_CHECKING:
+    from rockref.engines.compiled.batch import Batch
+
+
+@dataclass(frozen=True)
+class Listening:
+    """What the runs of a batch listen to, at ticks 0 .. K-1. The start is tick 0; no run corrects there.
+
+    rates : (M, K, 3) observed rates [rad/s], body axes
+    turns : (M, K, 3, 3) observed rotation since the start: the observed attitude is Lambda(start) @ turns
+    heard : (M, K, 4) factors from 0 to 1 on the gains of the three rates and of the attitude, or None for 1; 0 where
+        the record is clipped or lost, and any finite number stands in `rates` and `turns`
+    which : (B,) which of the M targets a run listens to
+    gain_rate, gain_attitude : (B,) 1 - exp(-tick / tau), with the time constants of rates and attitude
+    every : steps from tick to tick
+    """
+
+    rates: np.ndarray
+    turns: np.ndarray
+    heard: np.ndarray | None
+    which: np.ndarray
+    gain_rate: np.ndarray
+    gain_attitude: np.ndarray
+    every: int
+
+
+def run_listening(
+    batch: Batch | Sequence[Problem], listening: Listening, workers: int | None = None, engine: str = "auto"
+) -> np.ndarray:
+    """Run a batch that listens, on `workers` threads (default: all cores).
+
+    Parameters
+    ----------
+    batch : arrays for the compiled engine, or problems that share step and number of points, whose effects may be a
+        user's own. What the batch wants recorded is left aside.
+    engine : "numba", "numpy" (problems only), or "auto": numba where it is installed and knows every effect.
+
+    Returns
+    -------
+    (B, K, 3) body rates [rad/s] at the ticks, each before its own correction; the first are those of the start. A run
+    that loses its numbers has NaN from there on. The bits do not depend on the number of workers.
+
+    Raises
+    ------
+    InputError
+        E-SHAPE, where the arrays do not fit together; E-RANGE, for a number that is not finite, a gain or factor
+        outside 0 to 1, or a target that is not there; E-ENGINE, where the engine cannot run the batch; E-STACK, E-TWIN
+        as `rockref.engines.compiled.batch.from_problems`.
+    """
+    problems = None if hasattr(batch, "props") else list(batch)  # type: ignore[call-overload]
+    runs = len(batch.props) if problems is None else len(problems)  # type: ignore[union-attr]
+    listening = checked(listening, runs)
+    if compiles(problems, engine):
+        from rockref.engines.compiled import batch as compiled
+        from rockref.engines.compiled.listening import run
+
+        arrays: Any = batch if problems is None else compiled.from_problems(problems)
+        return run(arrays, listening, workers)
+    return np.stack([alone(p, listening, b) for b, p in enumerate(problems or [])])
+
+
+def compiles(problems: list[Problem] | None, engine: str) -> bool:
+    """Whether the compiled engine runs these problems, or arrays (None); raises InputError (E-ENGINE)."""
+    if engine not in ENGINES:
+        raise InputError("E-ENGINE", "engine", f"is {engine!r}", f"Use one of {', '.join(ENGINES)}.")
+    if engine == "numpy" and problems is None:
+        raise InputError("E-ENGINE", "engine", "is numpy, which takes no arrays", "Give problems.")
+    if engine != "numpy" and problems is not None and not has_numba():
+        engine = "numpy" if engine == "auto" else engine
+    if engine != "numpy" and not has_numba():
+        raise InputError("E-ENGINE", "engine", "numba is not installed", "pip install 'rockref[fast]', or use numpy.")
+    if engine == "auto" and problems is not None:
+        from rockref.engines.compiled.pack import has_twin
+
+        return all(map(has_twin, problems))
+    return engine != "numpy"
+
+
+def target_of(listening: Listening, b: int) -> Target:
+    """Return what run `b` listens to."""
+    m = int(listening.which[b])
+    heard = listening.heard[m] if listening.heard is not None else np.ones(listening.rates.shape[1:2] + (4,))
+    return Target(
+        rates=listening.rates[m], turns=listening.turns[m], gain_rate=listening.gain_rate[b] * heard[:, :3],
+        gain_attitude=listening.gain_attitude[b] * heard[:, 3], every=listening.every,
+    )  # fmt: skip
+
+
+def alone(problem: Problem, listening: Listening, b: int) -> np.ndarray:
+    """Return the rates (K, 3) of run `b` by the law's text, NaN where a step turns it too far."""
+    target = target_of(listening, b)
+    try:
+        return listen(problem, target)
+    except InputError as error:
+        if error.code != "E-ANGLE":
+            raise
+    return np.full_like(target.rates, np.nan)
+
+
+def checked(listening: Listening, runs: int) -> Listening:
+    """Return the target as contiguous float64 arrays; raises InputError (E-SHAPE, E-RANGE)."""
+    M, K = np.shape(listening.rates)[:2]
+    heard = np.ones((M, K, 4)) if listening.heard is None else listening.heard
+    most = np.finfo(float).max
+    given = {
+        "rates": (listening.rates, (M, K, 3), -most, most), "turns": (listening.turns, (M, K, 3, 3), -most, most),
+        "heard": (heard, (M, K, 4), 0, 1), "gain_rate": (listening.gain_rate, (runs,), 0, 1),
+        "gain_attitude": (listening.gain_attitude, (runs,), 0, 1), "which": (listening.which, (runs,), 0, M - 1),
+        "every": (listening.every, (), 1, most),
+    }  # fmt: skip
+    ready: dict[str, Any] = {}
+    for key, (value, shape, low, high) in given.items():
+        a = np.require(value, np.int64 if key in ("which", "every") else np.float64, ["C", "W"])
+        if a.shape != shape:
+            raise InputError("E-SHAPE", f"listening.{key}", f"has shape {a.shape}", f"Give {shape}.")
+        if not np.all((a >= low) & (a <= high)):
+            raise InputError(
+                "E-RANGE", f"listening.{key}", "is out of range", f"Give numbers from {low:g} to {high:g}."
+            )
+        ready[key] = a
+    return replace(listening, **{**ready, "every": int(ready["every"])})
