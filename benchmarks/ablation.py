@@ -31,7 +31,7 @@ from rockref.blind.scoring.evaluation import VERDICT
 from rockref.blind.scoring.marks import mark
 from rockref.blind.scoring.rivals import first_of_ranking, said
 from rockref.blind.scoring.table import scores
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.diagnose import diagnose
 from rockref.discover.fit import search

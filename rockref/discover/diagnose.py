@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.errors import FIT_STRETCH

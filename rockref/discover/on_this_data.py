@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.candidates import LEFT_OUT, kinds
 from rockref.discover.fit.information import eliminated, information
 from rockref.discover.fit.least_squares import Fit, Point

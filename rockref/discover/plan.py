@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model, simulate
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.fit.candidates import FORMS, LEFT_OUT, SHAPES, is_inverse, kinds, parameters_of, value_of
 from rockref.discover.fit.information import eliminated, information, own_parameters

@@ -6,7 +6,7 @@ from typing import Any
 
 from rockref.blind.cases.plan import CONTROL, OUTSIDER, PAIR, SINGLE, TWIN
 from rockref.blind.scoring.sizes import covered, size_error, stated
-from rockref.discover.verdict import least_seen
+from rockref.discover.window_rules import least_seen
 
 #: Verdicts that say of one or two effects that they are there.
 NAMING = ("named", "pair")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.families import (
     Family,
     gain_between,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.candidates import LEFT_OUT, kinds
 from rockref.discover.fit.families import (

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.candidates import OF_EACH_FOOT, SELDOM
 from rockref.discover.fit.families import Family
 from rockref.discover.fit.search import LITTLE

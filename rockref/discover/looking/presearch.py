@@ -11,7 +11,7 @@ from rockref.discover.fit.approach import best_for_all, placed, shares_of, switc
 from rockref.discover.fit.families import Family, size_of
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup, release_windows
-from rockref.discover.verdict import LEAST_SIZE
+from rockref.discover.window_rules import LEAST_SIZE
 from rockref.discover.windows.clipped import flat_tops
 from rockref.effects import catalogue
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.approach import BESIDE, along_ridge, heights_of, higher, pitching, ringing_alike, switches
 from rockref.discover.fit.candidates import FORMS
 from rockref.discover.fit.coarse import coarse_to_fine

@@ -13,7 +13,7 @@ from itertools import combinations
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import Family, mean_loss, refit, refit_all, room, size_of, structured
 from rockref.discover.fit.least_squares import Fit, Point

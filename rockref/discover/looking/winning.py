@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.families import Family, gain_between, mean_loss, refit, room, size_of, structured
 from rockref.discover.fit.search import LITTLE, MISSING, Setup, baseline

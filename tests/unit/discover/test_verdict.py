@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rockref.discover import verdict as rules
-from rockref.discover.verdict import Facts, decide, is_detected, ranking, settles
+from rockref.discover import window_rules as rules
+from rockref.discover.window_rules import Facts, decide, is_detected, ranking, settles
 
 
 def facts(effects=("quadratic_drag",), gains=None, bad=0.0, held=(0.5, 0.4)) -> Facts:

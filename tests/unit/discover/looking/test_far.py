@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rockref import Model
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit import families, search
 from rockref.discover.fit.families import Family, same_windows
 from rockref.discover.fit.least_squares import Point

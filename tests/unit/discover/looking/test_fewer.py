@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.families import gain_over
 from rockref.discover.looking import fewer
 from rockref.discover.looking.fewer import both_needed, one_for_both, without

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.families import gain_over, mean_loss, room
 from rockref.discover.looking import look as looking
 from rockref.discover.looking.look import Look, challenge, race, ranked, there

@@ -7,7 +7,7 @@ import pytest
 
 from rockref.discover.fit.parameter import Parameter
 from rockref.discover.looking.plainer import plainer
-from rockref.discover.verdict import DETECTED
+from rockref.discover.window_rules import DETECTED
 from tests.unit.discover.bowls import Bowl, family
 
 

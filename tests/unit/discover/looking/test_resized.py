@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.approach import HIGHER, higher
 from rockref.discover.fit.families import mean_loss, room, structured
 from rockref.discover.fit.least_squares import Point

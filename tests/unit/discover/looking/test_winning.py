@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.families import gain_over
 from rockref.discover.fit.parameter import Parameter
 from rockref.discover.looking import winning
