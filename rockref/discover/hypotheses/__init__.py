@@ -1,0 +1,1 @@
+"""What may be missing: the numbers of the law and of effects, each with its prior."""

@@ -1,0 +1,102 @@
+"""The numbers of the law that a fit finds, with priors that hold for any block."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rockref.api import Model
+from rockref.discover.hypotheses.parameter import Parameter
+from rockref.model.errors import InputError
+
+#: Range of each parameter of the law. Decided, from machined steel on a plate to rough stone: normal stiffness for each
+#: kilogram of mass [N/m/kg] (Table 3.1: 1.1e6), tangential over normal stiffness, damping ratios, friction
+#: coefficients, heights of the outer points in parts of 0.1 m of width [m], distance of the inner points in widths.
+STIFFNESS = (0.33e6, 3.5e6)
+TANGENTIAL = (0.3, 1.6)
+DAMPING = (0.02, 0.7)
+FRICTION = (0.07, 0.9)
+HEIGHT = (-10e-6, 210e-6)
+DISTANCE = (0.008, 0.17)
+#: Width to which HEIGHT belongs [m]; a wider base is machined to the same share of it (decided).
+HEIGHT_WIDTH = 0.1
+#: Roll of a release against the posture at rest [rad]; decided: feet of twice and half the common stiffness sink 5 to
+#: 10 um apart under half the weight, over 0.1 m.
+ROLL_UNCERTAINTY = 1e-4
+
+
+def set_parameter(name: str):
+    """Return a setter for one of the twelve."""
+    if name.startswith("delta_long_"):
+        i = int(name[-1]) - 1
+
+        def set_height(model: Model, value: float) -> Model:
+            heights = list(model.parameters.delta_long)
+            heights[i] = value
+            return model.replace(delta_long=tuple(heights))
+
+        return set_height
+    return lambda model, value: model.replace(**{name: value})
+
+
+def set_tilt_offset(model: Model, value: float) -> Model:
+    """Set the release tilt of a run against the stated one [rad]."""
+    return replace(model, origin={**model.origin, "tilt_offset": value})
+
+
+def set_roll_offset(model: Model, value: float) -> Model:
+    """Set the roll of a run at its release against the settled posture [rad]."""
+    return replace(model, origin={**model.origin, "roll_offset": value})
+
+
+def set_tangential_ratio(model: Model, value: float) -> Model:
+    """Set the tangential stiffness by its ratio to the normal one."""
+    return model.replace(K_T=value * model.parameters.K_N)
+
+
+def moved_parameters(model: Model) -> tuple[str, ...]:
+    """Return the names of the law's parameters that fits of a model move.
+
+    Raises
+    ------
+    InputError
+        E-MOOT, where none acts in the model.
+    """
+    names = tuple(name for name in model.acting_parameters() if name != "theta_0")
+    if not names:
+        what = "states all that a fit could move: nothing of [parameters] but theta_0 acts in it"
+        raise InputError("E-MOOT", "model", what, "Fit the nearest model on eight points, or simulate and compare it.")
+    return names
+
+
+def law_parameters(model: Model) -> tuple[Parameter, ...]:
+    """Return the law's parameters with wide priors, eleven on eight points."""
+    m, width = float(model.mass), float(model.width)
+    most = max(1.0, width / HEIGHT_WIDTH)
+    ranges: dict[str, tuple[float, float]] = {
+        "K_N": (STIFFNESS[0] * m, STIFFNESS[1] * m),
+        "delta_diag": (DISTANCE[0] * width, DISTANCE[1] * width),
+    }
+    ranges |= {f"delta_long_{k}": (HEIGHT[0] * most, HEIGHT[1] * most) for k in (1, 2, 3, 4)}
+    ranges |= dict.fromkeys(("beta_int", "beta_ext"), DAMPING) | dict.fromkeys(("mu_int", "mu_ext"), FRICTION)
+    found = []
+    for name in moved_parameters(model):
+        if name == "K_T":
+            found.append(bounded("K_T", set_tangential_ratio, TANGENTIAL, "log_uniform"))
+            continue
+        scale = "uniform" if name.startswith("delta_long_") else "log_uniform"
+        found.append(bounded(name, set_parameter(name), ranges[name], scale))
+    return tuple(found)
+
+
+def bounded(name: str, setter, limits: tuple[float, float], scale: str) -> Parameter:
+    """Return a number with a flat prior between two limits."""
+    return Parameter(name, setter, centre=0.0, scale=scale, low=limits[0], high=limits[1])
+
+
+def release_parameters(runs: int, tilt_uncertainty: float) -> tuple[Parameter, ...]:
+    """Return tilt and roll of each run's release, [rad], run by run."""
+    found = []
+    for i in range(runs):
+        found.append(Parameter(f"tilt_offset[{i}]", set_tilt_offset, 0.0, tilt_uncertainty, run=i, unit="rad"))
+        found.append(Parameter(f"roll_offset[{i}]", set_roll_offset, 0.0, ROLL_UNCERTAINTY, run=i, unit="rad"))
+    return tuple(found)

@@ -1,0 +1,93 @@
+"""One number of a model that a fit finds: how it is set, and its prior."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.special import ndtr, ndtri
+
+from rockref.api import Model
+
+#: Deviations beyond which a bounded number comes no nearer to its bounds; decided: 99.95 % of the prior lies within.
+FARTHEST = 3.5
+
+SCALES = ("linear", "log", "uniform", "log_uniform")
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number to be found, counted in prior deviations z: each z has a standard normal prior.
+
+    linear : centre + spread z;  log : centre exp(spread z)
+    uniform, log_uniform : every value (or logarithm) between low and high is alike a priori; the normal distribution
+        function of z gives the share of the way.
+    set(model, value) -> model, for run `run` or for all (None).  typical : z of one typical size of an effect, else 0.
+    low, high : hard limits.  moves_target : whether the number changes what the run listens to.
+    """
+
+    name: str
+    set: Callable[[Model, float], Model]
+    centre: float
+    spread: float = 1.0
+    scale: str = "linear"
+    run: int | None = None
+    low: float = -np.inf
+    high: float = np.inf
+    typical: float = 0.0
+    one_sided: bool = False
+    unit: str = ""
+    moves_target: bool = False
+
+    @property
+    def effect(self) -> str:
+        """The id of the effect that the number belongs to; empty for the law's own."""
+        head, dot, _ = self.name.partition(".")
+        return head if dot else ""
+
+    @property
+    def kind(self) -> str:
+        """The name without the run: numbers of one kind stand in as many runs."""
+        return self.name.partition("[")[0]
+
+    def value(self, z: float) -> float:
+        """Return the number at z."""
+        if self.scale == "linear":
+            v = self.centre + self.spread * z
+        elif self.scale == "log":
+            v = self.centre * np.exp(np.clip(self.spread * z, -50.0, 50.0))
+        else:
+            share = float(ndtr(min(max(z, -FARTHEST), FARTHEST)))
+            if self.scale == "uniform":
+                return float(self.low + (self.high - self.low) * share)
+            return float(self.low * (self.high / self.low) ** share)
+        return float(min(max(v, self.low), self.high))
+
+    def z_of(self, value: float) -> float:
+        """Return the z at which the number has this value."""
+        if self.scale == "linear":
+            return float((value - self.centre) / self.spread)
+        if self.scale == "log":
+            return float(np.log(max(value, 1e-300) / self.centre) / self.spread)
+        if self.scale == "uniform":
+            share = (value - self.low) / (self.high - self.low)
+        else:
+            share = np.log(max(value, 1e-300) / self.low) / np.log(self.high / self.low)
+        edge = float(ndtr(-FARTHEST))
+        return float(ndtri(min(max(share, edge), 1 - edge)))
+
+    @cached_property
+    def most(self) -> float:
+        """z above which nothing changes."""
+        return FARTHEST if "uniform" in self.scale else self.z_of(self.high) if np.isfinite(self.high) else np.inf
+
+    @cached_property
+    def least(self) -> float:
+        """z below which nothing changes."""
+        if "uniform" in self.scale:
+            return -FARTHEST
+        if not np.isfinite(self.low) or (self.scale == "log" and self.low <= 0):
+            return -np.inf
+        return self.z_of(self.low)

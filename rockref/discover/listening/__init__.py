@@ -1,0 +1,1 @@
+"""The run that listens to the gyroscope, what it listens to, and its innovations."""

@@ -1,0 +1,203 @@
+"""The measured runs of an experiment beside models that listen to them: predicted records and innovations."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover.listening.target import Grid, Target, grid, target_of
+from rockref.effects.base import Effect
+from rockref.engines.compiled import pack
+from rockref.engines.compiled.batch import Batch
+from rockref.engines.listening import Listening, run_listening
+from rockref.measure.experiment import Experiment, Gyro, Run
+from rockref.measure.gyroscope import expected, limited, sample
+from rockref.measure.noise import noise_floor
+from rockref.model.errors import InputError
+
+#: The time for which a memory states its steps [s].
+TICK = 0.5e-3
+#: Rate that stands for a motion that lost its numbers [rad/s].
+LOST = 50.0
+#: Rows that are simulated at a time; decided: their rates at the ticks stay below 100 MB.
+ROWS = 384
+#: Innovations count no further than this many noise widths; decided: the robust loss is flat there.
+FARTHEST = 1e3
+#: Samples over which the steepest change about a sample is taken, and what of it is noise, in noise widths of a
+#: difference (decided: five samples hold an impact's corner; 1.3 differences are rarely exceeded by noise alone).
+STEEPEST, STEEP_NOISE = 5, 1.3
+
+
+class Memory(NamedTuple):
+    """How long a run remembers by itself: time constants of rates and attitude [s], and steps of the law in 0.5 ms.
+
+    A run that listens is a Luenberger observer; its residuals are the innovations of prediction-error identification
+    (L. Ljung, System Identification, 2nd ed., ISBN 0-13-656695-2, chapter 7).
+    """
+
+    rates: float
+    attitude: float
+    steps: int = 16
+
+
+@dataclass(frozen=True)
+class Job:
+    """One set of models to be run: of each run the model that is released, or None where the run is left out."""
+
+    models: tuple[Model | None, ...]
+
+
+class Listener:
+    """Runs of an experiment, ready to be compared with models that listen to them.
+
+    Attributes
+    ----------
+    measured : (R, N, 3) records [rad/s], padded;  valid : (R, N) bool, which samples there are
+    sigma : (R, 3) noise of a sample [rad/s];  slope : (R, N, 3) steepest change of the record nearby [rad/s^2]
+    simulated : number of block-steps so far
+    """
+
+    def __init__(self, experiment: Experiment, runs: Sequence[Run], end: float, workers: int | None = None):
+        if experiment.gyro is None:
+            raise InputError("E-GYRO", f"{experiment.path}", "has no [gyro]", "State the gyroscope in experiment.toml.")
+        self.experiment, self.gyro, self.runs, self.workers = experiment, experiment.gyro, tuple(runs), workers
+        records = [record_of(run) for run in runs]
+        counts = [int(np.searchsorted(t, end - 1e-9)) for t, _ in records]
+        self.t = [t[:n] for (t, _), n in zip(records, counts, strict=True)]
+        self.N = max(counts)
+        self.measured = np.zeros((len(runs), self.N, 3))
+        self.valid = np.zeros((len(runs), self.N), bool)
+        for i, ((_, crv), n) in enumerate(zip(records, counts, strict=True)):
+            self.measured[i, :n], self.valid[i, :n] = crv[:n], True
+        self.sigma = np.stack([noise_of(run, self.gyro) for run in runs])
+        self.slope = np.stack(
+            [steepest(self.measured[i], self.sigma[i], self.gyro.sample_rate) for i in range(len(runs))]
+        )
+        self.ticks = grid(self.gyro.sample_rate, min(end, max(float(t[-1]) for t in self.t)))
+        self._targets: dict[tuple, Target] = {}
+        self.simulated = 0
+
+    def target(self, i: int, effects: tuple[Effect, ...]) -> Target:
+        """Return what run i tells of the block, its sensor having these effects; the last hundred are kept."""
+        key = (i, effects)
+        if key not in self._targets:
+            if len(self._targets) >= 100:
+                self._targets.clear()
+            self._targets[key] = target_of(self.runs[i], self.gyro, effects, self.ticks)
+        return self._targets[key]
+
+    def predict(self, jobs: Sequence[Job], memory: Memory, horizon: float | None = None) -> np.ndarray:
+        """Return what the gyroscope would show of listening models, (J, R, N, 3) [rad/s]; zero where a run is left out.
+
+        horizon [s] : how far each run is followed; N is then shorter.
+        """
+        N = self.N if horizon is None else min(self.N, int(horizon * self.gyro.sample_rate) + 1)
+        out = np.zeros((len(jobs), len(self.runs), N, 3))
+        rows = [(j, i, model) for j, job in enumerate(jobs) for i, model in enumerate(job.models) if model is not None]
+        rows.sort(key=lambda row: [e.id for e in row[2].effects])  # stable: blocks with the same effects side by side
+        for first in range(0, len(rows), ROWS):
+            self._predict_rows(rows[first : first + ROWS], memory, N, out)
+        return out
+
+    def _predict_rows(self, rows, memory: Memory, N: int, out: np.ndarray) -> None:
+        last = max(float(t[min(N, len(t)) - 1]) for t in self.t)
+        ticks = Grid(self.ticks.interval, min(self.ticks.count, int(last / self.ticks.interval * 1.03) + 40))
+        problems = [released(model, self.runs[i]) for _, i, model in rows]
+        rates = self.listened([i for _, i, _ in rows], problems, memory, ticks)
+        groups: dict[tuple[Effect, ...], list[int]] = {}
+        for k, (_, _, model) in enumerate(rows):
+            groups.setdefault(sensor_effects(model), []).append(k)
+        for effects, members in groups.items():
+            shown = expected(ticks.t, rates[members], self.gyro, effects)
+            for k, seen in zip(members, shown, strict=True):
+                j, i, _ = rows[k]
+                t = self.t[i][:N]
+                out[j, i, : len(t)] = limited(t, sample(ticks.t, seen, t), self.gyro, effects)
+
+    def listened(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> np.ndarray:
+        """Return body rates (B, K, 3) [rad/s] of released problems that listen to the runs `which`."""
+        every = math.ceil(memory.steps * ticks.interval / TICK - 1e-9)
+        keys = [(i, sensor_effects(p)) for i, p in zip(which, problems, strict=True)]
+        distinct = list(dict.fromkeys(keys))
+        targets = [self.target(i, effects) for i, effects in distinct]
+        K = ticks.count
+        gains = [1.0 - math.exp(-ticks.interval / tau) for tau in (memory.rates, memory.attitude)]
+        listening = Listening(
+            rates=np.stack([t.rates[:K] for t in targets]),
+            turns=np.stack([t.turns[:K] for t in targets]),
+            heard=np.stack([t.heard[:K] for t in targets]),
+            which=np.array([distinct.index(key) for key in keys]),
+            gain_rate=np.full(len(problems), gains[0]),
+            gain_attitude=np.full(len(problems), gains[1]),
+            every=every,
+        )
+        batch = stacked(problems, ticks.interval / every)
+        self.simulated += len(problems) * (K - 1) * every
+        rates = run_listening(batch, listening, self.workers)
+        return np.clip(np.nan_to_num(rates, nan=LOST, posinf=LOST, neginf=-LOST), -LOST, LOST)
+
+    def innovations(self, predicted: np.ndarray, jitter: float = 0.0) -> np.ndarray:
+        """Return (measured - predicted) in noise widths, (..., R, N, 3) as `predicted`; zero where there is no sample.
+
+        jitter [s] : uncertainty of an instant, by which steep parts of a record count less, alike for all models.
+        """
+        N = predicted.shape[-2]
+        width = np.sqrt(self.sigma[:, None, :] ** 2 + (jitter * self.slope[:, :N]) ** 2)
+        r = (self.measured[:, :N] - predicted) / width
+        return np.clip(r, -FARTHEST, FARTHEST) * self.valid[:, :N, None]
+
+
+def record_of(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Return times (N,) [s] and rates (N, 3) [rad/s] of an opened run."""
+    assert run.t is not None and run.crv is not None
+    return run.t, run.crv
+
+
+def noise_of(run: Run, gyro: Gyro) -> np.ndarray:
+    """Return the noise of a sample of each axis (3,) [rad/s], measured in calm stretches; at least that of rounding."""
+    stated = math.hypot(gyro.noise, gyro.resolution / math.sqrt(12))
+    try:
+        measured = noise_floor(*record_of(run)).sigma
+    except InputError:
+        return np.full(3, stated)
+    return np.maximum(measured, gyro.resolution / math.sqrt(12))
+
+
+def steepest(crv: np.ndarray, sigma: np.ndarray, rate: float) -> np.ndarray:
+    """Return the steepest change (N, 3) [rad/s^2] of a record among the samples nearby, noise taken off."""
+    from scipy.ndimage import maximum_filter1d
+
+    change = np.maximum(np.abs(np.gradient(crv, axis=0)) - STEEP_NOISE * sigma / math.sqrt(2), 0.0)
+    return maximum_filter1d(change, STEEPEST, axis=0) * rate
+
+
+def sensor_effects(thing) -> tuple[Effect, ...]:
+    """Return the effects of a model or problem that act on the sensor."""
+    return tuple(e for e in thing.effects if type(e).sensor is not Effect.sensor and not e.is_absent())
+
+
+def released(model: Model, run: Run):
+    """Return the problem of a run's release: stated tilt and roll with the offsets that the model's origin notes."""
+    tilt = float(run.release_tilt or 0.0) + float(model.origin.get("tilt_offset", 0.0))
+    roll = float(model.origin.get("roll_offset", 0.0))
+    problem = model.problem(duration=1.0, theta_0=tilt, turned=bool(run.block_turned), out_of_plane=roll)
+    return pack.with_memory(problem)
+
+
+def stacked(problems: Sequence, h: float) -> Batch:
+    """Return problems as one batch with this step [s]."""
+    return Batch(
+        body=np.stack([pack.body_row(p) for p in problems]),
+        P=np.stack([np.asarray(p.points.P, float) for p in problems]),
+        props=np.stack([pack.props_rows(p) for p in problems]),
+        memory=np.stack([pack.memory_rows(p.start) for p in problems]),
+        effects=np.stack([pack.effects_row(p) for p in problems]),
+        state=np.stack([pack.state_row(p) for p in problems]),
+        h=h,
+        wanted=np.zeros(1, np.int64),
+    )

@@ -1,0 +1,72 @@
+"""What a run listens to: the rates and the turns of the block that a record tells of, the sensor undone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.discover.listening.attitude import attitudes
+from rockref.effects.base import Effect
+from rockref.measure.experiment import Gyro, Run
+
+#: Least rate of the ticks [Hz]; decided: between ticks of 0.5 ms rates are straight to a thousandth over a contact of
+#: 1.5 ms (as `rockref.measure.gyroscope` has it).
+TICK_RATE = 2000.0
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The instants at which a run listens: `count` ticks, `interval` s apart, from the release on."""
+
+    interval: float
+    count: int
+
+    @property
+    def t(self) -> np.ndarray:
+        """Return the instants (count,) [s]."""
+        return self.interval * np.arange(self.count)
+
+
+def grid(sample_rate: float, end: float, beyond: float = 0.03) -> Grid:
+    """Return the ticks up to `end` s and a little `beyond`: whole parts of a sample, at TICK_RATE or above."""
+    parts = math.ceil(TICK_RATE / sample_rate - 1e-9)
+    interval = 1.0 / (sample_rate * parts)
+    return Grid(interval, int((end + beyond) / interval) + 2)
+
+
+@dataclass(frozen=True)
+class Target:
+    """Rates (K, 3) [rad/s] and turns since the release (K, 3, 3) at the ticks, and what of them is heard, (K, 4).
+
+    heard : factors 0 or 1 of the three rates and of the turn.
+    """
+
+    rates: np.ndarray
+    turns: np.ndarray
+    heard: np.ndarray
+
+
+def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid) -> Target:
+    """Return what a record tells of the block if its sensor had these effects.
+
+    The sensor is undone in reverse order: recorder, electronics, the data sheet's low-pass, mounting. Beyond the end of
+    a record, and where it was cut flat, nothing is heard.
+    """
+    assert run.t is not None and run.crv is not None
+    from rockref.effects import catalogue
+
+    t, crv = catalogue.undone(effects, run.t, run.crv, gyro.bandwidth)
+    heard = catalogue.heard(effects, run.t, run.crv)
+    if gyro.range is not None:
+        heard &= np.abs(run.crv) < gyro.range * (1 - 1e-6)
+    at = ticks.t
+    rates = np.stack([np.interp(at, t, crv[:, j]) for j in range(3)], axis=-1)
+    seen = np.stack([np.interp(at, t, heard[:, j].astype(float)) > 0.999 for j in range(3)], axis=-1)
+    seen &= (at <= t[-1])[:, None]
+    whole = np.logical_and.accumulate(seen.all(axis=1))
+    return Target(
+        rates, attitudes(np.eye(3), rates, ticks.interval), np.concatenate([seen, whole[:, None]], axis=1).astype(float)
+    )
