@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.beside import side_by_side
 from rockref.discover.fit.candidates import FORMS, SHAPES, value_of
 from rockref.discover.fit.common_factor import shared_out

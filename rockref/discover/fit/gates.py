@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.candidates import FORMS
 from rockref.discover.fit.information import Information, covariance, eliminated, own_parameters
 from rockref.discover.fit.least_squares import Fit, Point

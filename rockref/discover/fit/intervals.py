@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rockref.discover import verdict as rules
+from rockref.discover import window_rules as rules
 from rockref.discover.fit.candidates import SELDOM, SHAPES
 from rockref.discover.fit.common_factor import COMMON
 from rockref.discover.fit.least_squares import Fit, Point

@@ -1,0 +1,1 @@
+"""What a verdict may see: a plain value that is stored."""

@@ -1,0 +1,133 @@
+"""What a verdict may see of an experiment: plain numbers, stored and read back, from which it can be decided again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rockref.discover.diagnosis_record import plain
+from rockref.model.errors import InputError
+from rockref.model.storage import write_text
+
+#: Version of the stored form.
+FORMAT = 1
+
+
+@dataclass
+class Number:
+    """One number of an effect: value with its 90 % interval, unit, z in prior deviations, size in typical sizes."""
+
+    value: float
+    low: float
+    high: float
+    unit: str
+    z: float
+    size: float
+
+
+@dataclass
+class HypothesisEvidence:
+    """One set of effects, fitted at the longest memory.
+
+    objective : negative log posterior [nat];  eigenvalues : of its Gauss-Newton matrix in prior deviations
+    loss : mean robust loss (white noise: 0.945), by run and axis; of held-out runs by run in `held_out`
+    blocks : share of 50 ms blocks of each run that are far above white
+    farthest : of a law's number [prior deviations]
+    """
+
+    effects: tuple[str, ...]
+    objective: float
+    eigenvalues: list[float]
+    loss: float
+    loss_by_run_and_axis: dict[str, list[float]]
+    blocks: dict[str, float]
+    farthest: float
+    numbers: dict[str, Number] = field(default_factory=dict)
+    held_out: dict[str, float] = field(default_factory=dict)
+
+    def size(self, effect: str) -> float:
+        """Return the amplitude of an effect, that of its largest number [typical sizes]."""
+        return max((abs(n.size) for name, n in self.numbers.items() if name.partition(".")[0] == effect), default=0.0)
+
+
+@dataclass
+class Evidence:
+    """All that a verdict may see.
+
+    samples : innovations of the fit runs;  held_out_samples : of each held-out run
+    remarks : codes of the remarks on the records;  limits : least detectable amplitudes [typical sizes]
+    confusions : cosines between effects that these runs hardly tell apart
+    """
+
+    experiment: str
+    digest: str
+    samples: int
+    held_out_samples: dict[str, int]
+    hypotheses: list[HypothesisEvidence]
+    carried: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
+    signature: dict[str, Any] = field(default_factory=dict)
+    limits: dict[str, dict[str, Any]] = field(default_factory=dict)
+    confusions: dict[str, dict[str, float]] = field(default_factory=dict)
+    cost: dict[str, float] = field(default_factory=dict)
+
+    def of(self, effects) -> HypothesisEvidence | None:
+        """Return the evidence of a set of effects, in any order."""
+        return next((h for h in self.hypotheses if frozenset(h.effects) == frozenset(effects)), None)
+
+    def save(self, path: Path) -> None:
+        """Write the evidence as JSON, whole or not at all."""
+        write_text(path, json.dumps(plain({"format": FORMAT, **asdict(self)}), indent=1) + "\n")
+
+    @classmethod
+    def load(cls, path: Path) -> Evidence:
+        """Read stored evidence.
+
+        Raises
+        ------
+        InputError
+            E-FILE, E-JSON.
+        """
+        try:
+            found = json.loads(path.read_text(encoding="utf-8"))
+        except OSError as e:
+            raise InputError("E-FILE", str(path), f"cannot be read ({e.strerror})", "Check the path.") from e
+        except ValueError as e:
+            raise InputError("E-JSON", str(path), f"is no JSON: {e}", "Give what rockref diagnose has stored.") from e
+        return cls.from_dict(found, str(path))
+
+    @classmethod
+    def from_dict(cls, found: Mapping[str, Any], where: str = "evidence") -> Evidence:
+        """Return evidence from plain values. Raises InputError (E-JSON)."""
+        try:
+            given = dict(found)
+            if given.pop("format") != FORMAT:
+                raise InputError("E-JSON", where, "was stored in another form", "Diagnose the experiment again.")
+            given["hypotheses"] = [
+                HypothesisEvidence(**{
+                    **h, "effects": tuple(h["effects"]),
+                    "numbers": {k: Number(**n) for k, n in h["numbers"].items()},
+                })
+                for h in given["hypotheses"]
+            ]  # fmt: skip
+            for key in ("carried", "remarks"):
+                given[key] = tuple(given[key])
+            return cls(**given)
+        except (KeyError, TypeError) as e:
+            raise InputError("E-JSON", where, f"is no evidence ({e})", "Diagnose the experiment again.") from e
+
+
+def log_evidence(h: HypothesisEvidence, temperature: float) -> float:
+    """Return the logarithm of the evidence by Laplace's method at a temperature [nat].
+
+    Innovations of a chaotic motion are not as independent as white noise: all of the likelihood counts 1/temperature,
+    and so does the information that Occam's factor is made of (D. J. C. MacKay 1992, Neural Comput. 4:415-447,
+    doi:10.1162/neco.1992.4.3.415).
+    """
+    data = np.maximum(np.asarray(h.eigenvalues) - 1.0, 0.0)
+    return -h.objective / temperature - 0.5 * float(np.sum(np.log1p(data / temperature)))

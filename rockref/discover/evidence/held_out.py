@@ -1,0 +1,45 @@
+"""Held-out runs: all numbers that runs share stay as they were fitted; only each release is found anew."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.problem import FitProblem
+from rockref.discover.fit.stages import S1, S3, F
+from rockref.discover.hypotheses.parameter import Parameter
+from rockref.discover.listening.listener import Listener
+
+
+@dataclass
+class ReleaseProblem(FitProblem):
+    """Runs of which only the releases are found: `base` has everything else."""
+
+    def parameters(self, effects: Sequence[str] = ()) -> tuple[Parameter, ...]:
+        """Return the numbers of each run alone."""
+        return tuple(p for p in super().parameters(effects) if p.run is not None)
+
+
+def held_out_fit(fitter: Fitter, h: FittedModel, listener: Listener) -> tuple[Fitter, FittedModel]:
+    """Return a fit of the releases of held-out runs with the shared numbers of h."""
+    problem = fitter.problem
+    base = next(m for m in problem.job(fitter.parameters(h), h.z).models if m is not None)
+    own = {k: v for k, v in base.origin.items() if k not in ("tilt_offset", "roll_offset")}
+    released = ReleaseProblem(
+        problem.experiment, listener, base.replace(origin=own), tone=problem.tone, say=problem.say
+    )
+    inner = Fitter(released)
+    k = FittedModel(h.effects, np.zeros(len(released.parameters(h.effects))))
+    for stage in (S1, S3, F):
+        inner.refine(k, stage, 3)
+    return inner, k
+
+
+def held_out_losses(fitter: Fitter, h: FittedModel, listener: Listener) -> dict[str, float]:
+    """Return the mean loss of each held-out run at the longest memory."""
+    inner, k = held_out_fit(fitter, h, listener)
+    by_run = inner.losses(k).mean(axis=1)
+    return {run.id: float(value) for run, value in zip(listener.runs, by_run, strict=True)}

@@ -1,0 +1,34 @@
+"""How sure a number is: the sandwich of a fit, from gradients over blocks of time.
+
+Innovations of neighbouring instants are not independent where a model is a little wrong, and the inverse of the
+Gauss-Newton matrix alone is too narrow. P. J. Huber (1967), Proc. 5th Berkeley Symp. 1:221-233.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rockref.discover.fit.differences import jacobian
+from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.objective import weight
+from rockref.discover.fit.stages import Stage
+
+#: Length of a block [s] for the source's block; decided: several memories, so that blocks are independent.
+BLOCK = 0.1
+
+
+def covariance(fitter: Fitter, h: FittedModel, stage: Stage) -> tuple[np.ndarray, np.ndarray]:
+    """Return the sandwich covariance (G, G) of z, and the Gauss-Newton matrix (G, G), at a fit evaluated at a stage."""
+    assert h.r is not None
+    parameters = fitter.parameters(h)
+    J = jacobian(fitter.residuals(stage), parameters, h.z, h.r)
+    scores = (J * (weight(h.r) * h.r)).sum(axis=-1)  # (G, R, n)
+    G, R, n = scores.shape
+    length = max(1, round(BLOCK * fitter.problem.time_scale * fitter.problem.listener.gyro.sample_rate))
+    whole = n // length * length
+    blocks = scores[:, :, :whole].reshape(G, R * (whole // length), length).sum(axis=-1)
+    flat = J.reshape(G, -1)
+    H = (flat * weight(h.r).ravel()) @ flat.T + np.eye(G)
+    inverse = np.linalg.inv(H)
+    B = blocks @ blocks.T
+    return inverse @ (B + np.eye(G)) @ inverse, H

@@ -1,0 +1,188 @@
+"""The one door of the fit: hypotheses are evaluated, refined and compared here.
+
+1. A hypothesis is a set of effects with z, all its numbers in prior deviations.
+2. Its runs listen to the records (`rockref.discover.listening`); the innovations are its residuals.
+3. Wide central differences give the Jacobian, robust weights the Gauss-Newton matrix.
+4. Six dampings are tried at once, and the best step is taken.
+5. Stages of growing memory lead from a smooth objective to one that tells the most.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from rockref.discover.fit.differences import NARROWER, WIDEST, Residuals, jacobian
+from rockref.discover.fit.objective import inflation_for, loss, mean_loss, objective, weight
+from rockref.discover.fit.problem import FitProblem
+from rockref.discover.fit.stages import Stage
+from rockref.discover.hypotheses.parameter import Parameter
+
+#: Dampings of a Gauss-Newton step that are tried at once, and its longest component in prior deviations (decided).
+DAMPINGS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
+LONGEST = 1.5
+#: Nats that a step must gain for another one to follow (decided: neighbouring valleys differ by more).
+LEAST_GAIN = 3.0
+#: Mean loss that inflated noise leaves, and the move [prior deviations] below which a tempered fit has arrived
+#: (decided).
+TEMPERED, SMALL_MOVE = 1.5, 0.02
+
+
+@dataclass(eq=False)
+class FittedModel:
+    """A hypothesis at one z: its effects, innovations r (R, n, 3) of the last stage, objective [nat], mean loss.
+
+    loss is that at the true noise, whatever the stage's inflation. start : z at the end of the first stage.
+    """
+
+    effects: tuple[str, ...]
+    z: np.ndarray
+    r: np.ndarray | None = field(default=None, repr=False)
+    objective: float = np.inf
+    loss: float = np.inf
+    start: np.ndarray | None = field(default=None, repr=False)
+    H: np.ndarray | None = field(default=None, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Return the effects in words."""
+        return " + ".join(self.effects) or "nothing"
+
+    def copy(self) -> FittedModel:
+        """Return a copy that a fit may move."""
+        return replace(self, z=self.z.copy())
+
+
+class Fitter:
+    """Fits hypotheses of one problem, stage by stage."""
+
+    def __init__(self, problem: FitProblem):
+        self.problem = problem
+        self._widths: dict[str, float] = {}
+
+    def parameters(self, h: FittedModel) -> tuple[Parameter, ...]:
+        """Return the numbers of a hypothesis."""
+        return self.problem.parameters(h.effects)
+
+    def residuals(self, stage: Stage) -> Residuals:
+        """Return the innovations at a stage; widths of differences are kept from stage to stage."""
+        return Residuals(self.problem, stage, self._widths)
+
+    def widen(self) -> None:
+        """Let the next differences be wider by one step, where they had to be narrow."""
+        for name in list(self._widths):
+            self._widths[name] = min(self._widths[name] / NARROWER, WIDEST)
+
+    def evaluate(self, h: FittedModel, stage: Stage) -> FittedModel:
+        """Set the innovations, objective and mean loss of a hypothesis at a stage."""
+        self.evaluate_all([h], stage)
+        return h
+
+    def evaluate_all(self, field_: Sequence[FittedModel], stage: Stage) -> None:
+        """Evaluate many hypotheses at once."""
+        residuals = self.residuals(stage)
+        jobs = [self.problem.job(self.parameters(h), h.z) for h in field_]
+        fine = max(residuals.fineness(self.parameters(h), h.z) for h in field_)
+        for h, r in zip(field_, residuals.of(jobs, fine), strict=True):
+            self._set(h, r, residuals)
+
+    def _set(self, h: FittedModel, r: np.ndarray, residuals: Residuals) -> None:
+        h.r, h.objective = r, objective(r, h.z)
+        h.loss = mean_loss(r * residuals.stage.inflation, residuals.count)
+
+    def linearise(
+        self, h: FittedModel, stage: Stage, absent: Sequence[Parameter] = ()
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return Gauss-Newton matrix (G, G) and gradient (G,) of the objective at h, with the prior.
+
+        absent : numbers of effects that h does not have, which follow its own.
+        """
+        assert h.r is not None
+        parameters = (*self.parameters(h), *absent)
+        z = np.concatenate([h.z, np.zeros(len(absent))])
+        J = jacobian(self.residuals(stage), parameters, z, h.r, len(absent)).reshape(len(z), -1)
+        r = h.r.ravel()
+        weighted = J * weight(r)
+        return weighted @ J.T + np.eye(len(z)), weighted @ r + z
+
+    def step(self, h: FittedModel, stage: Stage, H: np.ndarray, g: np.ndarray) -> float:
+        """Take the best of six damped steps, if one is lower; return what it gained [nat]."""
+        parameters, residuals = self.parameters(h), self.residuals(stage)
+        points = [damped(h.z, H, g, damping, parameters) for damping in DAMPINGS]
+        found = residuals.at(parameters, points)
+        objectives = [objective(r, z) for r, z in zip(found, points, strict=True)]
+        best = int(np.argmin(objectives))
+        gain = h.objective - objectives[best]
+        if gain > 0:
+            h.z = points[best]
+            self._set(h, found[best], residuals)
+        return float(gain)
+
+    def refine(self, h: FittedModel, stage: Stage, most: int, least_gain: float = LEAST_GAIN) -> FittedModel:
+        """Take at most so many Gauss-Newton steps at a stage."""
+        self.evaluate(h, stage)
+        for _ in range(most):
+            h.H, g = self.linearise(h, stage)
+            if self.step(h, stage, h.H, g) < least_gain:
+                break
+        return h
+
+    def settle(self, h: FittedModel, stage: Stage, most: int, share: float = 0.02) -> FittedModel:
+        """Go on while a step gains more than a share of the objective."""
+        for _ in range(most):
+            before = h.objective
+            self.refine(h, stage, 1)
+            if h.objective > (1 - share) * before:
+                break
+        return h
+
+    def tempered(self, h: FittedModel, stage: Stage, most: int) -> FittedModel:
+        """Take steps with the noise inflated to what is left, never rising.
+
+        Far from the valley the weights of a robust loss would leave most innovations out; tempered, they count.
+        """
+        self.evaluate(h, stage)
+        count, inflation = self.residuals(stage).count, np.inf
+        for _ in range(most):
+            assert h.r is not None
+            true = h.r
+            inflation = min(inflation, inflation_for(true, count, TEMPERED))
+            before, warm = h.z, stage.inflated(inflation)
+            self.widen()
+            h.r, h.objective = true / inflation, objective(true / inflation, h.z)
+            H, g = self.linearise(h, warm)
+            self.step(h, warm, H, g)
+            h.r = h.r * inflation
+            h.objective = objective(h.r, h.z)
+            moved = float(np.abs(h.z - before).max())
+            if moved < SMALL_MOVE and inflation == 1.0:
+                break
+            if moved == 0.0:
+                inflation *= 0.7
+        return h
+
+    def without(self, h: FittedModel, effect: str) -> FittedModel:
+        """Return the same point without one effect."""
+        kept = [p.effect != effect for p in self.parameters(h)]
+        return FittedModel(tuple(e for e in h.effects if e != effect), h.z[kept].copy())
+
+    def with_effect(self, h: FittedModel, effect: str, z: np.ndarray | None = None) -> FittedModel:
+        """Return the same point with one more effect, at z (its numbers), or absent."""
+        more = len(self.problem.parameters((effect,))) - len(self.problem.parameters())
+        return FittedModel((*h.effects, effect), np.concatenate([h.z, np.zeros(more) if z is None else z]))
+
+    def losses(self, h: FittedModel) -> np.ndarray:
+        """Return the mean loss by run and axis (R, 3) of the last stage, without smoothing."""
+        assert h.r is not None
+        n = self.problem.listener.valid[:, : h.r.shape[1]].sum(axis=1)
+        return loss(h.r).sum(axis=1) / n[:, None]
+
+
+def damped(z: np.ndarray, H: np.ndarray, g: np.ndarray, damping: float, parameters: Sequence[Parameter]) -> np.ndarray:
+    """Return z after a damped Gauss-Newton step, no component longer than LONGEST, inside its limits."""
+    d = -np.linalg.solve(H + damping * np.diag(np.diag(H)), g)
+    d *= min(1.0, LONGEST / max(float(np.abs(d).max()), 1e-300))
+    least, most = np.array([p.least for p in parameters]), np.array([p.most for p in parameters])
+    return np.clip(z + d, least, most)

@@ -1,0 +1,114 @@
+"""What all fits of one experiment share: the runs, the baseline, and the numbers of each set of effects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.discover.fit.stages import time_scale
+from rockref.discover.hypotheses.effects import effect_parameters
+from rockref.discover.hypotheses.law import law_parameters, release_parameters
+from rockref.discover.hypotheses.parameter import Parameter
+from rockref.discover.listening.listener import Job, Listener
+from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment, Run
+from rockref.model.parameters import BLOCK, Parameters
+
+#: Seconds of each run that are used, for the source's block.
+END = 3.0
+
+
+@dataclass
+class FitProblem:
+    """The runs of an experiment and the baseline that is fitted to them.
+
+    base : the baseline without effects.  carried : effects of the user's model, part of every hypothesis
+    candidates : ids of the effects that may be missing.  tone : frequency [Hz] of a line in the misfit, if there is one
+    """
+
+    experiment: Experiment
+    listener: Listener
+    base: Model
+    candidates: tuple[str, ...] = ()
+    carried: tuple[str, ...] = ()
+    seed: int = 0
+    tone: float | None = None
+    say: Callable[[str], None] = lambda line: None
+    _known: dict = field(default_factory=dict, repr=False)
+
+    @property
+    def runs(self) -> tuple[Run, ...]:
+        """Return the runs."""
+        return self.listener.runs
+
+    @property
+    def time_scale(self) -> float:
+        """Return by how much slower than the source's block the block rocks."""
+        return time_scale(self.base)
+
+    def parameters(self, effects: Sequence[str] = ()) -> tuple[Parameter, ...]:
+        """Return the numbers of the law, of each release, and of these effects, in this order."""
+        key = (tuple(effects), self.tone)
+        if key not in self._known:
+            R = len(self.runs)
+            uncertainty = self.experiment.tilt_uncertainty or TILT_UNCERTAINTY
+            found = [*law_parameters(self.base), *release_parameters(R, uncertainty)]
+            for id in effects:
+                found += effect_parameters(id, R, self.tone)
+            self._known[key] = tuple(found)
+        return self._known[key]
+
+    def job(self, parameters: Sequence[Parameter], z: np.ndarray, only: Sequence[int] | None = None) -> Job:
+        """Return the models of the runs at z; of the runs `only`, where that is given."""
+        shared = self.base
+        for p, value in zip(parameters, z, strict=True):
+            if p.run is None:
+                shared = p.set(shared, p.value(float(value)))
+        models: list[Model | None] = []
+        for i in range(len(self.runs)):
+            if only is not None and i not in only:
+                models.append(None)
+                continue
+            model = shared
+            for p, value in zip(parameters, z, strict=True):
+                if p.run == i:
+                    model = p.set(model, p.value(float(value)))
+            models.append(model)
+        return Job(tuple(models))
+
+    def nominal(self, effects: Sequence[str] = ()) -> np.ndarray:
+        """Return z of the baseline's own numbers, those of Table 3.1 scaled with the block; effects are absent."""
+        parameters = self.parameters(effects)
+        z = np.zeros(len(parameters))
+        for k, p in enumerate(parameters):
+            if p.run is None and not p.effect:
+                z[k] = p.z_of(nominal_value(self.base, p.name))
+        return z
+
+
+def nominal_value(model: Model, name: str) -> float:
+    """Return a parameter of a model as a fit counts it: tangential over normal stiffness in place of K_T.
+
+    Where the parameters are those of Table 3.1, lengths scale with the width and stiffness with the mass.
+    """
+    p = model.parameters
+    of_source = p.replace(theta_0=Parameters().theta_0) == Parameters()
+    if name == "K_T":
+        return p.K_T / p.K_N
+    if name == "K_N":
+        return p.K_N * (model.mass / BLOCK["mass"].value if of_source else 1.0)
+    scale = model.width / BLOCK["width"].value if of_source else 1.0
+    if name.startswith("delta_long_"):
+        return p.delta_long[int(name[-1]) - 1] * scale
+    return getattr(p, name) * (scale if name == "delta_diag" else 1.0)
+
+
+def fit_problem(
+    experiment: Experiment, runs: Sequence[Run], base: Model, end: float = END, workers: int | None = None, **options
+) -> FitProblem:
+    """Return the problem of fitting a baseline to runs, up to `end` s for the source's block."""
+    carried = tuple(e.id for e in base.active_effects())
+    listener = Listener(experiment, runs, end * time_scale(base), workers)
+    return FitProblem(experiment, listener, replace(base, effects=()), carried=carried, **options)

@@ -1,0 +1,65 @@
+"""The stages of a fit: how long runs remember, how innovations are smoothed, how fine the steps are."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from rockref.api import Model
+from rockref.discover.listening.listener import Memory
+from rockref.model.parameters import BLOCK
+
+#: Half the diagonal of the source's block [m]: memories and horizons of another block scale with the root of its own,
+#: as rocking does (G. W. Housner 1963, Bull. Seismol. Soc. Am. 53:403-417).
+SOURCE_RADIUS = math.hypot(BLOCK["width"].value, BLOCK["height"].value) / 2
+#: Stiffness for each kilogram of mass [N/m/kg] up to which the steps of a stage are fine enough, and the largest factor
+#: on their number; decided: a contact of the source's block takes 48 steps of the finest stages.
+STIFF, FINEST = 1.15e6, 1.8
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One stage: time constants of the memory, smoothing and jitter [s], steps in 0.5 ms.
+
+    inflation : of the noise.  horizon [s] : how far runs are followed, None for all of it.
+    """
+
+    name: str
+    rates: float
+    attitude: float
+    smoothing: float = 0.0
+    jitter: float = 0.0
+    steps: int = 16
+    inflation: float = 1.0
+    horizon: float | None = None
+
+    def memory(self, time_scale: float, fineness: float) -> Memory:
+        """Return the memory for a block whose motion is slower by `time_scale`, with finer steps."""
+        return Memory(self.rates * time_scale, self.attitude * time_scale, math.ceil(self.steps * fineness))
+
+    def inflated(self, by: float) -> Stage:
+        """Return the stage with the noise taken larger."""
+        return replace(self, inflation=by)
+
+    def upto(self, horizon: float | None) -> Stage:
+        """Return the stage up to a horizon [s]."""
+        return replace(self, horizon=horizon)
+
+
+#: From short memories, whose objective is smooth and whose valley is wide, to a long one, which tells the most.
+#: Decided: gains of an effect grow by five from 10 to 80 ms, and the roughness of the objective, 30 to 100 nats at
+#: 40 ms, does so too.
+S1 = Stage("S1", 0.005, 0.1, smoothing=8e-3, steps=8)
+S2 = Stage("S2", 0.010, 0.2, smoothing=2e-3, steps=12)
+S3 = Stage("S3", 0.020, 0.5, jitter=0.05e-3)
+F = Stage("F", 0.040, 1.0, jitter=0.05e-3)
+
+
+def time_scale(model: Model) -> float:
+    """Return by how much slower than the source's block a block rocks."""
+    return math.sqrt(math.hypot(model.width, model.height) / 2 / SOURCE_RADIUS)
+
+
+def fineness(stiffness: float, mass: float) -> float:
+    """Return the factor on the steps for a normal stiffness [N/m] and mass [kg]."""
+    return min(max(1.0, math.sqrt(stiffness / mass / STIFF)), FINEST)

@@ -1,0 +1,117 @@
+"""Where the fit of a hypothesis starts: at the block's nominal numbers, or anywhere that the priors allow.
+
+A block whose feet nobody knows may lie in another valley than the source's. Quasi-random draws over the whole prior are
+followed at a short memory over the first swings; the best are refined there, moved along the known ridges, and followed
+farther and farther.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.stages import S1, Stage
+from rockref.discover.listening.listener import record_of
+from rockref.measure.impacts import main_impacts
+
+#: Draws, and how many of the best go on at each horizon; decided on simulated blocks of other feet.
+DRAWS, SURVIVORS = 1024, (6, 3, 2)
+#: Horizons in times of the first main impact; the last is the whole record.
+HORIZONS: tuple[float | None, ...] = (2.2, 3.7, None)
+#: Gauss-Newton steps at each horizon.
+STEPS = (3, 3, 4)
+#: Moves along a ridge in prior deviations.
+KICKS = (-1.4, -0.7, -0.35, 0.35, 0.7, 1.4)
+#: Share of each prior within which draws lie.
+INSIDE = (0.02, 0.98)
+#: Ridges of the null: numbers of the law that trade with each other, and the signs with which they do. Feet on one
+#: edge, a diagonal or alone; the inner points' distance with the mean height, by the angle at which these take over.
+RIDGES: tuple[dict[str, float], ...] = (
+    {"delta_diag": 1, "delta_long_1": 1, "delta_long_2": 1, "delta_long_3": 1, "delta_long_4": 1},
+    {"delta_diag": 1, "delta_long_1": -1, "delta_long_2": -1, "delta_long_3": -1, "delta_long_4": -1},
+    {"delta_diag": 1},
+    {"delta_long_1": 1, "delta_long_2": 1, "delta_long_3": 1, "delta_long_4": 1},
+    {"delta_long_1": 1, "delta_long_2": 1}, {"delta_long_3": 1, "delta_long_4": 1},
+    {"delta_long_1": 1, "delta_long_4": 1}, {"delta_long_2": 1, "delta_long_3": 1},
+    {"delta_long_1": 1, "delta_long_3": 1}, {"delta_long_2": 1, "delta_long_4": 1},
+    {"delta_long_1": 1}, {"delta_long_2": 1}, {"delta_long_3": 1}, {"delta_long_4": 1},
+    {"mu_int": 1, "mu_ext": 1}, {"mu_int": 1, "mu_ext": -1}, {"mu_int": 1}, {"mu_ext": 1},
+    {"K_N": 1}, {"K_T": 1}, {"K_N": 1, "K_T": -1},
+    {"beta_int": 1, "beta_ext": 1}, {"beta_int": 1, "beta_ext": -1},
+)  # fmt: skip
+
+
+def first_impact(fitter: Fitter) -> float:
+    """Return the time of the first main impact [s], the latest of the runs."""
+    found = [main_impacts(*record_of(run)).times for run in fitter.problem.runs]
+    return max((float(times[0]) for times in found if len(times)), default=0.5 * fitter.problem.time_scale)
+
+
+def draws(fitter: Fitter, effects: Sequence[str], z: np.ndarray, count: int) -> list[FittedModel]:
+    """Return starts over the whole prior of the law: `count` quasi-random ones, and the nominal one.
+
+    z : numbers of the releases and the effects, which all starts share.
+    """
+    from scipy.special import ndtri
+    from scipy.stats import qmc
+
+    parameters = fitter.problem.parameters(effects)
+    law = [k for k, p in enumerate(parameters) if p.run is None and not p.effect]
+    share = qmc.Sobol(len(law), seed=fitter.problem.seed).random(count)
+    found = [FittedModel(tuple(effects), z.copy())]
+    for row in ndtri(np.clip(share, *INSIDE)):
+        start = z.copy()
+        start[law] = row
+        found.append(FittedModel(tuple(effects), start))
+    return found
+
+
+def global_fit(
+    fitter: Fitter, effects: Sequence[str] = (), z: np.ndarray | None = None, count: int = DRAWS
+) -> FittedModel:
+    """Return a hypothesis fitted at the shortest memory from starts over the whole prior.
+
+    z : where it is known already (releases, sizes of sensor effects); by default nominal.
+    """
+    z = fitter.problem.nominal(effects) if z is None else z
+    unit = first_impact(fitter)
+    field = draws(fitter, effects, z, count)
+    for factor, most, keep in zip(HORIZONS, STEPS, SURVIVORS, strict=True):
+        stage = S1.upto(None if factor is None else factor * unit)
+        fitter.evaluate_all(field, stage)
+        field = sorted(field, key=lambda h: h.loss)[:keep]
+        for h in field:
+            fitter.tempered(h, stage, most)
+        field = sorted(field, key=lambda h: h.loss)[: max(1, keep // 2)]
+        for h in field:
+            kicked(fitter, h, stage, most)
+        field.sort(key=lambda h: h.loss)
+        fitter.problem.say(f"starts over the whole prior: mean loss {field[0].loss:.2f}")
+    best = field[0]
+    best.start = best.z.copy()
+    return best
+
+
+def kicked(fitter: Fitter, h: FittedModel, stage: Stage, most: int, rounds: int = 3) -> FittedModel:
+    """Move a fit along the ridges of the law as long as a move, refined, is lower."""
+    parameters = fitter.parameters(h)
+    index = {p.name: k for k, p in enumerate(parameters)}
+    for _ in range(rounds):
+        moved = []
+        for ridge in RIDGES:
+            if not ridge.keys() <= index.keys():
+                continue
+            for size in KICKS:
+                z = h.z.copy()
+                for name, sign in ridge.items():
+                    z[index[name]] = np.clip(z[index[name]] + size * sign, -2.5, 2.5)
+                moved.append(FittedModel(h.effects, z))
+        fitter.evaluate_all(moved, stage)
+        best = min(moved, key=lambda k: k.loss)
+        fitter.tempered(best, stage, most)
+        if best.loss > 0.99 * h.loss:
+            break
+        h.z, h.r, h.objective, h.loss = best.z, best.r, best.objective, best.loss
+    return h

@@ -1,0 +1,71 @@
+"""Successive halving: many starts, few steps each; who is within a margin of the best goes on to a longer memory.
+
+K. Jamieson, A. Talwalkar (2016), Non-stochastic best arm identification and hyperparameter optimization, AISTATS 51.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.objective import inflation_for
+from rockref.discover.fit.stages import S1, S2, F
+from rockref.discover.fit.starts import first_impact
+from rockref.discover.selection.score_test import best_of_each, proposals
+
+#: Additions that are tried at the first stage, refined at it, and taken to the second, at most.
+ENTRANTS, FIRST, SECOND = 9, 5, 3
+#: Share of the objective by which one may lie above the best and go on: a margin, never a rank.
+MARGIN = 1.15
+#: Part of the first swing over which the sensor is sized: before the first impact nothing is chaotic.
+FIRST_SWING = 0.85
+#: Steps that size a sensor's error from the release.
+SIZED = 3
+#: Mean loss that inflated noise leaves where an addition is proposed far from the valley.
+WARM = 1.5
+
+
+def within(field: Sequence[FittedModel], most: int, margin: float = MARGIN) -> list[FittedModel]:
+    """Return the best of a field, those within a margin of the first, at most so many."""
+    ranked = sorted(best_of_each(field), key=lambda h: h.objective)
+    return [h for h in ranked if h.objective <= margin * ranked[0].objective][:most]
+
+
+def halving(fitter: Fitter, start: FittedModel) -> list[FittedModel]:
+    """Return the best additions of one effect to a model, from its start at the shortest memory, fitted at S2."""
+    base = FittedModel(start.effects, start.z if start.start is None else start.start)
+    fitter.evaluate(base, S1)
+    assert base.r is not None
+    warm = S1.inflated(inflation_for(base.r, fitter.residuals(S1).count, WARM))
+    fitter.widen()
+    field = proposals(fitter, fitter.evaluate(base, warm), warm, ENTRANTS)
+    field += sized_at_release(fitter, base)
+    for h in field:
+        fitter.tempered(h, S1, 2)
+    say(fitter, "S1", field := within(field, FIRST, 2 * MARGIN))
+    for h in field:
+        h.start = h.z.copy()
+        fitter.refine(h, S2, 3)
+    field = within(field, SECOND)
+    say(fitter, "S2", field)
+    return field
+
+
+def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
+    """Return the base with each error of the sensor that it lacks, sized before the first impact at a long memory."""
+    found = []
+    stage = F.upto(FIRST_SWING * first_impact(fitter))
+    for e in fitter.problem.candidates:
+        numbers = fitter.problem.parameters((e,))[len(fitter.problem.parameters()) :]
+        if e in base.effects or not any(p.moves_target for p in numbers):
+            continue
+        h = fitter.tempered(fitter.with_effect(base, e), stage, SIZED)
+        own = len(base.z)
+        found.append(FittedModel(h.effects, h.z.copy()))
+        found[-1].z[:own] = base.z
+    return found
+
+
+def say(fitter: Fitter, stage: str, field: Sequence[FittedModel]) -> None:
+    """Tell how a field stands."""
+    fitter.problem.say(f"{stage}: " + ", ".join(f"{h.name} {h.objective:.0f} ({h.loss:.2f})" for h in field))

@@ -1,0 +1,128 @@
+"""Forward selection with backward elimination over {nothing, each effect, pairs, triples}, one budget for all.
+
+1. Fit the baseline at short memories. Innovations that stay above white contradict it.
+2. If contradicted: try all effects by successive halving, from the block's nominal numbers; then the baseline from
+   starts over the whole prior, and effects beside that. Still contradicted: one more effect beside the best.
+3. Lengthen the memory. At each stage the score test proposes more effects; those that gain enough join.
+4. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.stages import S1, S2, S3, F, Stage
+from rockref.discover.fit.starts import global_fit
+from rockref.discover.selection.halving import halving, say, within
+from rockref.discover.selection.score_test import best_of_each, proposals
+
+#: Mean loss from which innovations contradict a model (white noise: 0.945; right models stay below 1.06 here).
+CONTRADICTED = 1.12
+#: Share of the objective that an addition has to take off to join, at each stage (decided: what weak effects gain grows
+#: with the memory).
+JOINS = {"S3": 0.01, "F": 0.006}
+#: Models that go on, additions that are refined, effects at most.
+BEAM, ADDED, MOST = 4, 3, 3
+#: Steps at the later stages.
+STEPS = {"S3": 3, "F": 4}
+
+
+class Search:
+    """One search over the hypotheses of a problem."""
+
+    def __init__(self, fitter: Fitter):
+        self.fitter, self.problem = fitter, fitter.problem
+        self.seen: dict[frozenset[str], FittedModel] = {}
+
+    def run(self) -> list[FittedModel]:
+        """Return the last hypotheses at F, best objective first; the null is always one of them."""
+        beam = self.begin()
+        for stage in (S3, F):
+            beam = self.lengthen(beam, stage)
+        return self.eliminate(beam)
+
+    def null(self) -> FittedModel:
+        """Return the baseline from its nominal numbers at S2, and at S3 where S2 is contradicted."""
+        carried = self.problem.carried
+        null = FittedModel(carried, self.problem.nominal(carried))
+        self.fitter.tempered(null, S1, 4)
+        null.start = null.z.copy()
+        return self.settled(null)
+
+    def settled(self, h: FittedModel) -> FittedModel:
+        """Refine at S2, and go on there as long as innovations that are not white become much smaller."""
+        self.fitter.refine(h, S2, 3)
+        if h.loss > CONTRADICTED:
+            self.fitter.settle(h, S2, 3)
+        return h
+
+    def begin(self) -> list[FittedModel]:
+        """Return the hypotheses that explain the runs at S2, or come nearest to it."""
+        null = self.null()
+        self.problem.say(f"baseline: mean loss {null.loss:.2f}")
+        if null.loss <= CONTRADICTED:
+            return [null]
+        beam = [null, *halving(self.fitter, self.nominal())]
+        if self.best(beam).loss > CONTRADICTED:
+            wide = self.settled(global_fit(self.fitter, self.problem.carried))
+            beam.append(wide)
+            if wide.loss > CONTRADICTED:
+                beam += halving(self.fitter, wide)
+        for _ in range(MOST - 1):
+            best = self.best(beam)
+            if best.loss <= CONTRADICTED or len(best.effects) >= MOST:
+                break
+            beam += halving(self.fitter, best)
+        return [h for h in within(beam, BEAM)]
+
+    def nominal(self) -> FittedModel:
+        """Return the baseline at its nominal numbers, before it bends towards what it lacks."""
+        carried = self.problem.carried
+        return FittedModel(carried, self.problem.nominal(carried))
+
+    def best(self, beam: Sequence[FittedModel]) -> FittedModel:
+        """Return the hypothesis with the least objective."""
+        return min(beam, key=lambda h: h.objective)
+
+    def lengthen(self, beam: list[FittedModel], stage: Stage) -> list[FittedModel]:
+        """Fit a beam at a longer memory; let the score test add to the best."""
+        self.fitter.widen()
+        for h in beam:
+            self.fitter.refine(h, stage, STEPS[stage.name])
+        beam = within(beam, BEAM)
+        best = beam[0]
+        if len(best.effects) < MOST:
+            added = proposals(self.fitter, self.fitter.evaluate(best, stage), stage, ADDED)
+            for h in added:
+                self.fitter.refine(h, stage, 2)
+            bar = best.objective * (1 - JOINS[stage.name])
+            beam = best_of_each([*beam, *(h for h in added if h.objective < bar)])
+            if stage is F:
+                self.remember(added)
+        beam = within(beam, BEAM)
+        say(self.fitter, stage.name, beam)
+        return beam
+
+    def eliminate(self, beam: list[FittedModel]) -> list[FittedModel]:
+        """Take each effect of the best model out, try the best replacements, and return all at F."""
+        best = self.best(beam)
+        found: list[FittedModel] = []
+        for e in best.effects:
+            if e in self.problem.carried:
+                continue
+            less = self.fitter.refine(self.fitter.without(best, e), F, 3)
+            found.append(less)
+            for h in proposals(self.fitter, self.fitter.evaluate(less.copy(), F), F, 2):
+                found.append(self.fitter.refine(h, F, 2))
+        self.remember([*beam, *found])
+        beam = best_of_each([*beam, *found, *self.seen.values()])
+        beam.sort(key=lambda h: h.objective)
+        return beam
+
+    def remember(self, field: Sequence[FittedModel]) -> None:
+        """Keep the best fit of each set of effects at the longest memory."""
+        for h in field:
+            known = self.seen.get(frozenset(h.effects))
+            if known is None or h.objective < known.objective:
+                self.seen[frozenset(h.effects)] = h

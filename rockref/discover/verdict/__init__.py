@@ -1,0 +1,1 @@
+"""The verdict: a pure function of stored evidence and of calibrated numbers."""

@@ -1,0 +1,29 @@
+"""The numbers that decide, read from one file."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """The numbers of `calibration.toml`, where each has its meaning."""
+
+    temperature: float
+    prior_odds: float
+    certain: float
+    least_amplitude: float
+    misfit: float
+    misfit_of_run: float
+    agreeing_run: float
+    proof: float
+
+
+@cache
+def calibration() -> Calibration:
+    """Return the shipped numbers."""
+    text = (files("rockref.discover.verdict") / "calibration.toml").read_text(encoding="utf-8")
+    return Calibration(**{name: float(entry["value"]) for name, entry in tomllib.loads(text).items()})
