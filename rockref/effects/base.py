@@ -8,6 +8,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from rockref.effects.prior import Prior
 from rockref.model.errors import InputError
 
 #: Least value of a quantity that must be above zero: the smallest normal float64.
@@ -29,6 +30,10 @@ HOOKS = {
 
 #: The methods by which an effect of the sensor is taken back out of a record, with the names of their arguments.
 UNDO_HOOKS = {"undo": ("t", "crv"), "heard": ("t", "crv")}
+
+#: Where an effect stands in the measured channel: before the data sheet's low-pass; after it; at the recorder's clock,
+#: which says when a sample is taken; at the samples, which it cuts.
+STAGES = ("mounting", "electronics", "clock", "samples")
 
 
 class Quantity(NamedTuple):
@@ -63,8 +68,11 @@ class Effect:
     Class attributes: `id` (appears in files and verdicts), `file` (of a user's own), `question` (the folder),
     `quantities` (one Quantity per parameter), `switches` (the parameters that bring the effect in; None: all of them),
     `sentence` (the physics), `equation` (LaTeX), `source` (with DOI where there is one), `confounder` (id),
-    `experiment` (what would tell them apart), `stage` (where it stands in the measured channel: "mounting", before the
-    data sheet's low-pass; "electronics"; "clock", which says when a sample is taken; "samples", what cuts them).
+    `experiment` (what would tell them apart), `stage` (where in the measured channel it stands), `only_on` (the points
+    that a model must have, "four_points"; empty: any).
+    For fits: `priors` (what `rockref.effects.prior` does not get from a Quantity), `seeds` (values, the others typical,
+    to start from beside zero, where a small step shows nothing), `of_run` (a size and its phase that every run has of
+    its own: a fit finds their cosine and sine parts).
     The hooks in the order of the step. Arrays as in the model; `m` is the effect's own memory, whose entries may be
     replaced (never changed in place).
 
@@ -97,11 +105,20 @@ class Effect:
     confounder: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
     stage: ClassVar[str] = "electronics"
+    only_on: ClassVar[str] = ""
+    priors: ClassVar[dict[str, Prior]] = {}
+    seeds: ClassVar[tuple[dict[str, float], ...]] = ()
+    of_run: ClassVar[tuple[str, str] | tuple[()]] = ()
 
     @classmethod
     def typical(cls) -> Effect:
         """The effect at its typical size."""
         return cls(**{name: q.typical for name, q in cls.quantities.items()})
+
+    @classmethod
+    def largest_on(cls, name: str, width: float, depth: float) -> float:
+        """Largest value of a parameter that a base with these sides [m] has room for; infinite unless it is a place."""
+        return math.inf
 
     def values(self) -> dict[str, Any]:
         """The parameters by name."""

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.effects.base import Effect, as_float
+from rockref.effects.base import STAGES, Effect, as_float
 from rockref.effects.contact.adhesion import Adhesion
 from rockref.effects.contact.hertzian_contact import HertzianContact
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
@@ -387,7 +387,7 @@ def undone(
 def heard(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
     """Which rates of a record crv (..., N, 3) [rad/s] tell the true ones, row by row along its own axes: truths."""
     told = np.ones(np.shape(crv), bool)
-    for effect in reversed(at_stage(effects, "mounting", "electronics", "clock", "samples")):
+    for effect in reversed(at_stage(effects, *STAGES)):
         told &= effect.heard(t, crv)
         t, crv = effect.undo(t, crv)
     return told

@@ -6,6 +6,7 @@ import ast
 import difflib
 import importlib.util
 import inspect
+import math
 import os
 import sys
 from collections.abc import Container
@@ -13,8 +14,9 @@ from dataclasses import fields, is_dataclass
 from pathlib import Path
 from types import ModuleType
 
-from rockref.effects.base import HOOKS, UNDO_HOOKS, Effect, Quantity
+from rockref.effects.base import HOOKS, STAGES, UNDO_HOOKS, Effect, Quantity
 from rockref.effects.guard import guard, line_in
+from rockref.effects.prior import ROLES, SCALES, Prior, prior_of
 from rockref.effects.probe import probe, probe_absent
 from rockref.model.errors import InputError
 
@@ -126,6 +128,7 @@ def check_class(kind: type[Effect], spec: str) -> None:
         ) from e
     if not absent.is_absent():
         raise refuse("is not absent by default", "Make the default of each parameter the absent value of its quantity.")
+    check_priors(kind, spec, refuse)
     kind.typical().check(spec)
     if kind.typical().is_absent():
         raise refuse("is absent at its typical size", "Give a typical value at which something changes.")
@@ -161,6 +164,37 @@ def check_quantity(name: str, quantity: Quantity, refuse) -> None:
     for key in ("low", "high"):
         if not isinstance(getattr(quantity, key), (int, float)):
             raise refuse(f"parameter {name!r} has {key} = {getattr(quantity, key)!r}", "Give a number.")
+
+
+def check_priors(kind: type[Effect], spec: str, refuse) -> None:
+    """Refuse what a fit cannot use: words without a meaning, priors and seeds of no parameter, starts of no effect."""
+    if kind.stage not in STAGES:
+        raise refuse(f"has the stage {kind.stage!r}", f"Write one of {', '.join(STAGES)}.")
+    named = (*kind.priors, *kind.of_run, *(name for seed in kind.seeds for name in seed))
+    for name in named:
+        if name not in kind.quantities:
+            raise refuse(f"a prior, a seed or of_run names {name!r}, which is no parameter", "Take it away.")
+    if len(kind.of_run) not in (0, 2):
+        raise refuse(f"of_run is {kind.of_run!r}", 'Write of_run = ("amplitude", "phase"), a size and its phase.')
+    for name in kind.quantities:
+        check_prior(kind, name, refuse)
+    for seed in kind.seeds:
+        kind(**{**kind.typical().values(), **seed}).check(f"{spec} seeds")
+
+
+def check_prior(kind: type[Effect], name: str, refuse) -> None:
+    """Refuse a prior on which no fit can count."""
+    given = kind.priors.get(name, Prior())
+    if not isinstance(given, Prior) or given.role not in ("", *ROLES) or given.scale not in ("", *SCALES):
+        cure = f"Write Prior(role, scale, spread=...), with {', '.join(ROLES)} and {', '.join(SCALES)}."
+        raise refuse(f"the prior of {name!r} is {given!r}", cure)
+    try:
+        prior = prior_of(kind, name)
+    except (TypeError, ValueError, ArithmeticError):
+        prior = Prior(spread=0.0)
+    if prior.role != "fixed" and not (0 < prior.spread < math.inf and (prior.scale != "log" or prior.centre > 0)):
+        cure = "Give a typical value that is not the absent one, above zero on a log scale, or Prior(spread=...)."
+        raise refuse(f"a fit cannot count {name!r}: its spread is {prior.spread:g}", cure)
 
 
 def check_hooks(kind: type[Effect], refuse) -> None:

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.candidates import is_inverse, value_of
+from rockref.discover.fit.candidates import value_of
 from rockref.discover.fit.intervals import half_widths
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.parameter import Parameter
 from rockref.discover.provenance import versions
 from rockref.effects.base import Effect
+from rockref.effects.prior import to_scale
 from rockref.measure.experiment import Experiment
 
 #: What are notes about one release, not properties of the block.
@@ -111,7 +112,7 @@ def start_from(parameters: tuple[Parameter, ...], model: Model) -> np.ndarray:
         if not key:
             z[k] = z_of(p, parameter_of(model, p.name))
         elif id in effects:
-            z[k] = z_of(p, inner_value(effects[id], key, p))
+            z[k] = z_of(p, inner_value(effects[id], key))
     return z
 
 
@@ -122,13 +123,6 @@ def parameter_of(model: Model, name: str) -> float:
     return float(getattr(model.parameters, name))
 
 
-def inner_value(effect: Effect, key: str, parameter: Parameter) -> float:
+def inner_value(effect: Effect, key: str) -> float:
     """An effect's parameter as a fit counts it: what is absent at infinity or when rigid is found as its inverse."""
-    value = float(getattr(effect, key))
-    if effect.id == "compliant_support" and key == "frequency":
-        typical = type(effect).quantities[key].typical
-        assert typical is not None
-        return (typical / value) ** 2 if value > 0 else 0.0
-    if is_inverse(parameter.name):
-        return 1 / value if np.isfinite(value) and value > 0 else 0.0
-    return value
+    return to_scale(type(effect), key, float(getattr(effect, key)))

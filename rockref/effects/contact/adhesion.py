@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
+from rockref.effects.prior import Prior
 from rockref.model import assembly
 
 
@@ -24,6 +25,9 @@ class Adhesion(Effect):
         "range": Quantity("m", 2e-5, 5e-6, 1e-4, 2e-5, "+", "height at which the pull has faded", POSITIVE),
     }
     switches = ("force",)
+    priors = {"range": Prior("shape")}
+    # A small pull changes when a foot lifts off, a larger one whether it does. Decided: 0.3 to 1.4 typical ones.
+    seeds = ({"force": 15.0}, {"force": 35.0}, {"force": 70.0})
     sentence = "Magnetism, an oil film or clean metal hold the feet down until they are some micrometres off the plate."
     equation = r"F_z = -F_a\,\mathrm{clip}(1 + \xi/d_a,\ 0,\ 1)"
     source = (

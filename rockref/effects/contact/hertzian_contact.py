@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
+from rockref.effects.prior import Prior
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,7 @@ class HertzianContact(Effect):
         ),
     }
     switches = ("exponent",)
+    priors = {"reference": Prior("shape")}
     sentence = "Curved or rough faces touch over an area that grows with the load, so the contact stiffens with depth."
     equation = r"F^{(N)} = \max\!\left(K^{(N)} x_0 (\xi/x_0)^p + C^{(N)}\dot\xi,\ 0\right)"
     source = (

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import Effect, Quantity
+from rockref.effects.prior import Prior
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,7 @@ class HystereticContact(Effect):
         "curved_share": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "share of the power 3/2 in the unloading", 0.0, 1.0),
     }
     switches = ("kappa",)
+    priors = {"curved_share": Prior("form")}
     sentence = "Asperities yield: the contact unloads along a steeper line and leaves a dent, a loss without any rate."
     equation = (
         r"F_{el} = \max(\min(K^{(N)}\xi,\ K^{(N)}\xi_{max}(1 - \eta + \eta\sqrt{\zeta})\,\zeta),\,0),\quad "

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import Effect, Quantity
+from rockref.effects.prior import Prior
 from rockref.model import assembly
 from rockref.model.rotation import apply
 
@@ -28,6 +29,7 @@ class SpinFriction(Effect):
         "sliding_share": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "share by which sliding weakens it", 0.0, 1.0),
     }
     switches = ("radius",)
+    priors = {"sliding_share": Prior("form")}
     sentence = "A contact has a face, not a point: its rim rubs when the block turns on it about the vertical."
     equation = (
         r"M_z = -\,r\,\mu F^{(N)}\,\mathrm{sign}(\omega_z)\,\left(1 - \eta + \eta\,"

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
+from rockref.effects.prior import Prior
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,8 @@ class StribeckFriction(Effect):
         ),
     }
     switches = ("ratio",)
+    # Decided: factors of one and a half, and of two; friction is positive on either side of none.
+    priors = {"ratio": Prior(scale="log", spread=0.4), "velocity": Prior("shape", spread=0.7)}
     sentence = "Surfaces at rest interlock or squeeze out their film; sliding parts them, so friction falls with speed."
     equation = r"\mu \to \mu\left[1 + (\rho - 1)\,e^{-(\|v_s\|/v_0)^2}\right]"
     source = (

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.feet import of_foot
+from rockref.effects.prior import Prior
 
 
 @dataclass(frozen=True)
@@ -19,6 +20,8 @@ class UnevenFootFriction(Effect):
         f"foot{i}": Quantity("1", 1.0, 0.4, 2.5, typical, "any", f"friction of foot {i} over the common one", 0.0)
         for i, typical in enumerate((0.7, 1.3, 0.85, 1.15), 1)
     }
+    # Decided: between feet of one block a third.
+    priors = {f"foot{i}": Prior(scale="log", spread=0.3) for i in (1, 2, 3, 4)}
     sentence = "A foot that is polished, worn or oily holds less than its neighbours."
     equation = r"\mu_i \to s_i\,\mu_i"
     source = 'The model\'s source, "Defects"; a share of the common friction is a definition: no DOI'

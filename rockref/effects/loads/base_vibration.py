@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import Effect, Quantity
+from rockref.effects.prior import Prior
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,12 @@ class BaseVibration(Effect):
         "phase": Quantity("rad", 0.0, -math.pi, math.pi, 0.0, "any", "at t = 0; its own in every run"),
     }
     switches = ("amplitude",)
+    # Decided: a spectrum knows the tone within 2 %, and a fit may leave it; half a radian is half way to another axis.
+    priors = {
+        "frequency": Prior("shape", spread=0.02, deviation=10.0),
+        "direction": Prior("shape", "linear", spread=0.5, deviation=3.0),
+    }
+    of_run = ("amplitude", "phase")
     sentence = "Traffic, pumps or the table's own control shake the plate, and the block feels it as an inertial force."
     equation = r"F = -m A\cos(2\pi f t + \varphi)\,(\sin d,\ \cos d,\ 0)"
     source = (

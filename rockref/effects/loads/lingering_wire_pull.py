@@ -7,6 +7,7 @@ import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
 from rockref.effects.loads.attachment import arm, half_height
+from rockref.effects.prior import Prior
 from rockref.model.rotation import cross
 
 #: Evenness up to which the pull is the exponential. Decided: there both are wrong by some 1e-8 of it, the power by
@@ -31,6 +32,7 @@ class LingeringWirePull(Effect):
         "evenness": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "0: it falls to 1/e in tau; 1: evenly", 0.0, 1.0),
     }
     switches = ("force",)
+    priors = {"tau": Prior("shape"), "evenness": Prior("form")}
     sentence = "A latch that sticks or a wire that burns through holds the block back for a moment after release."
     equation = (
         r"F_y = F_w \max(1 - q\,t/\tau,\ 0)^{1/q} \to F_w\,e^{-t/\tau}\ (q \to 0)\ \text{at}\ x + \Lambda(0,0,h/2)"

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import Effect, Quantity
+from rockref.effects.prior import TYPICALLY_NONE, Prior
 from rockref.model.rotation import apply, dot
 
 
@@ -26,6 +27,9 @@ class QuadraticDrag(Effect):
         "c": Quantity("N m s2", 0.0, 0.002, 5.0, 0.4, "+", "moment over angular speed squared", 0.0),
         "c_v": Quantity("N s2/m2", 0.0, 0.02, 80.0, 1.0, "+", "force over speed of the centre squared", 0.0),
     }
+    # Decided: drag on the faces from bottom to top, with three times the typical moment about the base, has a force of
+    # 20 N s2/m2; air that drags alike about all axes has none.
+    priors = {"c_v": Prior(spread=20.0, deviation=TYPICALLY_NONE)}
     sentence = "Air in front of the moving faces is pushed aside; bare the block hardly feels it, with a sail it does."
     equation = r"M = -c\,\|\omega\|\,\omega,\quad F = -c_v\,\|v\|\,v,\quad c_v = \frac{1}{2}\,\rho\,C_d A"
     source = (

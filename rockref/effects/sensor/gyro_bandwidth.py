@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
+from rockref.effects.prior import Prior
 from rockref.model.errors import InputError
 
 # decided: the damping of a second-order Butterworth filter, the flattest; data sheets give the bandwidth only.
@@ -87,6 +88,7 @@ class GyroBandwidth(Effect):
         "delay": Quantity("s", 0.0, 0.0, 0.02, 0.0, "+", "by which all is late, beside the low-pass", 0.0, 1.0),
     }
     switches = ("frequency", "delay")
+    priors = {"damping": Prior("shape"), "delay": Prior("fixed")}
     sentence = "The sensor's own filter smooths the steps of an impact and shows everything a little late."
     equation = (
         r"H(s) = e^{-\tau s}\,\omega^2/(s^2 + 2\zeta\omega s + \omega^2),\quad "

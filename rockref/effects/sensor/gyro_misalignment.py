@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import Effect, Quantity
+from rockref.effects.prior import TYPICALLY_NONE, Prior
 from rockref.model.rotation import apply, exponential
 
 
@@ -26,6 +27,8 @@ class GyroMisalignment(Effect):
         )
         for axes in ("xy", "xz", "yz")
     }  # fmt: skip
+    # Decided: axes half a degree from square.
+    priors = {axes: Prior(spread=0.005, deviation=TYPICALLY_NONE) for axes in ("xy", "xz", "yz")}
     sentence = "A sensor glued on slightly turned shows a part of one rate in the channel of another."
     equation = r"W_m = (I + S)\exp(\hat r)\,W"
     source = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
+from rockref.effects.prior import Prior
 
 #: Largest rate that soft stops still tell, in ranges (decided: there they show 0.995 of the range, and noise counts a
 #: hundred times); places in which their curve is followed by lines, 0.004 ranges apart, which leave 4e-6 of a range.
@@ -31,6 +32,7 @@ class GyroSaturation(Effect):
         "softness": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "share by which the stops are soft", 0.0, 1.0),
     }
     switches = ("range",)
+    priors = {"softness": Prior("form")}
     sentence = "Beyond its range the sensor shows its largest number: tops are flat, or bent where its stops are soft."
     equation = r"W_m = (1 - s)\,\mathrm{clip}(W,\ -R,\ R) + s\,R\tanh(W/R)"
     source = "D. H. Titterton, J. L. Weston (2004), Strapdown Inertial Navigation Technology, doi:10.1049/PBRA017E"

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
+from rockref.effects.prior import Prior
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,8 @@ class DimensionDeviation(Effect):
         for side in ("width", "depth", "height")
     } | {"inertia_share": Quantity("1", 1.0, 0.0, 1.0, 1.0, "any", "of a deviation, in the inertia", 0.0, 1.0)}
     switches = ("width", "depth", "height")
+    # Between two laws: from half way, flat within what is possible (decided).
+    priors = {"inertia_share": Prior("shape", "linear", centre=0.5, spread=0.5, deviation=2.0)}
     sentence = "A rounded or worn edge, or a wrong drawing: the feet stand closer together than the sides say."
     equation = (
         r"P \to \mathrm{diag}(s_b, s_d, s_h)\,P,\quad "

@@ -1,12 +1,18 @@
 """Eight points in place of four."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rockref.effects.base import Effect, Quantity
+from rockref.effects.prior import Prior
 from rockref.model.errors import InputError
 from rockref.model.geometry import EXTERNAL, INTERNAL
+
+#: Share of half the base's diagonal that a fit keeps inner points within (decided: at one they meet in the middle), and
+#: within what is plausible, too, since steps of a search add up.
+NEARLY = 0.9
 
 
 @dataclass(frozen=True)
@@ -33,6 +39,8 @@ class FootDefects(Effect):
         "mu_int": Quantity("1", 1.0, 0.5, 2.0, 1.2, "any", "friction of internal over external points", 0.0),
         "beta_int": Quantity("1", 1.0, 0.5, 2.0, 0.15 / 0.18, "any", "damping of internal over external points", 0.0),
     }
+    only_on = "four_points"
+    priors = {"delta_diag": Prior(high=quantities["delta_diag"].high)}
     sentence = "No base is flat: each foot touches at its outer corner and at an inner point, at different heights."
     equation = r"P_{int} = P_{corner}\,(1 - \delta_{diag}/\|P_{corner}\|)_{xy},\quad z_{ext} = -h/2 + \delta_{long,i}"
     source = 'The model\'s source, "Defects", Fig. 3.2b and Table 3.1; the model itself: no DOI'
@@ -49,24 +57,23 @@ class FootDefects(Effect):
     mu_int: float = 1.0
     beta_int: float = 1.0
 
+    @classmethod
+    def largest_on(cls, name, width, depth):
+        return NEARLY * math.hypot(width, depth) / 2 if name == "delta_diag" else math.inf
+
     def points(self, block, points):
         if self.is_absent():
             return block, points
         if points.names != EXTERNAL:
-            raise InputError(
-                "E-FEET",
-                f"effect {self.id}",
-                f"finds the contact points {', '.join(points.names)}",
-                'It makes eight points of four: use a model with points = "four_points".',
-            )
+            what = f"finds the contact points {', '.join(points.names)}"
+            cure = 'It makes eight points of four: use a model with points = "four_points".'
+            raise InputError("E-FEET", f"effect {self.id}", what, cure)
         outer, inner = points.P.copy(), points.P.copy()
         outer[..., 2] += np.array([self.delta_long1, self.delta_long2, self.delta_long3, self.delta_long4])
         diagonal = np.sqrt(inner[..., 0:1] * inner[..., 0:1] + inner[..., 1:2] * inner[..., 1:2])
         if np.any(self.delta_diag >= diagonal):
-            cure = "Give a distance from the corner in metres."
-            raise InputError(
-                "E-RANGE", f"effect {self.id} delta_diag", f"is {self.delta_diag!r} m, half the base", cure
-            )
+            what, cure = f"is {self.delta_diag!r} m, half the base", "Give a distance from the corner in metres."
+            raise InputError("E-RANGE", f"effect {self.id} delta_diag", what, cure)
         inner[..., :2] *= 1 - self.delta_diag / diagonal
 
         def both(a, ratio=1.0):

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
+from rockref.effects.prior import TYPICALLY_NONE, Prior
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,8 @@ class InertiaDeviation(Effect):
         )
         for axes in ("xy", "xz", "yz")
     }  # fmt: skip
+    # Decided: half a kilogram more at one corner makes products of inertia of 0.02 with the long axis.
+    priors = {axes: Prior(spread=0.02, deviation=TYPICALLY_NONE) for axes in ("xy", "xz", "yz")}
     sentence = "Holes, fittings and density change the resistance to turning without moving the centre of mass."
     equation = r"J_{ij} \to \sqrt{s_i s_j}\,\left(J_{ij} + p_{ij}\sqrt{J_{ii}J_{jj}}\right)"
     source = (

@@ -6,6 +6,7 @@ import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
 from rockref.effects.feet import of_foot
+from rockref.effects.prior import Prior
 from rockref.model.problem import ContactPoints
 
 
@@ -27,6 +28,8 @@ class RoundedFeet(Effect):
         for i in (1, 2, 3, 4)
     }
     switches = ("radius",)
+    # Decided: radii of feet that are ground by hand, by a third.
+    priors = {f"foot{i}": Prior("shape", spread=0.3) for i in (1, 2, 3, 4)}
     sentence = (
         "A round foot rolls: its contact moves outward as the block leans, the weight's lever grows, arcs are shorter."
     )

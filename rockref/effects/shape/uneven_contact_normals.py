@@ -6,6 +6,7 @@ import numpy as np
 
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.feet import of_foot
+from rockref.effects.prior import Prior
 from rockref.model import assembly
 
 
@@ -34,6 +35,7 @@ class UnevenContactNormals(Effect):
         for j, axis in enumerate("xy")
     } | {"turning_share": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "share of the tilts that the block turns", 0.0, 1.0)}
     switches = tuple(f"{axis}{i}" for i in (1, 2, 3, 4) for axis in "xy")
+    priors = {"turning_share": Prior("form")}
     sentence = "Scratches and chamfers turn the plate's push a little sideways, differently at each foot."
     equation = (
         r"F_i \to F_i + F_i^{(N)}\,(a_i + \eta\,(\Lambda_2 a_i - a_i),\ 0),\quad a_i = (x_i,\ y_i),\quad "

@@ -7,6 +7,7 @@ import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
 from rockref.effects.contact.adhesion import Adhesion
+from rockref.effects.prior import Prior
 from rockref.model import assembly
 from rockref.model.contact import point_kinematics
 
@@ -15,7 +16,11 @@ GYRATION = 0.6 / math.sqrt(12)
 #: Pitch up to which a plate does not pitch: its frequency would be ten times that of its bouncing, which no explicit
 #: step has to follow (decided).
 LEAST_PITCH = 0.01
-
+#: Frequencies [Hz] and masses [kg] of the plate from which fits start, since what rings shows nothing in a small step
+#: from zero. Decided: steps of 12 % about the typical tone; the typical mass and three times it.
+TONES, MASSES = (100.0, 89.0, 79.0, 71.0, 63.0, 56.0, 50.0, 45.0, 40.0), (100.0, 300.0)
+#: Spread of the logarithms of mass and damping ratio (decided: a factor of two).
+SPREAD = 0.7
 
 #: What moves, its stiffness, its damping.
 Oscillator = tuple[float, float, float]
@@ -42,6 +47,9 @@ class CompliantSupport(Effect):
         "pitch": Quantity("1", 0.0, 0.0, 4.0, 0.0, "+", "(frequency / that of its pitching)^2; 0: none", 0.0),
     }
     switches = ("frequency",)
+    priors = {"mass": Prior("shape", spread=SPREAD), "ratio": Prior("shape", spread=SPREAD)}
+    priors |= {"frequency": Prior(scale="compliance"), "pitch": Prior("form")}
+    seeds = tuple({"mass": mass, "frequency": frequency} for mass in MASSES for frequency in TONES)
     sentence = "The plate and its table give a little under each impact and ring on after it."
     equation = r"M\ddot q = -\sum_i F_i^{(N)} + m g - k q - c\dot q,\quad \xi_i = q + \varphi y_i - z_i"
     source = (

@@ -7,6 +7,7 @@ import pytest
 
 from rockref import InputError, Model, cli, simulate
 from rockref.effects import catalogue
+from rockref.effects.prior import prior_of
 from rockref.effects.probe import probe_absent, sample_problem
 from rockref.effects.user import load_user
 from rockref.model.integrator import evaluate_contact
@@ -295,6 +296,35 @@ def test_a_time_for_each_run_wants_arrays(tmp_path):
     )
     with pytest.raises(InputError, match=r"line 13: fails: TypeError.*Use np\.exp"):
         kind(1.0).body_wrench(problem, c._replace(t=np.zeros(2)), *(np.zeros(3),) * 4, {})
+
+
+WITH_PRIOR = "from rockref.effects.prior import Prior\n" + HEAD
+FITS = {
+    "stage": ('    stage = "Sensor"\n', "has the stage 'Sensor'"),
+    "prior of nobody": ('    priors = {"d": Prior("shape")}\n', "names 'd', which is no parameter"),
+    "seed of nobody": ('    seeds = ({"d": 1.0},)\n', "names 'd', which is no parameter"),
+    "one of a run": ('    of_run = ("c",)\n', r"of_run is \('c',\)"),
+    "role": ('    priors = {"c": Prior("sizes")}\n', r"the prior of 'c' is Prior\(role='sizes'"),
+    "scale": ('    priors = {"c": Prior(scale="cubic")}\n', "the prior of 'c' is Prior.role='', scale='cubic'"),
+    "no prior": ('    priors = {"c": 0.5}\n', "the prior of 'c' is 0.5"),
+    "no spread": ('    priors = {"c": Prior(spread=0.0)}\n', "a fit cannot count 'c': its spread is 0"),
+    "log of nothing": ('    priors = {"c": Prior(scale="log")}\n', "a fit cannot count 'c'"),
+    "log about nothing": ('    priors = {"c": Prior(scale="log", spread=0.5)}\n', "a fit cannot count 'c'"),
+    "seed that is none": ('    seeds = ({"c": float("nan")},)\n', "seeds: mine c: is nan"),
+}
+
+
+@pytest.mark.parametrize("mistake", FITS)
+def test_what_no_fit_could_use_is_explained(tmp_path, mistake):
+    line, said = FITS[mistake]
+    with pytest.raises(InputError, match=said):
+        load_user(written(tmp_path, HOOK, WITH_PRIOR + line))
+
+
+def test_what_a_fit_needs_is_taken(tmp_path):
+    lines = '    stage = "clock"\n    priors = {"c": Prior(spread=2.0)}\n    seeds = ({"c": 3.0},)\n'
+    kind = load_user(written(tmp_path, HOOK, WITH_PRIOR + lines))
+    assert prior_of(kind, "c").spread == 2.0 and kind.seeds == ({"c": 3.0},) and kind.stage == "clock"
 
 
 def test_hooks_of_a_class_between_are_guarded(tmp_path):

@@ -8,22 +8,24 @@ import pytest
 
 from rockref import InputError, Model
 from rockref.discover import plan as planning
+from rockref.discover.fit import candidates
 from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.fit.candidates import (
-    BETWEEN,
-    FACTORS,
-    FIXED,
+    FORMS,
+    LEFT_OUT,
+    OF_EACH_FOOT,
     SELDOM,
     SHAPES,
     kinds,
     parameters_of,
     value_of,
-    vibration_parameters,
     within_base,
 )
 from rockref.discover.fit.fitted import start_from, z_of
 from rockref.discover.fitting import known_effects
 from rockref.effects import catalogue
+from rockref.effects.prior import prior_of
+from tests.unit.discover.fit.counted import PARAMETERS
 
 TABLE = Model.table_3_1()
 PLAIN = [kind for kind in catalogue.IN_STEP_ORDER if kind.id != "base_vibration"]
@@ -44,6 +46,33 @@ def put(kind, z: float) -> Model:
     return model
 
 
+def test_what_the_effects_declare_is_what_fits_have_counted():
+    """To the last bit."""
+    parameters = [p for kind in catalogue.IN_STEP_ORDER for p in parameters_of(kind, 1)]
+    found = {p.name: (p.centre, p.spread, p.prior, p.low, p.high, p.log) for p in parameters}
+    assert found == PARAMETERS and len(found) == len(parameters)
+    for p in parameters:
+        id, key = p.name.split(".")
+        of_run = key in ("cosine[0]", "sine[0]")
+        q = catalogue.find(id).quantities["amplitude" if of_run else key]
+        assert (p.unit, p.run, p.step) == (q.unit, 0 if of_run else None, 0.1 if of_run else 0.05), p.name
+
+
+def test_the_tables_are_read_from_the_effects():
+    assert LEFT_OUT == ("base_vibration", "gyro_saturation")
+    assert len(SHAPES) == 12 and {id for id, _ in OF_EACH_FOOT} == {"rounded_feet"} and len(OF_EACH_FOOT) == 4
+    assert set(FORMS.values()) == {1.0} and len(FORMS) == 8
+    seldom = {("quadratic_drag", "c_v"): 20.0}
+    seldom |= {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
+    seldom |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}
+    assert FORMS | seldom == SELDOM
+
+
+def test_no_effect_is_named_where_its_numbers_are_read():
+    text = Path(candidates.__file__).read_text(encoding="utf-8")
+    assert [id for id in catalogue.EFFECTS if id in text] == []
+
+
 @pytest.mark.parametrize("kind", PLAIN, ids=lambda kind: kind.id)
 def test_zero_is_absence(kind):
     assert put(kind, 0.0).active_effects() == ()
@@ -55,13 +84,14 @@ def test_one_is_there_and_of_typical_size(kind):
     assert effect.id == kind.id
     for name, q in kind.quantities.items():
         value = getattr(effect, name)
-        if (kind.id, name) in FIXED or kind.id in FACTORS and (kind.id, name) not in SHAPES | SELDOM:
+        prior = prior_of(kind, name)
+        if prior.role == "fixed" or (prior.role, prior.scale) == ("size", "log"):
             continue
         plain = q.sign == "+" or (kind.id, name) in SHAPES or not np.isfinite(q.absent)
         sized = q.typical if plain else q.absent + abs(q.typical - q.absent)
         if (kind.id, name) in SELDOM:
             sized = q.absent + SELDOM[kind.id, name]
-        if (kind.id, name) in BETWEEN:
+        if prior.centre == 0.5:  # between two laws
             sized = (q.least + q.most) / 2
         assert value == pytest.approx(sized, rel=1e-9), name
 
@@ -189,7 +219,7 @@ def test_one_who_fits_or_plans_may_name_a_file(monkeypatch):
 
 
 def test_a_shaking_base_that_does_not_shake_is_not_there():
-    frequency, direction, cosine, sine = vibration_parameters(catalogue.find("base_vibration"), 1, 12.0)
+    frequency, direction, cosine, sine = parameters_of(catalogue.find("base_vibration"), 1, 12.0)
     assert (frequency.centre, direction.run, cosine.run) == (12.0, None, 0)
     assert cosine.set(TABLE, 0.0) is TABLE
     model = sine.set(cosine.set(TABLE, 0.03), 0.04)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from rockref import InputError, Model
-from rockref.discover.fit import candidates
 from rockref.discover.fit.approach import placed
 from rockref.discover.fit.search import Setup
 from rockref.discover.looking.look import candidates_beside
@@ -16,6 +15,7 @@ from rockref.discover.plan import GYRO, Release, campaign, recorded
 from rockref.discover.windows.own import known_own
 from rockref.discover.windows.series import Series, series
 from rockref.effects import catalogue
+from rockref.effects.prior import Prior
 
 #: A user's class that does what `quadratic_drag` does, so that there is something to be held to.
 OWN = """
@@ -89,8 +89,8 @@ def test_own_effects_of_the_sensor_are_not_fitted(own):
 def test_a_diagnosis_tries_it_beside_the_catalogue(own, monkeypatch):
     """The screen gives a class that does what drag does the gain of drag, on runs that were dragged."""
     # Of the catalogue's drag the moment alone: the user's class has no force.
-    monkeypatch.setattr(candidates, "FIXED", candidates.FIXED | {("quadratic_drag", "c_v")})
     drag = catalogue.find("quadratic_drag")
+    monkeypatch.setattr(drag, "priors", {"c_v": Prior("fixed")})
     dragged = TABLE.replace(effects=(drag(5.0),))
     # A small tilt is an early impact, and so a short first window: each evaluation steps all of it.
     run = recorded(dragged, Release(0.03, False), GYRO, 1, 0.45)
