@@ -1,4 +1,4 @@
-"""Draw the picture of `docs/explanation/step.md`: ``python docs/make_pictures.py`` (half a minute)."""
+"""Draw the block, and the picture of `docs/explanation/step.md`: ``python docs/make_pictures.py`` (half a minute)."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 
 from rockref import simulate  # noqa: E402
+from rockref.report.block_drawing import block_drawing  # noqa: E402
 from tests.golden import table_3_1_files as golden  # noqa: E402
 
 STEPS = (5e-5, 2.5e-5, 1e-5, 5e-6, 2.5e-6, 1e-6, 5e-7, 2e-7, 1e-7)
@@ -50,4 +51,5 @@ def step_picture(path: Path) -> None:
 
 
 if __name__ == "__main__":
+    (ROOT / "docs/figures/block.svg").write_text(block_drawing(standalone=True) + "\n", encoding="utf-8")
     step_picture(ROOT / "docs/figures/step.png")

@@ -214,7 +214,8 @@ def _asked(campaign: "Campaign", paths: list[Path]) -> "Campaign":
     choices = campaign.choices
     if typer.confirm("Is this the first swing, and is the table right?", default=True):
         if campaign.axes.up_known or typer.confirm(_up(campaign), default=True):
-            return campaign
+            # Answered: nothing is left to remark on.
+            return replace(campaign, notices=tuple(n for n in campaign.notices if n.code != "W-UP"))
         return _found(paths, replace(choices, axes=_other_way_up(campaign)))
     tilts = {
         run.id: typer.prompt(f"Tilt of run {run.id}", f"{run.tilt:.4f}rad", value_proc=typed.angle)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rockref.discover.compare.models import Comparison
 from rockref.report import blocks, tables
+from rockref.report.block_drawing import block_drawing
 from rockref.report.page import MAX_BYTES, Page
 
 # decided: room for what comes after the curves: energy, shapes, motion, provenance.
@@ -36,6 +37,8 @@ def add_comparison(page: Page, c: Comparison, prefix: str = "", room: int | None
     head = f"{prefix}: " if prefix else ""
     page.add_section(f"{head}What was measured")
     blocks.add_measured(page, c)
+    if not prefix:
+        page.add_figure(block_drawing(), "The block's axes and corners, the block turned, its feet. Not to scale.")
     page.add_section(f"{head}Where the model fails")
     blocks.add_failures(page, c)
     page.add_section(f"{head}Run by run")

@@ -36,7 +36,7 @@ def first_swing_png(campaign: Campaign) -> bytes:
     runs = campaign.runs[:MOST]
     rows = math.ceil(len(runs) / 2)
     figure: Any = new_figure(9.6, 0.9 + 2.1 * rows)
-    figure.subplots_adjust(hspace=0.42)
+    figure.subplots_adjust(hspace=0.42, top=1.0 - 0.75 / (0.9 + 2.1 * rows))
     for k, run in enumerate(runs):
         axes = figure.add_subplot(rows, 2, k + 1)
         seen = (run.t > -BEFORE) & (run.t < run.impact + AFTER)
