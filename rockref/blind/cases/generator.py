@@ -7,64 +7,54 @@ import gzip
 import io
 import os
 from collections.abc import Sequence
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from rockref.blind.cases import hidden, outsiders
-from rockref.blind.simulator import kernel, posture, recorder
-from rockref.blind.simulator.slots import G
-from rockref.blind.simulator.world import HEIGHT, MASS, NOMINAL_TILT, WIDTH, World, build, draw_parameters
+from rockref.blind.cases import faulty, hidden, outsiders, scaling
+from rockref.blind.cases.blocks import NEAR, OTHER, Runs, Setup, other_block
+from rockref.blind.simulator import recorder
+from rockref.blind.simulator.release import simulate
+from rockref.blind.simulator.world import DEGREE, World, build
 
-STEP = 5e-6
-SECONDS = 5.0
 #: Wire: what its length scatters from run to run, rad.
-JITTER = 0.02 * recorder.DEGREE
-#: id, use, stated tilt [rad], turned
-RUNS = (
-    ("01", "fit", NOMINAL_TILT, False),
-    ("02", "fit", NOMINAL_TILT, False),
-    ("03", "holdout", NOMINAL_TILT, False),
-    ("04", "fit", 0.098, False),
-    ("05", "holdout", 0.108, False),
-    ("06", "fit", NOMINAL_TILT, True),
-)
+JITTER = 0.02 * DEGREE
+#: RMS by which an effect has to change the first record of another block, in noise widths; decided: over some thousand
+#: rows that is a thousand units of log-likelihood, of which a refit of the block may take most. A block that does not
+#: slide has nothing to tell of its friction: what nobody could see is no test of who looks.
+SEEN = 1.0
+#: Blocks that are drawn for a case before an effect that none of them shows is hidden in the last.
+ATTEMPTS = 20
+#: Effects that show as the experimenter's baseline, or as stops that are a share of the largest rate.
+ALWAYS_SEEN = ("foot_defects", "gyro_saturation")
+Table = tuple[np.ndarray, np.ndarray]
 
 
-def simulate(
-    world: World, tilt: float, turned: bool = False, seconds: float = SECONDS, step: float = STEP
-) -> np.ndarray:
-    """Body rates (N, 3) [rad/s] at `recorder.FINE` lines a second of a block released at `tilt` [rad]."""
-    x, R, pivots = posture.stand(world, tilt, turned)
-    q = posture.quaternion(R)
-    w = world.kick.copy()
-    v = np.zeros(3)
-    if np.any(w):
-        foot = 0.5 * (world.points[pivots[0]] + world.points[pivots[1]]) + np.array([0, 0, world.kick_at])
-        v = -np.cross(R @ w, R @ foot)
-    hung, hung_v = _hang(world, x, R)
-    v_hung = v + np.cross(R @ w, hung - x)
-    hung_v[:] = v_hung
-    every = round(1.0 / (recorder.FINE * step))
-    rows = round(seconds * recorder.FINE) + 1
-    rates = np.empty((rows, 3))
-    kernel.run(
-        x, v, q, w, world.J, np.linalg.inv(world.J), world.mass, np.ascontiguousarray(world.points),
-        np.ascontiguousarray(world.props), world.g, np.zeros(4), hung, hung_v, (rows - 1) * every, step, every, rates,
-    )  # fmt: skip
-    if not np.all(np.isfinite(rates)):
-        raise FloatingPointError("the simulated block left the plate: draw a smaller effect")
-    return rates
+def setup_that_shows(effects: Sequence[tuple[str, float]], seed: int) -> Setup:
+    """Draw another block, its instrument and campaign, again until every effect (id, size) alone shows in it."""
+    for attempt in range(ATTEMPTS):
+        setup = other_block(seed, [id for id, _ in effects], attempt)
+        seen = [id in ALWAYS_SEEN or trace(setup, id, size, seed) >= SEEN for id, size in effects]
+        if all(seen):
+            break
+    return setup
 
 
-def _hang(world: World, x: np.ndarray, R: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Place and velocity of the mass that hangs inside, at rest under its weight."""
-    if not world["hung_m"]:
-        return x.copy(), np.zeros(3)
-    weight = R.T @ np.array([0, 0, -world["hung_m"] * world["gravity"]])
-    stiffness = world.g[[G["hung_kx"], G["hung_ky"], G["hung_kz"]]]
-    return x + R @ (weight / stiffness + np.array([0, 0, world["hung_z"]])), np.zeros(3)
+def trace(setup: Setup, id: str, size: float, seed: int) -> float:
+    """Return the RMS, in noise widths, by which an effect alone changes the first record of a setup of its own."""
+    assert setup.parameters is not None
+    records = []
+    for hides in (False, True):
+        world, rng = _world(setup, setup.parameters), np.random.default_rng([int(seed), 5])
+        if hides:
+            (hidden.EFFECTS.get(id) or outsiders.OUTSIDERS[id])(world, rng, size, False, {})
+        world.sensor.noise, world.sensor.resolution = 0.0, 1e-12
+        first = replace(setup, runs=setup.runs[:1])
+        ((_, rates),), _ = _record(first, world, setup.parameters["theta_0"], [], np.random.default_rng(seed), rng)
+        records.append(rates)
+    return float(np.sqrt(np.mean((records[1] - records[0]) ** 2))) / setup.sensor.noise
 
 
 def make_case(
@@ -73,11 +63,13 @@ def make_case(
     seed: int = 0,
     *,
     name: str | None = None,
-    runs: Sequence[tuple[str, str, float, bool]] = RUNS,
+    setup: Setup | None = None,
+    runs: Runs | None = None,
+    seconds: float | None = None,
     other_form: bool | None = None,
-    seconds: float = SECONDS,
     spread: float = 0.10,
     values: dict[str, dict[str, float]] | None = None,
+    fault: str | None = None,
 ) -> dict[str, Any]:
     """Write one experiment folder and return its truth, which is not written.
 
@@ -86,75 +78,111 @@ def make_case(
     folder : made if missing. `name` : of the experiment; the folder's name by default.
     effects : ids of hidden effects or of outsiders, each alone or with a size (1: typical); None or empty: a control.
     seed : of everything that is drawn.
-    runs : id, use, stated tilt [rad], turned.
+    setup : block, instrument and campaign; the source's by default. `runs`, `seconds` : instead of the setup's.
     other_form : whether another functional form hides behind the name; None: by chance, 3 in 10.
-    seconds : length of a record [s]. spread : of the baseline's parameters (log-normal).
+    spread : of the parameters about Table 3.1 (log-normal), where the setup has none of its own.
     values : parameters of an effect that are set and not drawn, by effect and name.
+    fault : of the records, an id of :mod:`rockref.blind.cases.faulty`.
 
-    Raises KeyError for an effect that is not known.
+    Raises KeyError for an effect or a fault that is not known.
     """
-    folder = Path(folder)
+    folder, setup = Path(folder), setup or Setup()
+    setup = replace(setup, runs=tuple(runs or setup.runs), seconds=seconds or setup.seconds)
     rng, sensor_rng = (np.random.default_rng([int(seed), k]) for k in (1, 2))
     wanted = [(e, 1.0) if isinstance(e, str) else (str(e[0]), float(e[1])) for e in effects or ()]
-    parameters = draw_parameters(rng, spread)
-    four = any(id == "foot_defects" for id, _ in wanted)
-    world = build(parameters)
+    parameters = setup.parameters_by(rng, spread)
+    world = _world(setup, parameters)
     found = []
     for id, size in wanted:
         draw = hidden.EFFECTS.get(id) or outsiders.OUTSIDERS[id]
         form = bool(rng.random() < 0.3) if other_form is None else other_form
         found.append({"id": id, "size": size, **draw(world, rng, size, form, (values or {}).get(id, {}))})
+    tables, truths = _record(setup, world, parameters["theta_0"], found, rng, sensor_rng)
+    name = name or folder.name
+    truth: dict[str, Any] = {"name": name, "seed": int(seed), "effects": found}
+    if fault is not None:
+        uses = [use for _, use, _, _ in setup.runs]
+        tables, truth["fault"] = faulty.spoil(fault, tables, uses, np.random.default_rng([int(seed), 3]))
+    four = any(id == "foot_defects" for id, _ in wanted)
+    _write(folder, name, "four_points" if four else "eight_points", setup, tables)
+    block = {"family": OTHER if setup.is_other else NEAR} | asdict(setup.block)
+    return truth | {"block": block, "parameters": parameters, "runs": truths}
+
+
+def _world(setup: Setup, parameters: dict[str, float]) -> World:
+    """The block of a setup on its plate, with what is typical of hidden effects there."""
+    world, scale = build(parameters, setup.block), scaling.scale_of(setup.block, parameters)
+    world.sensor = copy.deepcopy(setup.sensor)
+    world.factors = scaling.factors(scale) if setup.is_other else {}
+    for slot, unit in scaling.REFERENCES.items():
+        world[slot] *= getattr(scale, unit) if setup.is_other else 1.0
+    return world
+
+
+def _record(
+    setup: Setup,
+    world: World,
+    theta_0: float,
+    effects: list[dict[str, Any]],
+    rng: np.random.Generator,
+    sensor_rng: np.random.Generator,
+) -> tuple[list[Table], list[dict[str, Any]]]:
+    """Tables (t [s], rates [rad/s]) of all runs, and what is true of each: its tilt [rad], what befell it alone."""
     tables, truths = [], []
-    for number, (id, _use, stated, turned) in enumerate(runs):
+    for number, (id, _use, stated, turned) in enumerate(setup.runs):
         jitter = JITTER * rng.normal()
-        tilt = stated * parameters["theta_0"] / NOMINAL_TILT + jitter
+        tilt = stated * theta_0 / setup.nominal_tilt + jitter
         one = copy.deepcopy(world)
         own: dict[str, float] = {}
         for change in world.each_run:
             own.update(change(one, rng, number))
-        need = recorder.seconds_needed(one.sensor, seconds)
+        need = recorder.seconds_needed(one.sensor, setup.seconds)
         rates = simulate(one, tilt, turned, np.ceil(need * 100) / 100)
         if one.sensor.range < 0:  # a share of the largest rate of the first run
             world.sensor.range = one.sensor.range = -one.sensor.range * float(np.abs(rates).max())
-            for effect in found:
+            for effect in effects:
                 if "range" in effect["parameters"]:
                     effect["parameters"]["range"] = one.sensor.range
-        tables.append((id, recorder.record(rates, one.sensor, seconds, sensor_rng)))
+        tables.append(recorder.record(rates, one.sensor, setup.seconds, sensor_rng))
         truths.append({"id": id, "tilt": tilt, **own})
-    name = name or folder.name
-    _write(folder, name, "four_points" if four else "eight_points", runs, tables)
-    return {"name": name, "seed": int(seed), "effects": found, "parameters": parameters, "runs": truths}
+    return tables, truths
 
 
-def _write(folder: Path, name: str, baseline: str, runs: Sequence[tuple], tables: list) -> None:
+def _write(folder: Path, name: str, baseline: str, setup: Setup, tables: Sequence[Table]) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    for id, (t, rates) in tables:
+    # At one kilohertz three digits tell the time; at most other rates six.
+    digits = "%.3f" if setup.sensor.sample_rate == 1000 else "%.6f"
+    for (id, *_), (t, rates) in zip(setup.runs, tables, strict=True):
         text = io.StringIO()
         text.write("t_s,wx_deg_s,wy_deg_s,wz_deg_s\n")
-        np.savetxt(
-            text, np.column_stack([t, rates / recorder.DEGREE]), fmt=["%.3f", "%.2f", "%.2f", "%.2f"], delimiter=","
-        )
+        np.savetxt(text, np.column_stack([t, rates / DEGREE]), fmt=[digits, "%.2f", "%.2f", "%.2f"], delimiter=",")
         # No time and no name in the head: the same bytes whenever it is made.
         _put(folder / f"run{id}.csv.gz", gzip.compress(text.getvalue().encode(), 6, mtime=0))
+    _put(folder / "experiment.toml", _head(name, baseline, setup).encode())  # last: a folder with this file is whole
+
+
+def _head(name: str, baseline: str, setup: Setup) -> str:
+    """The text of experiment.toml: what an experimenter knows."""
+    block, sensor = setup.block, setup.sensor
     head = f"""name = "{name}"
 kind = "release"
 baseline = "{baseline}"
 
 [block]
-mass_kg = {MASS}
-width_m = {WIDTH:.3f}
-height_m = {HEIGHT:.3f}
+mass_kg = {block.mass}
+width_m = {block.width:.3f}
+height_m = {block.height:.3f}
 
 [release]
-tilt_uncertainty_rad = 0.0014
+tilt_uncertainty_rad = {setup.tilt_uncertainty:g}
 
 [gyro]
-sample_rate_hz = {recorder.SAMPLE_RATE}
-noise_deg_s = 0.05
-bandwidth_hz = {recorder.BANDWIDTH:.0f}
-resolution_deg_s = 0.01
+sample_rate_hz = {sensor.sample_rate:.0f}
+noise_deg_s = {sensor.noise / DEGREE:.3g}
+bandwidth_hz = {sensor.low_pass:.0f}
+resolution_deg_s = {sensor.resolution / DEGREE:.3g}
 """
-    for id, use, tilt, turned in runs:
+    for id, use, tilt, turned in setup.runs:
         head += f"""
 [[run]]
 id = "{id}"
@@ -163,7 +191,7 @@ use = "{use}"
 release_tilt_rad = {tilt:g}
 block_turned_deg = {180 if turned else 0}
 """
-    _put(folder / "experiment.toml", head.encode())  # last: a folder with this file is whole
+    return head
 
 
 def _put(path: Path, content: bytes) -> None:

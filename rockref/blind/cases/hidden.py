@@ -15,28 +15,30 @@ from rockref.blind.simulator.world import World
 
 def quadratic_drag(world: World, rng, size, other, given):
     """Air drag, as of a sail."""
-    c = pick(given, "c", about(rng, 0.4 * size))
+    c = pick(given, "c", world.factor("quadratic_drag.c") * about(rng, 0.4 * size))
     world["drag"], world["drag_form"] = c, other
     return said({"c": c}, "each pair of faces for itself" if other else CATALOGUE)
 
 
 def cable_restraint(world: World, rng, size, other, given):
     """The sensor's cable."""
-    k, c = pick(given, "k", about(rng, 5.0 * size)), pick(given, "c", about(rng, 0.3 * size))
+    k = pick(given, "k", world.factor("cable_restraint.k") * about(rng, 5.0 * size))
+    c = pick(given, "c", world.factor("cable_restraint.c") * about(rng, 0.3 * size))
     world["cable_k"], world["cable_c"], world["cable_form"] = k, c, other
     return said({"k": k, "c": c}, "a cable that stiffens" if other else CATALOGUE)
 
 
 def lingering_wire_pull(world: World, rng, size, other, given):
     """A wire that lets go slowly."""
-    force, tau = pick(given, "force", about(rng, 3.0 * size)), pick(given, "tau", about(rng, 0.3))
+    force = pick(given, "force", world.factor("lingering_wire_pull.force") * about(rng, 3.0 * size))
+    tau = pick(given, "tau", world.factor("lingering_wire_pull.tau") * about(rng, 0.3))
     world["wire"], world["wire_tau"], world["wire_form"] = force, tau, other
     return said({"force": force, "tau": tau}, "a pull that falls linearly" if other else CATALOGUE)
 
 
 def base_vibration(world: World, rng, size, other, given):
     """A floor that shakes; each run meets it at a phase of its own."""
-    amplitude = pick(given, "amplitude", about(rng, 0.1 * size))
+    amplitude = pick(given, "amplitude", world.factor("base_vibration.amplitude") * about(rng, 0.1 * size))
     frequency = pick(given, "frequency", float(rng.uniform(5.0, 22.0)))
     direction = pick(given, "direction", float(rng.uniform(-0.5, 0.5)))
     world["shake"], world["shake_f"], world["shake_dir"] = amplitude, frequency, direction
@@ -53,7 +55,7 @@ def base_vibration(world: World, rng, size, other, given):
 
 def plate_tilt(world: World, rng, size, other, given):
     """A plate that is not level."""
-    x, y = (pick(given, axis, signed(rng, 1e-3 * size)) for axis in "xy")
+    x, y = (pick(given, axis, world.factor("plate_tilt") * signed(rng, 1e-3 * size)) for axis in "xy")
     length = np.sqrt(1.0 + x * x + y * y)
     g = world["gravity"]
     world["gravity_x"], world["gravity_y"], world["gravity"] = g * x / length, g * y / length, g / length
@@ -62,11 +64,13 @@ def plate_tilt(world: World, rng, size, other, given):
 
 def compliant_support(world: World, rng, size, other, given):
     """A plate that yields: the softer, the larger."""
-    mass, frequency = pick(given, "mass", about(rng, 100.0)), pick(given, "frequency", about(rng, 60.0 / np.sqrt(size)))
+    mass = pick(given, "mass", world.factor("compliant_support.mass") * about(rng, 100.0))
+    natural = world.factor("compliant_support.frequency") * about(rng, 60.0 / np.sqrt(size))
+    frequency = pick(given, "frequency", natural)
     ratio = pick(given, "ratio", about(rng, 0.03))
     world["plate_m"], world["plate_f"], world["plate_ratio"] = mass, frequency, ratio
-    if other:  # it pitches too, a little faster than it bounces; a plate of 0.6 m
-        J = mass * 0.6**2 / 12
+    if other:  # it pitches too, a little faster than it bounces; a plate six times as wide as the block
+        J = mass * (0.6 * world.factor("compliant_support.pitch")) ** 2 / 12
         world["pitch_J"], world["pitch_k"] = J, J * (2 * np.pi * 1.4 * frequency) ** 2
         world["pitch_c"] = 2 * ratio * np.sqrt(world["pitch_k"] * J)
     return said({"mass": mass, "frequency": frequency, "ratio": ratio}, "it pitches too" if other else CATALOGUE)
@@ -74,10 +78,11 @@ def compliant_support(world: World, rng, size, other, given):
 
 def release_velocity(world: World, rng, size, other, given):
     """A release with a push, the same in every run."""
-    kick = [pick(given, k, signed(rng, value * size)) for k, value in (("x", 0.02), ("y", 0.01), ("z", 0.02))]
+    spin = world.factor("release_velocity")
+    kick = [pick(given, k, spin * signed(rng, v * size)) for k, v in (("x", 0.02), ("y", 0.01), ("z", 0.02))]
     world.kick = np.array(kick)
-    if other:  # the foot slips a little: the block turns about a line 5 mm above its feet
-        world.kick_at = 5e-3
+    if other:  # the foot slips a little: the block turns about a line a twentieth of its width above its feet
+        world.kick_at = 5e-3 * world.factor("release_velocity.height")
     parameters = dict(zip("xyz", kick, strict=True))
     return said(parameters, "turning about a line above the feet" if other else CATALOGUE)
 

@@ -12,14 +12,14 @@ from rockref.blind.simulator.world import World
 def hertzian_contact(world: World, rng, size, other, given):
     """A stiffening spring."""
     p = pick(given, "exponent", 1.0 + about(rng, 0.5 * size, 0.1))
-    x0 = pick(given, "reference", 2e-5)
+    x0 = pick(given, "reference", 2e-5 * world.factor("hertzian_contact.reference"))
     world["hertz_p"], world["hertz_x0"], world["hertz_form"] = p, x0, other
     return said({"exponent": p, "reference": x0}, "linear and quadratic spring" if other else CATALOGUE)
 
 
 def hunt_crossley_contact(world: World, rng, size, other, given):
     """A damper that grows with depth."""
-    a = pick(given, "a", about(rng, 0.5 * size))
+    a = pick(given, "a", world.factor("hunt_crossley_contact.a") * about(rng, 0.5 * size))
     world["crossley_a"], world["crossley_form"] = a, other
     return said({"a": a}, "damper grows with the root of the depth" if other else CATALOGUE)
 
@@ -33,7 +33,8 @@ def hysteretic_contact(world: World, rng, size, other, given):
 
 def adhesion(world: World, rng, size, other, given):
     """A pull toward the plate."""
-    force, reach = pick(given, "force", about(rng, 50.0 * size)), pick(given, "range", about(rng, 2e-5, 0.2))
+    force = pick(given, "force", world.factor("adhesion.force") * about(rng, 50.0 * size))
+    reach = pick(given, "range", about(rng, 2e-5, 0.2))
     world["pull"], world["pull_range"], world["pull_form"] = force, reach, other
     return said({"force": force, "range": reach}, "exponential fading" if other else CATALOGUE)
 
@@ -78,7 +79,7 @@ def stribeck_friction(world: World, rng, size, other, given):
 
 def viscous_friction(world: World, rng, size, other, given):
     """A film under the feet."""
-    c = pick(given, "c", about(rng, 1000.0 * size))
+    c = pick(given, "c", world.factor("viscous_friction.c") * about(rng, 1000.0 * size))
     world["viscous"], world["viscous_form"] = c, other
     return said({"c": c}, "shear thinning, power 0.8" if other else CATALOGUE)
 
@@ -86,27 +87,28 @@ def viscous_friction(world: World, rng, size, other, given):
 def load_dependent_friction(world: World, rng, size, other, given):
     """A coefficient that falls with the load."""
     p = pick(given, "exponent", about(rng, 0.15 * size))
-    world["load_p"], world["load_ref"], world["load_form"] = p, 264.87, other
-    return said({"exponent": p, "reference": 264.87}, "exponential fall, bounded at no load" if other else CATALOGUE)
+    load = 264.87 * world.factor("load_dependent_friction.reference")
+    world["load_p"], world["load_ref"], world["load_form"] = p, load, other
+    return said({"exponent": p, "reference": load}, "exponential fall, bounded at no load" if other else CATALOGUE)
 
 
 def spin_friction(world: World, rng, size, other, given):
     """A foot that resists turning about the vertical."""
-    radius = pick(given, "radius", about(rng, 2e-3 * size))
+    radius = pick(given, "radius", world.factor("spin_friction.radius") * about(rng, 2e-3 * size))
     world["spin"], world["spin_form"] = radius, other
     return said({"radius": radius}, "weakened by sliding" if other else CATALOGUE)
 
 
 def rolling_resistance(world: World, rng, size, other, given):
     """A foot that resists being rolled over."""
-    lever = pick(given, "lever", about(rng, 2e-4 * size))
+    lever = pick(given, "lever", world.factor("rolling_resistance.lever") * about(rng, 2e-4 * size))
     world["roll"], world["roll_form"] = lever, other
     return said({"lever": lever}, "lever grows with the root of the load" if other else CATALOGUE)
 
 
 def rounded_feet(world: World, rng, size, other, given):
     """Feet that roll."""
-    radius = pick(given, "radius", about(rng, 2e-3 * size))
+    radius = pick(given, "radius", world.factor("rounded_feet.radius") * about(rng, 2e-3 * size))
     world.props[:, P["radius"]] = radius
     if other:
         world.scale("radius", uneven(rng, 0.3))
@@ -116,6 +118,7 @@ def rounded_feet(world: World, rng, size, other, given):
 def uneven_contact_normals(world: World, rng, size, other, given):
     """Slopes where the feet stand."""
     slopes = np.array([[signed(rng, 0.009 * size) for _ in range(2)] for _ in range(4)])
+    slopes *= world.factor("uneven_contact_normals")
     world.props[:, P["slope_x"]], world.props[:, P["slope_y"]] = slopes[world.foot].T
     world["normals_form"] = other
     parameters = {f"{axis}{i + 1}": float(slopes[i, j]) for i in range(4) for j, axis in enumerate("xy")}
@@ -124,18 +127,18 @@ def uneven_contact_normals(world: World, rng, size, other, given):
 
 def mass_eccentricity(world: World, rng, size, other, given):
     """The centre of mass off its place."""
-    shift = np.array([pick(given, axis, signed(rng, 1e-3 * size)) for axis in "xyz"])
+    drawn = {axis: world.factor(f"mass_eccentricity.{axis}") * signed(rng, 1e-3 * size) for axis in "xyz"}
+    shift = np.array([pick(given, axis, drawn[axis]) for axis in "xyz"])
     world.points -= shift
     world["top"] -= shift[2]
     world["bottom"] -= shift[2]
-    if other:  # a lump of 3 kg, with what it does to the inertia
-        arm = shift * (world.mass - 3.0) / 3.0
+    if other:  # a lump of 3 kg (of the same share of another block), with what it does to the inertia
+        lump = 3.0 * world.factor("mass_eccentricity.lump")
+        arm = shift * (world.mass - lump) / lump
         r = arm - shift
-        world.J += 3.0 * (r @ r * np.eye(3) - np.outer(r, r))
-        world.J += (world.mass - 3.0) * (shift @ shift * np.eye(3) - np.outer(shift, shift))
-    return said(
-        dict(zip("xyz", map(float, shift), strict=True)), "a lump of 3 kg with its inertia" if other else CATALOGUE
-    )
+        world.J += lump * (r @ r * np.eye(3) - np.outer(r, r))
+        world.J += (world.mass - lump) * (shift @ shift * np.eye(3) - np.outer(shift, shift))
+    return said(dict(zip("xyz", map(float, shift), strict=True)), "a lump with its inertia" if other else CATALOGUE)
 
 
 def inertia_deviation(world: World, rng, size, other, given):

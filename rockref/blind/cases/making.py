@@ -20,15 +20,18 @@ PARTS = ".making"
 
 def make_one(folder: str, name: str, case: Case) -> str:
     """Make one case and keep its truth in a part file. A case that is there with its part is left alone."""
-    from rockref.blind.cases.generator import make_case
+    from rockref.blind.cases.blocks import OTHER
+    from rockref.blind.cases.generator import make_case, setup_that_shows
 
     root = Path(folder)
     part = root / PARTS / f"{name}.json"
     if part.exists() and (root / name / "experiment.toml").exists():
         return name
+    setup = setup_that_shows(case.effects, case.seed) if case.block == OTHER else None
     truth = make_case(
-        root / name, case.effects, case.seed, runs=case.runs, other_form=case.other_form, values=case.values
-    )
+        root / name, case.effects, case.seed, setup=setup, runs=case.runs, other_form=case.other_form,
+        values=case.values, fault=case.fault,
+    )  # fmt: skip
     write_json(part, truth | {"kind": case.kind, "class": list(case.same_as)})
     return name
 
@@ -36,7 +39,8 @@ def make_one(folder: str, name: str, case: Case) -> str:
 def make(
     folder: Path | str,
     seed: int,
-    n: int = 120,
+    near: int = 80,
+    other: int = 40,
     *,
     cases: Sequence[Case] | None = None,
     workers: int | None = None,
@@ -47,14 +51,14 @@ def make(
 
     Parameters
     ----------
-    seed, n : of the plan; cases : instead of a plan's.
+    seed, near, other : of the plan; cases : instead of a plan's.
     workers : processes; dask : address of a cluster that sees the same folder.
 
     Returns the manifest. Raises InputError E-SEALED where a finished test is there, E-SEED where another is half made,
     E-WORKERS and E-DASK, E-BUSY where another process is at it.
     """
     folder = Path(folder).resolve()
-    cases = plan(seed, n) if cases is None else list(cases)
+    cases = plan(seed, near, other) if cases is None else list(cases)
     names = [f"case-{i:03d}" for i in range(1, len(cases) + 1)]
     folder.mkdir(parents=True, exist_ok=True)
     with alone_in(folder):

@@ -39,46 +39,53 @@ def _hang(world: World, m: float, height: float, frequency: tuple[float, float, 
         world[f"hung_c{axis}"] = 2 * ratio * np.sqrt(k * m)
 
 
+def _part(world: World, mass: float, frequency: float, height: float) -> tuple[float, ...]:
+    """Mass [kg], frequency [Hz] and height [m] of a part of the source's block, for this block."""
+    factors = (world.factor(f"hung.{name}") for name in ("mass", "frequency", "height"))
+    return tuple(f * value for f, value in zip(factors, (mass, frequency, height), strict=True))
+
+
 # decided: where the mass is held it is held at 200 Hz, far above all that the block does between contacts.
 HELD = 200.0
 
 
 def loose_mass_y(world: World, rng, size, other, given):
     """A part inside that swings in the rocking plane."""
-    m, f, height = about(rng, 3.0 * size), about(rng, 5.5), float(rng.uniform(0.1, 0.28))
+    m, f, height = _part(world, about(rng, 3.0 * size), about(rng, 5.5), float(rng.uniform(0.1, 0.28)))
     _hang(world, m, height, (HELD, f, HELD), 0.03)
     return _told({"mass": m, "frequency": f, "height": height}, "a loose part, in the rocking plane", "xyz")
 
 
 def loose_mass_x(world: World, rng, size, other, given):
     """A part inside that swings across the rocking plane."""
-    m, f, height = about(rng, 3.0 * size), about(rng, 9.0), float(rng.uniform(0.1, 0.28))
+    m, f, height = _part(world, about(rng, 3.0 * size), about(rng, 9.0), float(rng.uniform(0.1, 0.28)))
     _hang(world, m, height, (f, HELD, HELD), 0.03)
     return _told({"mass": m, "frequency": f, "height": height}, "a loose part, across the rocking plane", "xyz")
 
 
 def sloshing(world: World, rng, size, other, given):
     """A liquid inside: slow and hardly damped, in both directions."""
-    m, f = about(rng, 2.0 * size), about(rng, 2.2, 0.1)
-    _hang(world, m, float(rng.uniform(0.0, 0.2)), (f, f, HELD), 0.01)
+    m, f, height = _part(world, about(rng, 2.0 * size), about(rng, 2.2, 0.1), float(rng.uniform(0.0, 0.2)))
+    _hang(world, m, height, (f, f, HELD), 0.01)
     return _told({"mass": m, "frequency": f}, "a liquid with a free surface", "xyz")
 
 
 def magnet(world: World, rng, size, other, given):
     """A pole beside the top: it pulls when the block leans far to its side."""
-    force, length = about(rng, 6.0 * size), about(rng, 0.02)
-    world["magnet"], world["magnet_y"], world["magnet_length"] = force, 0.09, length
+    far = world.factor("magnet.length")
+    force, length = world.factor("magnet.force") * about(rng, 6.0 * size), far * about(rng, 0.02)
+    world["magnet"], world["magnet_y"], world["magnet_length"] = force, far * 0.09, length
     return _told({"force": force, "length": length}, "a pull of a fixed pole", "x")
 
 
 def gust(world: World, rng, size, other, given):
     """A puff of air, at another time in every run."""
-    force = about(rng, 2.5 * size)
+    force, time = world.factor("gust.force") * about(rng, 2.5 * size), world.factor("gust.time")
 
     def own(one: World, rng: np.random.Generator, number: int) -> dict[str, float]:
         one["gust"] = force * float(rng.choice([-1.0, 1.0]))
-        one["gust_t"], one["gust_width"] = float(rng.uniform(0.6, 2.2)), about(rng, 0.25)
-        one["gust_z"] = 0.1
+        one["gust_t"], one["gust_width"] = time * float(rng.uniform(0.6, 2.2)), time * about(rng, 0.25)
+        one["gust_z"] = world.factor("gust.height") * 0.1
         return {"gust": one["gust"], "start": one["gust_t"], "length": one["gust_width"]}
 
     world.each_run.append(own)
@@ -87,12 +94,12 @@ def gust(world: World, rng, size, other, given):
 
 def knock(world: World, rng, size, other, given):
     """A blow of a few milliseconds across the rocking plane, at another time in every run."""
-    impulse = about(rng, 0.4 * size)
+    impulse, time = world.factor("knock.impulse") * about(rng, 0.4 * size), world.factor("gust.time")
 
     def own(one: World, rng: np.random.Generator, number: int) -> dict[str, float]:
         one["gust_width"] = 0.006
         one["gust_x"] = 2.0 * impulse / one["gust_width"] * float(rng.choice([-1.0, 1.0]))
-        one["gust_t"], one["gust_z"] = float(rng.uniform(0.2, 2.2)), 0.2
+        one["gust_t"], one["gust_z"] = time * float(rng.uniform(0.2, 2.2)), world.factor("gust.height") * 0.2
         return {"impulse": impulse, "start": one["gust_t"]}
 
     world.each_run.append(own)
@@ -101,7 +108,7 @@ def knock(world: World, rng, size, other, given):
 
 def rotor(world: World, rng, size, other, given):
     """A wheel that spins inside about the transverse axis: rocking turns the block about its height."""
-    h = signed(rng, 1.5 * size)
+    h = world.factor("rotor.angular_momentum") * signed(rng, 1.5 * size)
     world["rotor_y"] = h
     return _told({"angular_momentum": h}, "a spinning wheel", "xyz")
 
@@ -123,7 +130,7 @@ def ringing_mount(world: World, rng, size, other, given):
 
 def creeping_feet(world: World, rng, size, other, given):
     """Feet on a polymer: a second spring that relaxes in milliseconds."""
-    k, tau = about(rng, 4e7 * size), about(rng, 3e-3)
+    k, tau = world.factor("creeping_feet.stiffness") * about(rng, 4e7 * size), about(rng, 3e-3)
     world["creep_k"], world["creep_tau"] = k, tau
     return _told({"stiffness": k, "time": tau}, "feet with a memory", "xyz", LATER)
 

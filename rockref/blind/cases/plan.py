@@ -1,20 +1,30 @@
-"""Which cases a blind test has: controls, single effects at three sizes, two at once, effects in no list, twins."""
+"""Which cases a blind test has, near the source's block and of others.
+
+Controls, single effects at three sizes, two at once, effects in no list, twins, and faulty records.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rockref.blind.cases.generator import RUNS
+from rockref.blind.cases.blocks import NEAR, OTHER, RUNS, Runs
+from rockref.blind.cases.faulty import FAULTS
 from rockref.blind.cases.hidden import EFFECTS
 from rockref.blind.cases.outsiders import OUTSIDERS
 
-CONTROL, SINGLE, PAIR, OUTSIDER, TWIN = "control", "single", "pair", "outsider", "twin"
+CONTROL, SINGLE, PAIR, OUTSIDER, TWIN, FAULTY = "control", "single", "pair", "outsider", "twin", "faulty"
 #: Share of each kind; after the proportions of a study of verdicts (controls a fifth, half single effects).
-SHARES = {CONTROL: 0.20, SINGLE: 0.50, PAIR: 0.10, OUTSIDER: 0.12, TWIN: 0.08}
+SHARES = {CONTROL: 0.20, SINGLE: 0.50, PAIR: 0.10, OUTSIDER: 0.10, TWIN: 0.06, FAULTY: 0.04}
+#: Kinds of which a small plan has one each, in this order.
+FIRST = (CONTROL, SINGLE, OUTSIDER, PAIR, FAULTY)
+#: decided: of three blocks one is not near Table 3.1.
+OTHERS = 3
+#: Stands for every effect of the catalogue in a list of words.
+EACH = "each"
 #: Sizes of a single effect, in typical ones.
 SIZES = (0.5, 1.0, 2.0)
 #: Pairs whose members are each other's nearest confounders.
@@ -48,32 +58,44 @@ LEVER = 0.344
 
 @dataclass(frozen=True)
 class Case:
-    """One case to be made: its kind, effects with sizes, seed, runs, set values, and the class that twins belong to."""
+    """One case to be made: its kind, effects with sizes, seed, block, runs, set values, the class of twins, a fault."""
 
     kind: str
     effects: tuple[tuple[str, float], ...]
     seed: int
-    runs: tuple[tuple[str, str, float, bool], ...] = RUNS
+    runs: Runs | None = None
     values: dict[str, dict[str, float]] = field(default_factory=dict)
     same_as: tuple[str, ...] = ()
     other_form: bool | None = None
+    block: str = NEAR
+    fault: str | None = None
 
 
-def counts(n: int) -> dict[str, int]:
-    """How many cases of each kind n cases have: from five on one of each at least; twins by twos from ten on."""
-    if n < len(SHARES):
-        kinds = (CONTROL, SINGLE, OUTSIDER, PAIR)[:n]
-        return {kind: int(kind in kinds) for kind in SHARES}
+def counts(n: int, block: str = NEAR) -> dict[str, int]:
+    """How many cases of each kind n cases of a block have; twins, by twos, near the source alone, from ten cases on."""
+    if n < len(FIRST):
+        return {kind: int(kind in FIRST[:n]) for kind in SHARES}
     found = {kind: max(1, int(share * n)) for kind, share in SHARES.items()}
-    found[TWIN] += found[TWIN] % 2 if n >= 10 else 0
+    found[TWIN] = 2 * round(SHARES[TWIN] * n / 2 + 0.25) if n >= 10 and block == NEAR else 0
     found[SINGLE] += n - sum(found.values())
     return found
 
 
-def plan(seed: int, n: int) -> list[Case]:
-    """The n cases of this seed, shuffled."""
+def shared(n: int) -> tuple[int, int]:
+    """How many of n cases are near the source, and how many are of other blocks."""
+    return n - n // OTHERS, n // OTHERS
+
+
+def plan(seed: int, near: int, other: int = 0) -> list[Case]:
+    """The cases of this seed, shuffled: so many near the source, so many of other blocks."""
     rng = np.random.default_rng([int(seed), 0])
-    wanted = counts(n)
+    cases = _drawn(rng, near, NEAR) + _drawn(rng, other, OTHER)
+    return [cases[i] for i in rng.permutation(len(cases))]
+
+
+def _drawn(rng: np.random.Generator, n: int, block: str) -> list[Case]:
+    """n cases of one kind of block."""
+    wanted = counts(n, block)
     cases = [Case(CONTROL, (), _seed(rng)) for _ in range(wanted[CONTROL])]
     cases += [Case(SINGLE, (one,), _seed(rng)) for _, one in zip(range(wanted[SINGLE]), _singles(rng), strict=False)]
     likes, unlikes = rng.permutation(CONFUSABLE), rng.permutation(UNLIKE)
@@ -83,34 +105,54 @@ def plan(seed: int, n: int) -> list[Case]:
     abroad = rng.permutation(ABROAD)
     for i in range(wanted[OUTSIDER]):
         cases.append(Case(OUTSIDER, ((str(abroad[i % len(abroad)]), (1.0, 1.5)[i // len(abroad) % 2]),), _seed(rng)))
-    twins: list[Case] = []
-    while len(twins) < wanted[TWIN]:
-        twins += _twins(rng, len(twins) // 2)
-    cases += twins[: wanted[TWIN]]
+    for number in range(wanted[TWIN] // 2):
+        cases += _twins(rng, number)
+    faults = rng.permutation(list(FAULTS))
+    for i in range(wanted[FAULTY]):
+        cases.append(Case(FAULTY, (), _seed(rng), fault=str(faults[i % len(faults)])))
+    return [replace(case, block=block) for case in cases]
+
+
+def listed(seed: int, words: Sequence[str], near: int | None = None, other: int = 0) -> list[Case]:
+    """Cases from words: "none", "gyro_scale", "gyro_scale:2", "plate_tilt+gyro_drift", "wrapped", "each:0.5".
+
+    "each" stands for all effects of the catalogue, one a case. Every word once, near the source; or, if numbers are
+    given, so many near it and so many of other blocks, the words in turn for either, shuffled.
+
+    Raises ValueError with the word for others: an id that nobody knows, no positive size, an effect twice in a case,
+    a fault beside an effect.
+    """
+    rng = np.random.default_rng([int(seed), 0])
+    single = [one for word in words for one in _spelled(word)]
+    if near is None:
+        return [_listed(word, rng, NEAR) for word in single]
+    if not single:
+        return []
+    cases = [_listed(single[i % len(single)], rng, NEAR) for i in range(near)]
+    cases += [_listed(single[i % len(single)], rng, OTHER) for i in range(other)]
     return [cases[i] for i in rng.permutation(len(cases))]
 
 
-def listed(seed: int, words: Sequence[str]) -> list[Case]:
-    """Cases from words: "none", "gyro_scale", "gyro_scale:2", "plate_tilt+gyro_drift".
+def _spelled(word: str) -> list[str]:
+    id, colon, size = word.partition(":")
+    return [f"{effect}{colon}{size}" for effect in EFFECTS] if id == EACH else [word]
 
-    Raises ValueError with the word for others: an id that nobody knows, no positive size, an effect twice in a case.
-    """
-    rng = np.random.default_rng([int(seed), 0])
-    cases = []
-    for word in words:
-        effects = []
-        for part in [] if word == "none" else word.split("+"):
-            id, _, size = part.partition(":")
-            if id not in EFFECTS and id not in OUTSIDERS:
-                raise ValueError(id)
-            effects.append((id, _size(part, size)))
-        if len({id for id, _ in effects}) < len(effects):
-            raise ValueError(word)
-        kind = CONTROL if not effects else PAIR if len(effects) > 1 else SINGLE
-        if any(id in OUTSIDERS for id, _ in effects):
-            kind = OUTSIDER
-        cases.append(Case(kind, tuple(effects), _seed(rng)))
-    return cases
+
+def _listed(word: str, rng: np.random.Generator, block: str) -> Case:
+    if word in FAULTS:
+        return Case(FAULTY, (), _seed(rng), block=block, fault=word)
+    effects = []
+    for part in [] if word == "none" else word.split("+"):
+        id, _, size = part.partition(":")
+        if id not in EFFECTS and id not in OUTSIDERS:
+            raise ValueError(id)
+        effects.append((id, _size(part, size)))
+    if len({id for id, _ in effects}) < len(effects):
+        raise ValueError(word)
+    kind = CONTROL if not effects else PAIR if len(effects) > 1 else SINGLE
+    if any(id in OUTSIDERS for id, _ in effects):
+        kind = OUTSIDER
+    return Case(kind, tuple(effects), _seed(rng), block=block)
 
 
 def _size(part: str, size: str) -> float:
@@ -141,7 +183,7 @@ def _twins(rng: np.random.Generator, number: int) -> list[Case]:
     """Two cases with one seed that differ in the cause alone, in a campaign too poor to tell the causes apart."""
     seed = _seed(rng)
     values: dict[str, dict[str, float]]
-    runs: tuple[tuple[str, str, float, bool], ...]
+    runs: Runs
     if number % 2 == 0:  # never turned: what belongs to the plate and what to the block look alike
         y = float(rng.choice([-1.0, 1.0]) * rng.uniform(0.7e-3, 1.5e-3))
         names = ("plate_tilt", "mass_eccentricity")

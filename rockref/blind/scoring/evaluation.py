@@ -30,6 +30,8 @@ def judge_case(folder: str, name: str, threads: int | None) -> str:
     began = time.perf_counter()
     try:
         found = _diagnose(path.parent, threads)
+    except InputError as error:  # the record is refused: right where it is faulty
+        found = {"verdict": "refused", "effects": [], "code": error.code, "why": str(error)}
     except Exception as error:  # a case that breaks the discoverer counts against it, and the others go on
         found = {"verdict": "error", "effects": [], "why": f"{error!r}", "trace": traceback.format_exc()}
     found.setdefault("seconds", round(time.perf_counter() - began, 1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rockref.blind.cases.plan import CONTROL, OUTSIDER, PAIR, SINGLE, TWIN
+from rockref.blind.cases.plan import CONTROL, FAULTY, OUTSIDER, PAIR, SINGLE, TWIN
 from rockref.blind.scoring.sizes import covered, size_error, stated
 from rockref.discover.window_rules import least_seen
 
@@ -12,6 +12,8 @@ from rockref.discover.window_rules import least_seen
 NAMING = ("named", "pair")
 #: Verdicts that say that some effect of the catalogue is there.
 CLAIMS = (*NAMING, "indicated", "class")
+#: Answers that judge nothing by a record: the reader's (exit code 2), and the verdict's.
+REFUSALS = ("refused", "not_trustworthy")
 #: decided: a class of more members helps nobody.
 LARGEST_CLASS = 3
 #: decided: held-out runs show an effect where the baseline's error is a tenth above the noise.
@@ -55,6 +57,8 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
     elif kind == OUTSIDER:
         found["abstained"] = word == "something_else"
         found["card"] = found["abstained"] and on_card(truth["effects"], verdict.get("signature") or {})
+    elif kind == FAULTY:
+        found["refused"] = word in REFUSALS
     if kind in (SINGLE, PAIR, TWIN) and word in CLAIMS:
         found |= _sizes(truth["effects"], verdict, said)
     if kind in (SINGLE, PAIR):

@@ -6,7 +6,7 @@ import statistics
 from collections.abc import Iterable
 from typing import Any
 
-from rockref.blind.cases.plan import CONTROL, OUTSIDER, PAIR, SINGLE, SIZES, TWIN
+from rockref.blind.cases.plan import CONTROL, FAULTY, OUTSIDER, PAIR, SINGLE, SIZES, TWIN
 from rockref.blind.scoring.wilson import wilson
 
 Marks = list[dict[str, Any]]
@@ -14,7 +14,7 @@ Marks = list[dict[str, Any]]
 
 def scores(marks: Marks) -> list[dict[str, Any]]:
     """Rows: score, value, low, high, n, goal, met (None where there is no goal or no case)."""
-    of = {kind: [m for m in marks if m["kind"] == kind] for kind in (CONTROL, SINGLE, PAIR, OUTSIDER, TWIN)}
+    of = {kind: [m for m in marks if m["kind"] == kind] for kind in (CONTROL, SINGLE, PAIR, OUTSIDER, TWIN, FAULTY)}
     single = of[SINGLE]
     rows = [
         _share("controls: false alarms", (m["false_alarm"] for m in of[CONTROL]), most=0.0),
@@ -39,6 +39,7 @@ def scores(marks: Marks) -> list[dict[str, Any]]:
         _share("in no list: with the right axis and phase", (m["card"] for m in of[OUTSIDER]), least=0.95),
         _share("twins: truth in a class of at most three", (m["in_class"] for m in of[TWIN])),
         _share("twins: called a class", (m["as_class"] for m in of[TWIN])),
+        _share("faulty records: refused", (m["refused"] for m in of[FAULTY]), least=0.95),
     ]
     gaps = [m["gap_closed"] for m in marks if m.get("gap_closed") is not None]
     errors = [e for m in marks for e in m.get("size_errors", ())]
@@ -113,6 +114,7 @@ def failures(marks: Marks) -> list[str]:
         good = {
             CONTROL: not m.get("false_alarm", False), SINGLE: m.get("first", False), TWIN: m.get("in_class", False),
             PAIR: m.get("both", False), OUTSIDER: m.get("card", False),
+            FAULTY: m.get("refused", False),
         }[m["kind"]]  # fmt: skip
         if not good or m["wrong_name"]:
             true = " + ".join(f"{e} x {s:g}" for e, s in zip(m["truth"], m["sizes"], strict=True)) or "nothing"

@@ -15,6 +15,7 @@ PULL, PULL_RANGE, PULL_FORM = G["pull"], G["pull_range"], G["pull_form"]
 STRIBECK, STRIBECK_V, STRIBECK_FORM = G["stribeck_excess"], G["stribeck_v"], G["stribeck_form"]
 LOAD, LOAD_REF, LOAD_FORM = G["load_p"], G["load_ref"], G["load_form"]
 VISCOUS, VISCOUS_FORM = G["viscous"], G["viscous_form"]
+DEPTH_0, SPEED_0 = G["depth_0"], G["speed_0"]
 
 
 @compiled
@@ -48,8 +49,8 @@ def normal_force(depth, rate, deepest, creep, p, g):
         if g[CROSSLEY_FORM] == 0.0:
             viscous += g[CROSSLEY] * K * depth * rate
         else:
-            # Another depth dependence, a root; equal at 20 micrometres.
-            viscous += g[CROSSLEY] * K * math.sqrt(2e-5 * depth) * rate
+            # Another depth dependence, a root; equal at the reference depth.
+            viscous += g[CROSSLEY] * K * math.sqrt(g[DEPTH_0] * depth) * rate
     return max(elastic + viscous + creep, 0.0)
 
 
@@ -105,5 +106,5 @@ def film(vx, vy, g):
     """Force over sliding velocity [N s/m] of a film under a touching point."""
     if g[VISCOUS_FORM] == 0.0:
         return g[VISCOUS]
-    # Another rheology, shear thinning with power 0.8; equal at 10 mm/s.
-    return g[VISCOUS] * max(math.sqrt(vx * vx + vy * vy) / 0.01, 1e-6) ** -0.2
+    # Another rheology, shear thinning with power 0.8; equal at the reference speed.
+    return g[VISCOUS] * max(math.sqrt(vx * vx + vy * vy) / g[SPEED_0], 1e-6) ** -0.2

@@ -19,7 +19,7 @@ PULL_RANGE, HYSTERESIS, CREEP_K, CREEP_TAU = G["pull_range"], G["hysteresis"], G
 GRAVITY, GRAVITY_X, GRAVITY_Y, NORMALS_FORM = G["gravity"], G["gravity_x"], G["gravity_y"], G["normals_form"]
 PLATE_M, PLATE_F, PLATE_RATIO = G["plate_m"], G["plate_f"], G["plate_ratio"]
 PITCH_K, PITCH_J, PITCH_C = G["pitch_k"], G["pitch_J"], G["pitch_c"]
-HUNG_M = G["hung_m"]
+HUNG_M, HALF_WEIGHT = G["hung_m"], G["half_weight"]
 ROTOR_X, ROTOR_Y, ROTOR_Z = G["rotor_x"], G["rotor_y"], G["rotor_z"]
 # decided: half the base turns a stiffness of a foot into one against rolling; see the effect of that name.
 ARM = 0.05
@@ -127,7 +127,7 @@ def foot_forces(x, v, R, w_plate, points, props, memory, plate, g, dt, F, M, rea
             if g[ROLL] > 0.0:
                 lever = g[ROLL]
                 if g[ROLL_FORM] != 0.0:  # another law: the lever grows with the root of the load
-                    lever *= math.sqrt(N / 264.87)
+                    lever *= math.sqrt(N / g[HALF_WEIGHT])
                 K, C = p[KN] * g[ROLL] * ARM, p[CN] * g[ROLL] * ARM
                 a, b = -K * m[4] - C * w_plate[0], -K * m[5] - C * w_plate[1]
                 size, limit = math.sqrt(a * a + b * b), lever * N

@@ -16,7 +16,7 @@ SHAKE, SHAKE_F, SHAKE_DIR, SHAKE_PHASE, HARMONIC = (
 TOP, BOTTOM, GRAVITY = G["top"], G["bottom"], G["gravity"]
 MAGNET, MAGNET_Y, MAGNET_LENGTH = G["magnet"], G["magnet_y"], G["magnet_length"]
 GUST, GUST_T, GUST_WIDTH, GUST_Z, GUST_X = (G[k] for k in ("gust", "gust_t", "gust_width", "gust_z", "gust_x"))
-HUNG_M, HUNG_Z = G["hung_m"], G["hung_z"]
+HUNG_M, HUNG_Z, SWAY_0 = G["hung_m"], G["hung_z"], G["sway_0"]
 KX, KY, KZ, CX, CY, CZ = (G[k] for k in ("hung_kx", "hung_ky", "hung_kz", "hung_cx", "hung_cy", "hung_cz"))
 # Gauss-Legendre, five nodes on -1 to 1: exact for polynomials up to the ninth degree.
 NODES = (0.0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640, 0.9061798459386640)
@@ -58,8 +58,8 @@ def load_on_body(t, x, v, R, w, mass, g, anchor, start, F, M):
         vx = v[0] + (w[1] * R[2, 2] - w[2] * R[1, 2]) * top
         vy = v[1] + (w[2] * R[0, 2] - w[0] * R[2, 2]) * top
         k = g[CABLE_K]
-        if g[CABLE_FORM] != 0.0:  # another cable: it stiffens as it straightens; equal at 80 mm
-            k *= 0.5 + 0.5 * (ox * ox + oy * oy) / 0.08**2
+        if g[CABLE_FORM] != 0.0:  # another cable: it stiffens as it straightens; equal at the reference way
+            k *= 0.5 + 0.5 * (ox * ox + oy * oy) / g[SWAY_0] ** 2
         push(top, R, -k * ox - g[CABLE_C] * vx, -k * oy - g[CABLE_C] * vy, 0.0, F, M)
     if g[WIRE] > 0.0:
         if g[WIRE_FORM] == 0.0:

@@ -9,8 +9,6 @@ import numpy as np
 from rockref.blind.simulator.compiled import kept
 from rockref.blind.simulator.world import Sensor
 
-DEGREE = math.pi / 180
-NOISE, BANDWIDTH, RESOLUTION, SAMPLE_RATE = 0.05 * DEGREE, 300.0, 0.01 * DEGREE, 1000
 #: Lines a second in which the simulator hands over its rates.
 FINE = 10_000
 
@@ -83,7 +81,7 @@ def record(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The table that the recorder keeps: t (N,) [s] and rates (N, 3) [rad/s], of rates (M, 3) at FINE lines a second.
 
-    Mounting, ringing of the mount, scale, low-pass, its own 300 Hz, clock, lost packets, bias and drift, noise,
+    Mounting, ringing of the mount, scale, low-pass, its own low-pass, clock, lost packets, bias and drift, noise,
     saturation, resolution.
     """
     u = rates @ sensor.turn.T
@@ -92,17 +90,17 @@ def record(
     u = u * sensor.scale + sensor.cubic * u**3
     if sensor.bandwidth:
         u = low_pass(u, sensor.bandwidth, sensor.bandwidth_order)
-    u = low_pass(u, BANDWIDTH)
-    t = np.arange(round(seconds * SAMPLE_RATE) + 1) / SAMPLE_RATE
+    u = low_pass(u, sensor.low_pass)
+    t = np.arange(round(seconds * sensor.sample_rate) + 1) / sensor.sample_rate
     u = cubic(u, true_time(sensor, t) * FINE)
     if sensor.lost_packets:
         u = _lose(u, sensor, rng)
     warm = 1.0 - np.exp(-t / sensor.warm_up) if sensor.warm_up else t
     u = u + sensor.bias + warm[:, None] * sensor.drift
-    u = u + NOISE * rng.normal(size=u.shape)
+    u = u + sensor.noise * rng.normal(size=u.shape)
     if sensor.range:
         u = sensor.range * np.tanh(u / sensor.range) if sensor.soft else np.clip(u, -sensor.range, sensor.range)
-    return t, np.round(u / RESOLUTION) * RESOLUTION
+    return t, np.round(u / sensor.resolution) * sensor.resolution
 
 
 def _lose(u: np.ndarray, sensor: Sensor, rng: np.random.Generator) -> np.ndarray:

@@ -21,6 +21,8 @@ GLOBALS = (
     "hung_m", "hung_kx", "hung_ky", "hung_kz", "hung_cx", "hung_cy", "hung_cz", "hung_z",
     "magnet", "magnet_y", "magnet_length", "gust", "gust_t", "gust_width", "gust_z", "gust_x",
     "rotor_x", "rotor_y", "rotor_z", "creep_k", "creep_tau",
+    # where another form is equal to the catalogue's: load [N], depth [m], sliding speed [m/s], way of the top [m]
+    "half_weight", "depth_0", "speed_0", "sway_0",
 )  # fmt: skip
 #: What belongs to a point: stiffness and damping, friction, and the slope of the plate where it stands.
 POINT = ("K_N", "K_T", "C_N", "C_T", "mu", "radius", "slope_x", "slope_y")

@@ -12,7 +12,7 @@ import rockref.blind as blind
 FOLDER = Path(blind.__file__).parent
 OWN = "rockref.blind."
 #: Everything that makes an experiment folder: the simulator, and of the cases what draws and writes one.
-DRAWING = ("drawing", "hidden_contact", "hidden", "outsiders", "generator", "plan")
+DRAWING = ("blocks", "drawing", "faulty", "generator", "hidden", "hidden_contact", "outsiders", "plan", "scaling")
 SIMULATOR = tuple(sorted(path.stem for path in (FOLDER / "simulator").glob("*.py")))
 ALLOWED = {"numpy", "numba"} | set(sys.stdlib_module_names)
 
@@ -67,7 +67,8 @@ class Wall(importlib.abc.MetaPathFinder):
 sys.meta_path.insert(0, Wall())
 from rockref.blind.simulator import compiled
 compiled.COMPILED = False  # as Python: the test is of what is loaded, not of speed
-from rockref.blind.cases.generator import RUNS, make_case
+from rockref.blind.cases.blocks import RUNS
+from rockref.blind.cases.generator import make_case
 truth = make_case({str(tmp_path / "case")!r}, ["gyro_scale", "rotor"], 3, runs=RUNS[:1], seconds=0.01)
 assert [e["id"] for e in truth["effects"]] == ["gyro_scale", "rotor"]
 print(*sorted(m for m in sys.modules if m.startswith("rockref")))

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from rockref.blind.cases import generator
+from rockref.blind.cases.blocks import RUNS
 from rockref.blind.simulator import kernel, posture, recorder
+from rockref.blind.simulator.release import simulate
 from rockref.blind.simulator.slots import P
-from rockref.blind.simulator.world import CORNERS, TABLE, build, draw_parameters
+from rockref.blind.simulator.world import CORNERS, DEGREE, TABLE, Sensor, build, draw_parameters
 from rockref.measure.experiment import load_experiment
 from rockref.measure.impacts import main_impacts
 
@@ -16,7 +18,7 @@ NOMINAL = dict(TABLE)
 def test_round_feet_as_lammps_has_them():
     world = build(NOMINAL)
     world.props[:, P["radius"]] = 5e-4
-    rates = generator.simulate(world, 0.117, seconds=0.41)
+    rates = simulate(world, 0.117, seconds=0.41)
     # LAMMPS 22Jul2025 (rigid body on granular walls, 1e-6 s), same block, spheres of 0.5 mm, at 0.2 and 0.4 s.
     lammps = {
         0.2: (0.133580060, 7.20434467e-06, -3.92911758e-05),
@@ -28,7 +30,7 @@ def test_round_feet_as_lammps_has_them():
 
 
 def test_main_impacts_of_point_feet_as_lammps_has_them():
-    rates = generator.simulate(build(NOMINAL), 0.117, seconds=1.40)
+    rates = simulate(build(NOMINAL), 0.117, seconds=1.40)
     times = main_impacts(np.arange(len(rates)) / recorder.FINE, rates).times
     # From LAMMPS with spheres of 1 and 0.5 mm, taken to zero. The cusp is 0.2 ms wide.
     assert times[:2] == pytest.approx([0.5104, 1.3358], abs=4e-4)
@@ -83,14 +85,14 @@ def test_a_hung_part_changes_nothing_while_it_is_held():
 
     world = build(NOMINAL)
     outsiders._hang(world, 3.0, 0.2, (3000.0, 3000.0, 3000.0), 0.1)
-    plain = generator.simulate(build(NOMINAL), 0.117, seconds=0.3)
-    split = generator.simulate(world, 0.117, seconds=0.3)
+    plain = simulate(build(NOMINAL), 0.117, seconds=0.3)
+    split = simulate(world, 0.117, seconds=0.3)
     # The spring gives by g/(2 pi 3000)^2 = 28 nm, the ringing of the start is a hundredth of a resolution.
     assert split[::100] == pytest.approx(plain[::100], abs=2e-6)
 
 
 def test_a_folder_is_an_experiment_and_the_same_bytes_again(tmp_path):
-    options = {"runs": generator.RUNS[2:4], "seconds": 0.75}
+    options = {"runs": RUNS[2:4], "seconds": 0.75}
     truth = generator.make_case(tmp_path / "a", ["plate_tilt"], 11, name="same", **options)
     again = generator.make_case(tmp_path / "b", ["plate_tilt"], 11, name="same", **options)
     other = generator.make_case(tmp_path / "c", ["plate_tilt"], 12, name="same", **options)
@@ -104,11 +106,11 @@ def test_a_folder_is_an_experiment_and_the_same_bytes_again(tmp_path):
     assert len(experiment.runs[0].t) == 751
     # Leans away from upright at first: the first swing is positive, and nothing moves before the release.
     assert experiment.runs[0].crv[300:480, 0].min() > 0.05
-    assert np.abs(experiment.runs[0].crv[:3]).max() < 0.3 * recorder.DEGREE
+    assert np.abs(experiment.runs[0].crv[:3]).max() < 0.3 * DEGREE
 
 
 def test_a_turned_block_swings_the_other_way(tmp_path):
-    generator.make_case(tmp_path / "t", None, 4, runs=generator.RUNS[5:], seconds=0.75)
+    generator.make_case(tmp_path / "t", None, 4, runs=RUNS[5:], seconds=0.75)
     (run,) = load_experiment(tmp_path / "t").runs
     assert run.block_turned == pytest.approx(np.pi) and run.crv[300:480, 0].max() < -0.05
 
@@ -133,9 +135,9 @@ def test_the_inner_points_stand_on_the_diagonals():
 
 def test_a_push_is_the_rate_at_release_and_lets_the_block_leave_with_it():
     world = build(NOMINAL)
-    plain = generator.simulate(world, 0.117, seconds=0.01)
+    plain = simulate(world, 0.117, seconds=0.01)
     world.kick = np.array([0.02, 0.0, 0.0])
-    pushed = generator.simulate(world, 0.117, seconds=0.01)
+    pushed = simulate(world, 0.117, seconds=0.01)
     assert pushed[0] == pytest.approx([0.02, 0.0, 0.0])
     # The edge stays where it is: after ten milliseconds the block still turns faster by as much. Its lean differs by
     # 0.2 mrad at most, which the weight turns into p^2 times that, 4e-3 rad/s2: a hundredth in that time, at most.
@@ -146,26 +148,26 @@ def test_a_block_that_leaves_for_infinity_is_an_error():
     world = build(NOMINAL)
     world.kick = np.array([1e200, 0.0, 0.0])
     with pytest.raises(FloatingPointError, match="draw a smaller effect"):
-        generator.simulate(world, 0.117, seconds=0.01)
+        simulate(world, 0.117, seconds=0.01)
 
 
 def test_each_run_meets_a_shaking_floor_at_a_phase_of_its_own(tmp_path):
-    truth = generator.make_case(tmp_path / "s", ["base_vibration"], 3, runs=generator.RUNS[:2], seconds=0.2)
+    truth = generator.make_case(tmp_path / "s", ["base_vibration"], 3, runs=RUNS[:2], seconds=0.2)
     first, second = (run["phase"] for run in truth["runs"])
     assert first != second and "phase" not in truth["effects"][0]["parameters"]
 
 
 def test_the_range_of_all_runs_is_a_share_of_the_largest_rate_of_the_first(tmp_path):
-    runs = (generator.RUNS[3], generator.RUNS[0])
+    runs = (RUNS[3], RUNS[0])
     both = ["plate_tilt", "gyro_saturation"]
     truth = generator.make_case(tmp_path / "r", both, 5, runs=runs, seconds=0.75, other_form=False)
     top = truth["effects"][1]["parameters"]["range"]
     assert "range" not in truth["effects"][0]["parameters"]
     first, second = (np.abs(run.crv).max() for run in load_experiment(tmp_path / "r").runs)
     # The second is released higher and falls faster; both are cut at one rate, to half a resolution.
-    assert first == pytest.approx(top, abs=0.51 * recorder.RESOLUTION) and second == pytest.approx(first, abs=1e-12)
+    assert first == pytest.approx(top, abs=0.51 * Sensor().resolution) and second == pytest.approx(first, abs=1e-12)
 
 
 def test_feet_that_the_experimenter_does_not_know_of_are_four_corners_to_him(tmp_path):
-    generator.make_case(tmp_path / "f", ["foot_defects"], 6, runs=generator.RUNS[:1], seconds=0.75)
+    generator.make_case(tmp_path / "f", ["foot_defects"], 6, runs=RUNS[:1], seconds=0.75)
     assert load_experiment(tmp_path / "f").baseline == "four_points"

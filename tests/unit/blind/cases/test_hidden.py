@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from rockref.blind.cases import generator, hidden, outsiders
+from rockref.blind.cases import hidden, outsiders
 from rockref.blind.cases.drawing import CATALOGUE, uneven
 from rockref.blind.scoring import sizes
+from rockref.blind.simulator.release import simulate
 from rockref.blind.simulator.world import TABLE, build
 from rockref.effects.catalogue import EFFECTS
 
@@ -73,12 +74,12 @@ def test_uneven_factors_have_the_spread_they_are_given():
     "id", ["plate_tilt", "quadratic_drag", "cable_restraint", "lingering_wire_pull", "magnet", "rolling_resistance"]
 )
 def test_loads_change_the_first_arc_in_the_right_sense(id):
-    plain = generator.simulate(build(dict(TABLE)), 0.117, seconds=0.45)
+    plain = simulate(build(dict(TABLE)), 0.117, seconds=0.45)
     given = {"x": 0.0, "y": 1e-3} if id == "plate_tilt" else {}
     world, _ = drawn(id, given=given)
     # All of them hold the block back on its way from the lean to +y: the plate falls to +y, drag, the cable that ties
     # it to the start, the wire, the pole at +y, the rolling edge. So it swings more slowly.
-    held = generator.simulate(world, 0.117, seconds=0.45)
+    held = simulate(world, 0.117, seconds=0.45)
     assert np.all(held[2000::500, 0] < plain[2000::500, 0])
 
 
@@ -87,9 +88,9 @@ def test_a_soft_plate_lets_the_block_down_gently_and_a_stiff_one_is_none():
 
     world, _ = drawn("compliant_support", given={"frequency": 3000.0, "mass": 2000.0})
     assert stand(world, 0.1, False)[0] == pytest.approx(stand(build(dict(TABLE)), 0.1, False)[0])
-    stiff = generator.simulate(world, 0.117, seconds=0.6)
-    plain = generator.simulate(build(dict(TABLE)), 0.117, seconds=0.6)
-    soft = generator.simulate(drawn("compliant_support")[0], 0.117, seconds=0.6)
+    stiff = simulate(world, 0.117, seconds=0.6)
+    plain = simulate(build(dict(TABLE)), 0.117, seconds=0.6)
+    soft = simulate(drawn("compliant_support")[0], 0.117, seconds=0.6)
     # 7e11 N/m under contacts of 6e7: a ten-thousandth of their depth.
     assert np.abs(stiff - plain).max() < 0.05 * np.abs(soft - plain).max()
 

@@ -16,7 +16,7 @@ def made(monkeypatch):
     """A generator that only notes what it was asked for, and writes the head of an experiment."""
     asked = []
 
-    def make_case(folder, effects, seed, *, runs, other_form, values):
+    def make_case(folder, effects, seed, **options):
         asked.append(folder.name)
         folder.mkdir()
         (folder / "experiment.toml").write_text(f"name = '{folder.name}'\n")

@@ -4,17 +4,60 @@ from collections import Counter
 
 import pytest
 
+from rockref.blind.cases.blocks import NEAR, OTHER
+from rockref.blind.cases.faulty import FAULTS
 from rockref.blind.cases.hidden import EFFECTS
-from rockref.blind.cases.plan import CONTROL, LEVER, OUTSIDER, PAIR, SINGLE, SIZES, TWIN, counts, listed, plan
+from rockref.blind.cases.plan import (
+    CONTROL,
+    FAULTY,
+    LEVER,
+    OUTSIDER,
+    PAIR,
+    SINGLE,
+    SIZES,
+    TWIN,
+    counts,
+    listed,
+    plan,
+    shared,
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("n", [1, 4, 5, 12, 60, 120, 187])
-def test_the_number_is_kept(n):
-    assert sum(counts(n).values()) == n == len(plan(1, n))
+@pytest.mark.parametrize("block", [NEAR, OTHER])
+def test_the_number_is_kept(n, block):
+    near, other = (n, 0) if block == NEAR else (0, n)
+    assert sum(counts(n, block).values()) == n == len(plan(1, near, other))
+    assert {case.block for case in plan(1, near, other)} == {block}
 
 
-def test_five_cases_have_one_of_each_kind():
-    assert set(Counter(case.kind for case in plan(3, 5))) == {CONTROL, SINGLE, PAIR, OUTSIDER, TWIN}
+def test_five_cases_have_one_of_each_kind_and_ten_have_twins():
+    kinds = {CONTROL, SINGLE, PAIR, OUTSIDER, FAULTY}
+    assert set(Counter(case.kind for case in plan(3, 5))) == kinds
+    assert set(Counter(case.kind for case in plan(3, 10))) == kinds | {TWIN}
+
+
+def test_a_third_are_of_other_blocks_and_twins_are_near_the_source():
+    assert shared(120) == (80, 40) and shared(1) == (1, 0)
+    cases = plan(4, *shared(120))
+    assert Counter(case.block for case in cases) == {NEAR: 80, OTHER: 40}
+    assert {case.block for case in cases if case.kind == TWIN} == {NEAR}
+
+
+def test_faulty_records_have_every_fault_and_nothing_hidden():
+    faulty = [case for case in plan(6, 100) if case.kind == FAULTY]
+    assert {case.fault for case in faulty} == set(FAULTS) and not any(case.effects for case in faulty)
+
+
+def test_words_in_turn_for_either_kind_of_block():
+    cases = listed(1, ["none", "wrapped"], 3, 2)
+    assert Counter((case.block, case.kind) for case in cases) == {
+        (NEAR, CONTROL): 2, (NEAR, FAULTY): 1, (OTHER, CONTROL): 1, (OTHER, FAULTY): 1,
+    }  # fmt: skip
+    assert cases == listed(1, ["none", "wrapped"], 3, 2) != listed(2, ["none", "wrapped"], 3, 2)
+    each = listed(1, ["each:0.5"])
+    assert [case.effects for case in each] == [((id, 0.5),) for id in EFFECTS]
+    assert listed(1, [], 3, 2) == []
 
 
 def test_two_hundred_cases_have_every_effect_at_every_size():
@@ -30,7 +73,7 @@ def test_the_seed_decides():
 
 def test_twins_differ_in_the_cause_alone():
     twins = [case for case in plan(2, 100) if case.kind == TWIN]
-    assert len(twins) == 8
+    assert len(twins) == 6
     for seed in {case.seed for case in twins}:
         one, other = [case for case in twins if case.seed == seed]
         assert one.runs == other.runs and one.same_as == other.same_as

@@ -77,6 +77,13 @@ def test_twins_may_be_called_either_but_nothing_else():
     assert mark(twin, said("named", "gyro_drift"))["wrong_name"]
 
 
+@pytest.mark.parametrize(
+    ("word", "right"), [("refused", True), ("not_trustworthy", True), ("none", False), ("error", False)]
+)
+def test_a_faulty_record_is_to_be_refused(word, right):
+    assert mark(truth("faulty"), said(word))["refused"] is right
+
+
 def test_pairs():
     pair = truth("pair", "plate_tilt", "gyro_drift")
     assert mark(pair, said("pair", "gyro_drift", "plate_tilt"))["both"]
@@ -168,6 +175,7 @@ def test_the_best_possible_answers_meet_every_goal():
     rest = [
         mark(truth("control"), said("none")),
         mark(truth("pair", "plate_tilt", "gyro_drift"), said("pair", "plate_tilt", "gyro_drift")),
+        mark(truth("faulty"), said("refused")),
         mark(
             truth("outsider", "gust", card=card), said("something_else", signature={"axis": "main", "phase": "release"})
         ),

@@ -8,7 +8,8 @@ from rockref.blind.simulator.world import Sensor
 
 T = np.arange(recorder.FINE + 500) / recorder.FINE
 #: Five sigma of the white noise, and half a resolution.
-NOISY = 5 * recorder.NOISE + 0.5 * recorder.RESOLUTION
+PLAIN = Sensor()
+NOISY = 5 * PLAIN.noise + 0.5 * PLAIN.resolution
 
 
 def tone(frequency):
@@ -28,20 +29,20 @@ def test_low_pass_halves_the_power_at_its_frequency(order):
 
 def test_slow_motion_is_late_by_three_quarters_of_a_millisecond():
     ramp = np.repeat(T[:, None], 3, axis=1)
-    late = T[5000] - recorder.low_pass(ramp, recorder.BANDWIDTH)[5000, 0]
-    assert late == pytest.approx(np.sqrt(2) / (2 * np.pi * recorder.BANDWIDTH), rel=1e-6)
+    late = T[5000] - recorder.low_pass(ramp, PLAIN.low_pass)[5000, 0]
+    assert late == pytest.approx(np.sqrt(2) / (2 * np.pi * PLAIN.low_pass), rel=1e-6)
 
 
 def test_noise_and_resolution():
     u = recorded(np.zeros((len(T), 3)))
-    assert np.std(u) == pytest.approx(recorder.NOISE, rel=0.05)  # 3000 values: 1.3 %, four of those
-    assert np.abs(u / recorder.RESOLUTION - np.round(u / recorder.RESOLUTION)).max() < 1e-9
+    assert np.std(u) == pytest.approx(PLAIN.noise, rel=0.05)  # 3000 values: 1.3 %, four of those
+    assert np.abs(u / PLAIN.resolution - np.round(u / PLAIN.resolution)).max() < 1e-9
 
 
 def test_a_clock_that_is_slow_shows_a_higher_tone():
     u = recorded(tone(2.0), Sensor(clock=1.02))
     t = np.arange(len(u)) / 1000
-    delay = np.sqrt(2) / (2 * np.pi * recorder.BANDWIDTH)
+    delay = np.sqrt(2) / (2 * np.pi * PLAIN.low_pass)
     expected = np.sin(2 * np.pi * 2.0 * (1.02 * t - delay))
     assert np.abs(u[50:, 0] - expected[50:]).max() < NOISY
 
@@ -55,7 +56,7 @@ def test_bias_drift_scale_and_mounting():
 
 def test_stops_are_flat():
     u = recorded(tone(2.0), Sensor(range=0.5))
-    top = np.round(0.5 / recorder.RESOLUTION) * recorder.RESOLUTION
+    top = np.round(0.5 / PLAIN.resolution) * PLAIN.resolution
     assert u.max() == pytest.approx(top) and np.mean(np.abs(u[:, 0]) == u.max()) > 0.5
 
 
