@@ -91,6 +91,8 @@ def test_a_diagnosis_tries_it_beside_the_catalogue(own, monkeypatch):
     # Of the catalogue's drag the moment alone: the user's class has no force.
     drag = catalogue.find("quadratic_drag")
     monkeypatch.setattr(drag, "priors", {"c_v": Prior("fixed")})
+    none = drag.quantities["c_v"]._replace(typical=0.0)
+    monkeypatch.setattr(drag, "quantities", drag.quantities | {"c_v": none})
     dragged = TABLE.replace(effects=(drag(5.0),))
     # A small tilt is an early impact, and so a short first window: each evaluation steps all of it.
     run = recorded(dragged, Release(0.03, False), GYRO, 1, 0.45)
