@@ -19,6 +19,7 @@ MODULES: tuple[str, ...] = (
     "plan",
     "effects",
     "blind",
+    "lab",
     "conform",
     "import_contactnets",
     "reproduce",

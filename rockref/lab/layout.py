@@ -48,6 +48,11 @@ def value_places() -> dict[str, dict[str, int]]:
     return places
 
 
+def page_columns() -> dict[str, int]:
+    """Return the columns of a state that the page reads, by name."""
+    return {name: getattr(columns, name) for name in OF_STATE}
+
+
 def count_values() -> int:
     """Return how many numbers the array of effects has."""
     return sum(1 + len(kind.quantities) for kind in EFFECTS.values())

@@ -1,0 +1,45 @@
+"""`rockref lab`: a page on which the law runs, measured runs beside it."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add ``lab`` to `app`."""
+    app.command("lab")(lab)
+
+
+def lab(
+    experiment: Annotated[
+        Path | None, typer.Argument(help="Folder with experiment.toml. Default: runs with a hidden effect.")
+    ] = None,
+    model: Annotated[
+        str | None, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml. Default: baseline.")
+    ] = None,
+    output: Annotated[Path, typer.Option("--output", "-o", help="The page.")] = Path("lab.html"),
+) -> None:
+    """Write a page on which the law runs: sliders, effects, measured runs under modelled ones, a fit.
+
+    The page is one file that needs neither network nor server. The law in it, in WebAssembly, has the bits of the
+    NumPy text; a click computes the proof again.
+
+    \b
+    Example:
+      rockref lab data/experiments/mystery-04 --output lab.html
+      rockref lab --model mine.toml
+    """
+    from rockref.commands._models import named_model
+    from rockref.commands._results import say_remarks, say_written
+    from rockref.discover.compare.models import baseline_model
+    from rockref.lab.page import write_page
+    from rockref.measure import load_experiment
+
+    given = None if model is None else named_model(model)
+    if experiment is None:
+        say_written([write_page(output, given or named_model("table_3_1"))])
+        return
+    loaded = load_experiment(experiment)
+    say_remarks(loaded.notices)
+    say_written([write_page(output, given or baseline_model(loaded), loaded)])
