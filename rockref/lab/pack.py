@@ -129,7 +129,7 @@ def spread(run: Run, impacts: np.ndarray, repeats: Repeatability | None) -> list
 
 
 def experiment(e: Experiment) -> dict[str, Any]:
-    """Return an experiment of releases: gyroscope, uncertainty of the tilt, loaded runs. Raises InputError E-KIND, E-LAB."""
+    """Return an experiment of releases: gyroscope, uncertainty of the tilt, runs. Raises InputError E-KIND, E-LAB."""
     if e.kind != "release" or e.gyro is None:
         cure = "The lab shows releases with a gyroscope; rockref compare shows tosses."
         raise InputError("E-KIND", str(e.path), f"kind is {e.kind!r}", cure)
