@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from rockref.discover.compare.stretches import AXES
 from rockref.discover.evidence.evidence import HypothesisEvidence, Number
-from rockref.discover.evidence.held_out import held_out_losses
+from rockref.discover.evidence.held_out import held_out_fit
 from rockref.discover.evidence.widths import covariance
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import loss
@@ -21,34 +23,63 @@ NINETY = 1.6449
 #: Length of a block [s] and mean loss from which it is far above white; decided: white blocks of 150 values have 0.945
 #: with a deviation of 0.09.
 BLOCK, FAR_ABOVE = 0.05, 1.5
+#: Share of the blocks, the worst fitting ones, that the error in deg/s leaves out: they are out of step (decided).
+TRIMMED = 0.10
 
 
-def hypothesis_evidence(fitter: Fitter, h: FittedModel, held: Listener | None) -> HypothesisEvidence:
-    """Return what a fit at the longest memory says; `held`: the held-out runs, None where they are not asked."""
+def hypothesis_evidence(fitter: Fitter, h: FittedModel) -> HypothesisEvidence:
+    """Return what a fit at the longest memory says of the fit runs."""
     fitter.evaluate(h, F)
     covariance_, H = covariance(fitter, h, F)
     runs = fitter.problem.runs
-    by_axis = fitter.losses(h)
     parameters = fitter.parameters(h)
+    found = numbers_of(parameters, h.z, covariance_)
     law = [abs(float(z)) for p, z in zip(parameters, h.z, strict=True) if not p.effect and p.run is None]
     return HypothesisEvidence(
         effects=h.effects,
         objective=h.objective,
         eigenvalues=np.linalg.eigvalsh(H).tolist(),
         loss=h.loss,
-        loss_by_run_and_axis={run.id: row.tolist() for run, row in zip(runs, by_axis, strict=True)},
+        loss_by_run_and_axis={run.id: row.tolist() for run, row in zip(runs, fitter.losses(h), strict=True)},
         blocks={run.id: float(share) for run, share in zip(runs, far_above(fitter, h), strict=True)},
         farthest=max(law, default=0.0),
-        numbers=numbers_of(parameters, h.z, covariance_),
-        held_out=held_out_losses(fitter, h, held) if held is not None else {},
+        numbers={name: n for name, n in found.items() if "." in name},
+        law={name: n for name, n in found.items() if "." not in name},
+        error=errors(fitter, h),
     )
 
 
+def add_held_out(said: HypothesisEvidence, fitter: Fitter, h: FittedModel, held: Listener) -> None:
+    """Add what the held-out runs say of a hypothesis."""
+    inner, k = held_out_fit(fitter, h, held)
+    by_run = inner.losses(k).mean(axis=1)
+    said.held_out = {run.id: float(value) for run, value in zip(held.runs, by_run, strict=True)}
+    said.held_out_error = errors(inner, k)["total"]
+
+
+def errors(fitter: Fitter, h: FittedModel) -> dict[str, float]:
+    """Return the root mean square of the innovations by axis and in all [deg/s], the worst tenth of blocks left out.
+
+    Innovations are those of h as evaluated, without the jitter by which steep parts count less.
+    """
+    listener, parameters = fitter.problem.listener, fitter.parameters(h)
+    stage = replace(F, jitter=0.0)
+    r = fitter.residuals(stage).at(parameters, [h.z])[0] * listener.sigma[:, None, :]
+    length = max(1, round(BLOCK * listener.gyro.sample_rate))
+    n = r.shape[1] // length * length
+    square = (np.degrees(r[:, :n]) ** 2).reshape(r.shape[0], -1, length, 3).mean(axis=2)
+    there = listener.valid[:, :n].reshape(r.shape[0], -1, length).all(axis=2)
+    square = square[there]
+    kept = square.sum(axis=1) <= np.quantile(square.sum(axis=1), 1 - TRIMMED)
+    by_axis = np.sqrt(square[kept].mean(axis=0))
+    return {**dict(zip(AXES, map(float, by_axis), strict=True)), "total": float(np.sqrt(square[kept].mean()))}
+
+
 def numbers_of(parameters: Sequence[Parameter], z: np.ndarray, covariance_: np.ndarray) -> dict[str, Number]:
-    """Return the numbers of the effects with their 90 % intervals."""
+    """Return the numbers that all runs share, and those of effects in single runs, with their 90 % intervals."""
     found = {}
     for k, p in enumerate(parameters):
-        if not p.effect:
+        if not p.effect and p.run is not None:
             continue
         half = NINETY * float(np.sqrt(covariance_[k, k]))
         ends = sorted(own_value(p, float(np.clip(z[k] + s * half, p.least, p.most))) for s in (-1, 1))

@@ -37,7 +37,9 @@ class HypothesisEvidence:
     objective : negative log posterior [nat];  eigenvalues : of its Gauss-Newton matrix in prior deviations
     loss : mean robust loss (white noise: 0.945), by run and axis; of held-out runs by run in `held_out`
     blocks : share of 50 ms blocks of each run that are far above white
-    farthest : of a law's number [prior deviations]
+    farthest : of a law's number [prior deviations];  numbers, law : of the effects and of the law, shared by the runs
+    error : root mean square of the innovations by axis and in all [deg/s], the worst tenth of the blocks left out;
+        held_out_error : the same of the held-out runs, in all
     """
 
     effects: tuple[str, ...]
@@ -48,6 +50,9 @@ class HypothesisEvidence:
     blocks: dict[str, float]
     farthest: float
     numbers: dict[str, Number] = field(default_factory=dict)
+    law: dict[str, Number] = field(default_factory=dict)
+    error: dict[str, float] = field(default_factory=dict)
+    held_out_error: float | None = None
     held_out: dict[str, float] = field(default_factory=dict)
 
     def size(self, effect: str) -> float:
@@ -111,7 +116,7 @@ class Evidence:
             given["hypotheses"] = [
                 HypothesisEvidence(**{
                     **h, "effects": tuple(h["effects"]),
-                    "numbers": {k: Number(**n) for k, n in h["numbers"].items()},
+                    **{key: {k: Number(**n) for k, n in h[key].items()} for key in ("numbers", "law")},
                 })
                 for h in given["hypotheses"]
             ]  # fmt: skip

@@ -36,10 +36,3 @@ def held_out_fit(fitter: Fitter, h: FittedModel, listener: Listener) -> tuple[Fi
     for stage in (S1, S3, F):
         inner.refine(k, stage, 3)
     return inner, k
-
-
-def held_out_losses(fitter: Fitter, h: FittedModel, listener: Listener) -> dict[str, float]:
-    """Return the mean loss of each held-out run at the longest memory."""
-    inner, k = held_out_fit(fitter, h, listener)
-    by_run = inner.losses(k).mean(axis=1)
-    return {run.id: float(value) for run, value in zip(listener.runs, by_run, strict=True)}

@@ -65,7 +65,8 @@ class Listener:
     def __init__(self, experiment: Experiment, runs: Sequence[Run], end: float, workers: int | None = None):
         if experiment.gyro is None:
             raise InputError("E-GYRO", f"{experiment.path}", "has no [gyro]", "State the gyroscope in experiment.toml.")
-        self.experiment, self.gyro, self.runs, self.workers = experiment, experiment.gyro, tuple(runs), workers
+        self.experiment, self.gyro, self.runs = experiment, experiment.gyro, tuple(runs)
+        self.end, self.workers = end, workers
         records = [record_of(run) for run in runs]
         counts = [int(np.searchsorted(t, end - 1e-9)) for t, _ in records]
         self.t = [t[:n] for (t, _), n in zip(records, counts, strict=True)]

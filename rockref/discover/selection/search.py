@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit
 from rockref.discover.selection.halving import halving, say, within
@@ -19,6 +20,9 @@ from rockref.discover.selection.score_test import best_of_each, proposals
 
 #: Mean loss from which innovations contradict a model (white noise: 0.945; right models stay below 1.06 here).
 CONTRADICTED = 1.12
+#: Share of the misfit that an effect may leave if more effects are tried beside it before other starts are; both are
+#: tried where that does not do (decided: it only says which comes first).
+EXPLAINS_MOST = 0.5
 #: Share of the objective that an addition has to take off to join, at each stage (decided: what weak effects gain grows
 #: with the memory).
 JOINS = {"S3": 0.01, "F": 0.006}
@@ -64,17 +68,24 @@ class Search:
         if null.loss <= CONTRADICTED:
             return [null]
         beam = [null, *halving(self.fitter, self.nominal())]
+        if self.best(beam).loss - WHITE < EXPLAINS_MOST * (null.loss - WHITE):
+            beam = self.beside(beam)
         if self.best(beam).loss > CONTRADICTED:
             wide = self.settled(global_fit(self.fitter, self.problem.carried))
+            self.problem.say(f"baseline from anywhere: mean loss {wide.loss:.2f}")
             beam.append(wide)
             if wide.loss > CONTRADICTED:
-                beam += halving(self.fitter, wide)
-        for _ in range(MOST - 1):
-            best = self.best(beam)
-            if best.loss <= CONTRADICTED or len(best.effects) >= MOST:
+                beam = self.beside([*beam, *halving(self.fitter, wide)])
+        return within(beam, BEAM)
+
+    def beside(self, beam: list[FittedModel]) -> list[FittedModel]:
+        """Return a beam with effects beside its best, as long as that is contradicted."""
+        while (best := self.best(beam)).loss > CONTRADICTED and len(best.effects) < MOST:
+            added = halving(self.fitter, best)
+            if min(h.objective for h in added) > best.objective:
                 break
-            beam += halving(self.fitter, best)
-        return [h for h in within(beam, BEAM)]
+            beam = [*beam, *added]
+        return beam
 
     def nominal(self) -> FittedModel:
         """Return the baseline at its nominal numbers, before it bends towards what it lacks."""
