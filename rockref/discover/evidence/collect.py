@@ -20,7 +20,7 @@ from rockref.discover.listening.listener import Listener
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
 NINETY = 1.6449
-#: Length of a block [s] and mean loss from which it is far above white; decided: white blocks of 150 values have 0.945
+#: Length of a block [s] and mean loss from which it is far above white; decided: white blocks of 150 values have 0.947
 #: with a deviation of 0.09.
 BLOCK, FAR_ABOVE = 0.05, 1.5
 #: Share of the blocks, the worst fitting ones, that the error in deg/s leaves out: they are out of step (decided).

@@ -35,7 +35,7 @@ class HypothesisEvidence:
     """One set of effects, fitted at the longest memory.
 
     objective : negative log posterior [nat];  eigenvalues : of its Gauss-Newton matrix in prior deviations
-    loss : mean robust loss (white noise: 0.945), by run and axis; of held-out runs by run in `held_out`
+    loss : mean robust loss (white noise: 0.947), by run and axis; of held-out runs by run in `held_out`
     blocks : share of 50 ms blocks of each run that are far above white
     farthest : of a law's number [prior deviations];  numbers, law : of the effects and of the law, shared by the runs
     error : root mean square of the innovations by axis and in all [deg/s], the worst tenth of the blocks left out;

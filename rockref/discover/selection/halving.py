@@ -15,6 +15,8 @@ from rockref.discover.selection.score_test import best_of_each, proposals
 
 #: Additions that are tried at the first stage, refined at it, and taken to the second, at most.
 ENTRANTS, FIRST, SECOND = 9, 5, 3
+#: How many go into each round at the first stage, and the factor on the best objective up to which they do.
+ROUNDS = ((10, 4.0), (7, 2.5))
 #: Share of the objective by which one may lie above the best and go on: a margin, never a rank.
 MARGIN = 1.15
 #: Part of the first swing over which the sensor is sized: before the first impact nothing is chaotic.
@@ -40,8 +42,11 @@ def halving(fitter: Fitter, start: FittedModel) -> list[FittedModel]:
     fitter.widen()
     field = proposals(fitter, fitter.evaluate(base, warm), warm, ENTRANTS)
     field += sized_at_release(fitter, base)
-    for h in field:
-        fitter.tempered(h, S1, 2)
+    fitter.evaluate_all(field, S1)
+    for most, margin in ROUNDS:
+        field = within(field, most, margin)
+        for h in field:
+            fitter.tempered(h, S1, 1)
     say(fitter, "S1", field := within(field, FIRST, 2 * MARGIN))
     for h in field:
         h.start = h.z.copy()

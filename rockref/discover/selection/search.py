@@ -18,7 +18,7 @@ from rockref.discover.fit.starts import global_fit
 from rockref.discover.selection.halving import halving, say, within
 from rockref.discover.selection.score_test import best_of_each, proposals
 
-#: Mean loss from which innovations contradict a model (white noise: 0.945; right models stay below 1.06 here).
+#: Mean loss from which innovations contradict a model (white noise: 0.947; right models stay below 1.06 here).
 CONTRADICTED = 1.12
 #: Share of the misfit that an effect may leave if more effects are tried beside it before other starts are; both are
 #: tried where that does not do (decided: it only says which comes first).

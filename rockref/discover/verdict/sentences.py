@@ -81,8 +81,8 @@ def unexplained(verdict: Verdict, evidence: Evidence) -> str:
 def contradiction(verdict: Verdict, evidence: Evidence) -> str:
     """Return the sentence of runs of which one contradicts the others."""
     return (
-        f"Run {verdict.run} contradicts the others, which are explained. Check its stated tilt, its side and its clock, "
-        "or leave it out."
+        f"Run {verdict.run} contradicts the others, which are explained. Check its stated tilt, its side and its "
+        "clock, or leave it out."
     )
 
 

@@ -1,0 +1,120 @@
+"""The verdict as a function of evidence."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rockref.discover.evidence.evidence import Evidence, HypothesisEvidence, Number, log_evidence
+from rockref.discover.verdict.calibration import calibration
+from rockref.discover.verdict.rules import VERDICTS, decide
+from rockref.discover.verdict.sentences import sentence
+
+C = calibration()
+
+
+def hypothesis(effects=(), objective=17000.0, size=1.0, loss=0.94, held=0.95, **changes) -> HypothesisEvidence:
+    numbers = {f"{e}.size": Number(size, 0.9 * size, 1.1 * size, "1", size / 3, size) for e in effects}
+    by_run = {run: [loss] * 3 for run in ("01", "02", "04")}
+    found = HypothesisEvidence(
+        effects, objective, [1e4] * (10 + len(effects)), loss, by_run, dict.fromkeys(by_run, 0.0), 1.0, numbers,
+        held_out={"03": held},
+    )  # fmt: skip
+    return replace(found, **changes)
+
+
+def evidence(*hypotheses: HypothesisEvidence) -> Evidence:
+    return Evidence("made up", "0", 36000, {"03": 9000}, list(hypotheses))
+
+
+NULL = hypothesis(objective=19000.0, loss=1.06, held=1.06)
+DRAG = hypothesis(("quadratic_drag",))
+
+
+def test_a_baseline_that_explains_is_none():
+    v = decide(evidence(hypothesis(), hypothesis(("quadratic_drag",), 16990.0)))
+    assert (v.word, v.effects) == ("none", ()) and v.probability > C.certain
+
+
+def test_an_effect_that_leads_is_named():
+    v = decide(evidence(NULL, DRAG))
+    assert (v.word, v.effects) == ("named", ("quadratic_drag",)) and v.probability > C.certain
+
+
+def test_two_effects_are_a_pair():
+    v = decide(evidence(NULL, DRAG, hypothesis(("quadratic_drag", "gyro_scale"), 16000.0)))
+    assert (v.word, v.effects) == ("pair", ("gyro_scale", "quadratic_drag"))
+
+
+def test_what_held_out_runs_do_not_show_is_indicated():
+    v = decide(evidence(replace(NULL, held_out={"03": 0.95}), DRAG))
+    assert (v.word, v.reason) == ("indicated", "held_out")
+    assert decide(evidence(NULL, replace(DRAG, held_out={}))).word == "indicated"
+
+
+def test_rivals_that_explain_alike_are_a_class():
+    v = decide(evidence(NULL, DRAG, hypothesis(("cable_restraint",), 17010.0)))
+    assert v.word == "class" and set(v.effects) == {"quadratic_drag", "cable_restraint"}
+
+
+def test_a_trifle_gives_its_probability_to_the_baseline():
+    small = hypothesis(("quadratic_drag",), 16500.0, size=0.1)
+    assert decide(evidence(hypothesis(), small)).word == "none"
+
+
+def test_what_nothing_explains_is_something_else():
+    v = decide(evidence(hypothesis(loss=1.8), hypothesis(("quadratic_drag",), 16000.0, loss=1.5)))
+    assert (v.word, v.effects) == ("something_else", ())
+
+
+def test_one_axis_of_one_run_is_enough():
+    axes = {"01": [0.94, 0.94, 0.94], "02": [0.94, 0.94, 1.5], "04": [0.94, 1.4, 0.94]}
+    assert decide(evidence(hypothesis(loss_by_run_and_axis=axes))).word == "something_else"
+
+
+def test_a_run_that_contradicts_the_others_is_named():
+    axes = {"01": [0.94] * 3, "02": [4.0] * 3, "04": [0.94] * 3}
+    v = decide(evidence(hypothesis(loss_by_run_and_axis=axes, loss=2.0)))
+    assert (v.word, v.run) == ("not_trustworthy", "02")
+
+
+@pytest.mark.parametrize("more", [0, 1])
+def test_effects_of_the_users_model_are_no_finding(more):
+    carried = ("gyro_scale",)
+    fits = [hypothesis(carried), hypothesis((*carried, "quadratic_drag"), 16500.0 if more else 16990.0)]
+    v = decide(replace(evidence(*fits), carried=carried))
+    assert v.effects == (("quadratic_drag",) if more else ())
+
+
+def test_occam_costs_more_for_more_numbers():
+    few, many = hypothesis(("a",)), hypothesis(("b",), eigenvalues=[1e4] * 18)
+    assert log_evidence(few, C.temperature) > log_evidence(many, C.temperature) + 7 * 0.5 * np.log(1e4 / C.temperature)
+
+
+def test_every_verdict_has_a_sentence():
+    found = [
+        evidence(hypothesis()), evidence(NULL, DRAG), evidence(NULL, replace(DRAG, held_out={})),
+        evidence(NULL, DRAG, hypothesis(("cable_restraint",), 17010.0)),
+        evidence(NULL, DRAG, hypothesis(("quadratic_drag", "gyro_scale"), 16000.0)), evidence(hypothesis(loss=1.8)),
+        evidence(hypothesis(loss_by_run_and_axis={"01": [0.94] * 3, "02": [4.0] * 3, "04": [0.94] * 3}, loss=2.0)),
+    ]  # fmt: skip
+    said = {decide(e).word: sentence(decide(e), e) for e in found}
+    assert set(said) == set(VERDICTS)
+    assert all(text.endswith(".") for text in said.values())
+
+
+def test_evidence_is_stored_and_read_back(tmp_path):
+    e = evidence(NULL, DRAG)
+    e.save(tmp_path / "evidence.json")
+    assert Evidence.load(tmp_path / "evidence.json") == e
+    assert decide(Evidence.load(tmp_path / "evidence.json")) == decide(e)
+
+
+def test_there_are_at_most_twelve_numbers_and_each_says_what_it_means():
+    import tomllib
+    from importlib.resources import files
+
+    table = tomllib.loads((files("rockref.discover.verdict") / "calibration.toml").read_text())
+    assert len(table) <= 12
+    for entry in table.values():
+        assert set(entry) == {"value", "meaning", "calibrated"}
