@@ -19,7 +19,7 @@ from rockref.discover.evidence.result import model_of
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.problem import END, fit_problem
-from rockref.discover.hypotheses.candidates_of import candidates_of
+from rockref.discover.hypotheses.effects import candidate_effects
 from rockref.discover.listening.listener import Listener
 from rockref.discover.selection.search import Search
 from rockref.discover.verdict.calibration import calibration
@@ -119,7 +119,7 @@ def diagnose(
     base = baseline_model(experiment, model)
     problem = fit_problem(experiment, experiment.fit_runs(), base, end, workers, seed=seed)
     problem.say = progress or (lambda line: None)
-    problem.candidates = candidates_of(problem, known)
+    problem.candidates = candidate_effects(base.points, problem.carried, known)
     fitter = Fitter(problem)
     fits = Search(fitter).run()
     evidence = evidence_of(fitter, fits, whole)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from rockref.discover import window_rules as rules
-from rockref.discover.fit.candidates import LEFT_OUT, kinds
 from rockref.discover.fit.information import eliminated, information
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import Setup
+from rockref.discover.hypotheses.candidates import LEFT_OUT, kinds
 from rockref.discover.plan import NEEDED_Z, amplitude, cosines, switches_of
 
 

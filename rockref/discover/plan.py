@@ -20,11 +20,11 @@ import numpy as np
 from rockref.api import Model, simulate
 from rockref.discover import window_rules as rules
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.candidates import FORMS, LEFT_OUT, SHAPES, is_inverse, kinds, parameters_of, value_of
 from rockref.discover.fit.information import eliminated, information, own_parameters
 from rockref.discover.fit.least_squares import Fit
-from rockref.discover.fit.parameter import Parameter
 from rockref.discover.fit.search import MIDDLE
+from rockref.discover.hypotheses.candidates import FORMS, LEFT_OUT, SHAPES, is_inverse, kinds, parameters_of, value_of
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.looking.screen import PROBE
 from rockref.discover.windows.series import Cut, Series, refinement, series
 from rockref.effects.base import Effect

@@ -14,9 +14,9 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.candidates import LEFT_OUT
 from rockref.discover.fit.information import eliminated
 from rockref.discover.fit.search import Setup
+from rockref.discover.hypotheses.candidates import LEFT_OUT
 from rockref.discover.plan import Release, alternatives, says, switches_of
 from rockref.discover.windows.on_time import gyro_of
 from rockref.effects import catalogue

@@ -116,6 +116,11 @@ class Effect:
         return cls(**{name: q.typical for name, q in cls.quantities.items()})
 
     @classmethod
+    def seeds_in(cls, records) -> tuple[dict[str, float], ...]:
+        """Finite starts, as `seeds`, that records suggest: of each run times (N,) [s] and rates (N, 3) [rad/s]."""
+        return cls.seeds
+
+    @classmethod
     def largest_on(cls, name: str, width: float, depth: float) -> float:
         """Largest value of a parameter that a base with these sides [m] has room for; infinite unless it is a place."""
         return math.inf

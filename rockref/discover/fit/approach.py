@@ -14,9 +14,9 @@ from functools import partial
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from rockref.discover.fit.candidates import SELDOM, SHAPES
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.candidates import SELDOM, SHAPES
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.windows.series import STATES
 
 #: Changes of the warp that are looked at [m]; decided: three standard deviations of heights known to 15 %, in steps of

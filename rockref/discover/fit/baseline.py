@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rockref.api import Model
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.model.errors import InputError
 
 #: Roll of a release against the posture at rest [rad]; decided: feet of twice and half the common stiffness sink 5 to

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 
 #: What one factor of all four feet is, looked at from the other side: numbers of the baseline, which no run tells from
 #: it. Decided on ten blind cases, whose factors were right but for a common one of up to 1.34.

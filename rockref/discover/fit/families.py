@@ -10,12 +10,12 @@ import numpy as np
 
 from rockref.discover import window_rules as rules
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.candidates import FORMS, SHAPES, value_of
 from rockref.discover.fit.common_factor import shared_out
 from rockref.discover.fit.evidence import clipped_gain
 from rockref.discover.fit.intervals import NINETY, half_widths
 from rockref.discover.fit.least_squares import Fit, Point, out_of_step
 from rockref.discover.fit.search import Setup, baseline, nominal
+from rockref.discover.hypotheses.candidates import FORMS, SHAPES, value_of
 
 
 @dataclass

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.candidates import value_of
 from rockref.discover.fit.intervals import half_widths
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.candidates import value_of
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.provenance import versions
 from rockref.effects.base import Effect
 from rockref.effects.prior import to_scale

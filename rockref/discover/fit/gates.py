@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from rockref.discover import window_rules as rules
-from rockref.discover.fit.candidates import FORMS
 from rockref.discover.fit.information import Information, covariance, eliminated, own_parameters
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.candidates import FORMS
+from rockref.discover.hypotheses.counted import Parameter
 
 #: Two fits agree while they differ by less than this many widened standard deviations in every shared parameter
 #: (decided: two draws from the same law differ by more than three widths once in thirty numbers at root two a width).

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 
 
 @dataclass(frozen=True)

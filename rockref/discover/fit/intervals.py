@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from rockref.discover import window_rules as rules
-from rockref.discover.fit.candidates import SELDOM, SHAPES
 from rockref.discover.fit.common_factor import COMMON
 from rockref.discover.fit.least_squares import Fit, Point
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.candidates import SELDOM, SHAPES
+from rockref.discover.hypotheses.counted import Parameter
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
 NINETY = 1.645

@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.threads import on_threads, threads_left
 from rockref.discover.windows.reconstruct import moved_by
 from rockref.discover.windows.series import STATES, Series, running_mean

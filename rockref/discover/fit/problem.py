@@ -9,6 +9,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.fit.stages import time_scale
+from rockref.discover.hypotheses.candidates import within_base
 from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters, release_parameters
 from rockref.discover.hypotheses.parameter import Parameter
@@ -56,7 +57,7 @@ class FitProblem:
             uncertainty = self.experiment.tilt_uncertainty or TILT_UNCERTAINTY
             found = [*law_parameters(self.base), *release_parameters(R, uncertainty)]
             for id in effects:
-                found += effect_parameters(id, R, self.tone)
+                found += [within_base(p, self.base) for p in effect_parameters(id, R, self.tone)]
             self._known[key] = tuple(found)
         return self._known[key]
 

@@ -11,10 +11,10 @@ from rockref.api import Model
 from rockref.discover.fit.approach import along_ridge, approached, of_other_masses, placed
 from rockref.discover.fit.baseline import baseline_parameters, roll_parameters
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.candidates import parameters_of, within_base
 from rockref.discover.fit.coarse import coarse_to_fine
 from rockref.discover.fit.least_squares import Fit, Point, out_of_step
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.candidates import parameters_of, within_base
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.windows.on_time import gyro_of
 from rockref.discover.windows.series import Cut, Series, refinement, sensor_of, series
 from rockref.effects import catalogue

@@ -2,51 +2,65 @@
 
 from __future__ import annotations
 
-from rockref.discover.fit import candidates
+from collections.abc import Sequence
+
+import numpy as np
+
+from rockref.discover.hypotheses import candidates
+from rockref.discover.hypotheses.counted import Parameter as Counted
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.effects import catalogue
-from rockref.effects.base import Effect
+from rockref.effects.prior import from_scale, prior_of, to_scale
 
 
-def effect_parameters(id: str, runs: int, frequency: float | None = None) -> tuple[Parameter, ...]:
-    """Return the numbers of an effect: those that bring it in, then those that shape it.
+def effect_parameters(id: str, runs: int, tone: float | None = None) -> tuple[Parameter, ...]:
+    """Return the numbers of an effect: those that bring it in, those that shape it, and those of each run.
 
-    frequency [Hz] : of a tone, where the effect has one.
+    tone [Hz] : a line in the misfit, at which an effect that oscillates starts.
     """
     kind = catalogue.find(id)
-    moves = kind.changes_target()
-    return tuple(counted_in_priors(p, moves) for p in candidates.parameters_of(kind, runs, frequency))
+    return tuple(counted_in_priors(p) for p in candidates.parameters_of(kind, runs, tone))
 
 
-def counted_in_priors(p: candidates.Parameter, moves_target: bool) -> Parameter:
+def counted_in_priors(p: Counted) -> Parameter:
     """Return a number counted in typical sizes as one that is counted in prior deviations."""
-    head, _, key = p.name.partition(".")
-    shape = (head, key) in candidates.SHAPES or (head, key) in candidates.FORMS
+    kind, key = candidates.kind_and_key(p.name)
+    shapes = kind is not None and prior_of(kind, key).role in ("shape", "form")
     return Parameter(
         p.name, p.set, p.centre, p.spread * p.prior, "log" if p.log else "linear", p.run, p.low, p.high,
-        typical=0.0 if shape else 1 / p.prior, one_sided=not p.log and p.low >= p.centre, unit=p.unit,
-        moves_target=moves_target,
+        typical=0.0 if shapes else 1 / p.prior, one_sided=not p.log and p.low >= p.centre, unit=p.unit,
+        moves_target=kind is not None and kind.changes_target(),
     )  # fmt: skip
 
 
-def inner_value(effect: Effect, key: str, name: str) -> float:
-    """Return an effect's number as a fit counts it: what is absent at infinity, or when rigid, by its inverse."""
-    value = float(getattr(effect, key))
-    if effect.id == "compliant_support" and key == "frequency":
-        typical = type(effect).quantities[key].typical
-        assert typical is not None
-        return (typical / value) ** 2 if value > 0 else 0.0
-    if candidates.is_inverse(name):
-        return 1 / value if value > 0 and value != float("inf") else 0.0
-    return value
-
-
 def own_value(p: Parameter, z: float) -> float:
-    """Return the effect's own number at z: an inverse is turned back."""
+    """Return the number as its effect states it: what a fit finds by its inverse is turned back."""
+    kind, key = candidates.kind_and_key(p.name)
     value = p.value(z)
-    if p.name == "compliant_support.frequency":
-        typical = float(catalogue.EFFECTS["compliant_support"].quantities["frequency"].typical or 60.0)
-        return typical / value**0.5 if value > 1e-3 else 0.0
-    if candidates.is_inverse(p.name):
-        return 1 / value if value > 0 else float("inf")
-    return value
+    return value if kind is None else from_scale(kind, key, value)
+
+
+def seeds_of(parameters: Sequence[Parameter], id: str, records: Sequence[tuple[np.ndarray, np.ndarray]]) -> list:
+    """Return the finite starts of an effect, z of its numbers (G,); none where one step from zero shows it.
+
+    records : times (N,) [s] and rates (N, 3) [rad/s] of the runs.
+    """
+    kind = catalogue.find(id)
+    found = []
+    for values in kind.seeds_in(records):
+        effect = kind(**{**kind.typical().values(), **values})
+        z = np.zeros(len(parameters))
+        for k, p in enumerate(parameters):
+            _, key = candidates.kind_and_key(p.name)
+            if p.run is None:
+                z[k] = p.z_of(to_scale(kind, key, float(getattr(effect, key))))
+        found.append(z)
+    return found
+
+
+def candidate_effects(points: str, carried: Sequence[str], own: Sequence[str] = ()) -> tuple[str, ...]:
+    """Return the ids of the effects that may be missing: the catalogue's on these points, and those of the user's own.
+
+    carried : effects that the user's model has already.
+    """
+    return tuple(kind.id for kind in candidates.kinds(points, carried, own))

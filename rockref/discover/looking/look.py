@@ -9,7 +9,6 @@ import numpy as np
 
 from rockref.discover import window_rules as rules
 from rockref.discover.fit.beside import side_by_side
-from rockref.discover.fit.candidates import LEFT_OUT, kinds
 from rockref.discover.fit.families import (
     Family,
     gain_between,
@@ -24,6 +23,7 @@ from rockref.discover.fit.families import (
     structured,
 )
 from rockref.discover.fit.search import LITTLE, Setup
+from rockref.discover.hypotheses.candidates import LEFT_OUT, kinds
 from rockref.discover.looking.far import FAR, fitted_anew, from_far, in_the_valley_of, kin, own_z
 from rockref.discover.looking.resized import averaged
 from rockref.discover.looking.screen import Trial, screen

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.discover import window_rules as rules
-from rockref.discover.fit.candidates import OF_EACH_FOOT, SELDOM
 from rockref.discover.fit.families import Family
 from rockref.discover.fit.search import LITTLE
+from rockref.discover.hypotheses.candidates import OF_EACH_FOOT, SELDOM
 
 #: Prior standard deviation that holds a number at none, and iterations of everything else around it.
 HELD, ITERATIONS = 1e-3, 6

@@ -8,11 +8,11 @@ import numpy as np
 
 from rockref.discover import window_rules as rules
 from rockref.discover.fit.approach import BESIDE, along_ridge, heights_of, higher, pitching, ringing_alike, switches
-from rockref.discover.fit.candidates import FORMS
 from rockref.discover.fit.coarse import coarse_to_fine
 from rockref.discover.fit.families import Family, mean_loss, refit, refit_all, room, structured
 from rockref.discover.fit.least_squares import Fit, Point
 from rockref.discover.fit.search import LITTLE, MISSING, TRIED, Setup
+from rockref.discover.hypotheses.candidates import FORMS
 from rockref.discover.looking.ringing import COMPLIANCE, PITCH, PLATE
 
 #: Factors by which the sizes of effects are changed (decided: a cable's damping, found at three times its value, came

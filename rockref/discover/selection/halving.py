@@ -33,15 +33,11 @@ def within(field: Sequence[FittedModel], most: int, margin: float = MARGIN) -> l
     return [h for h in ranked if h.objective <= margin * ranked[0].objective][:most]
 
 
-def halving(fitter: Fitter, start: FittedModel) -> list[FittedModel]:
-    """Return the best additions of one effect to a model, from its start at the shortest memory, fitted at S2."""
-    base = FittedModel(start.effects, start.z if start.start is None else start.start)
-    fitter.evaluate(base, S1)
-    assert base.r is not None
-    warm = S1.inflated(inflation_for(base.r, fitter.residuals(S1).count, WARM))
-    fitter.widen()
-    field = proposals(fitter, fitter.evaluate(base, warm), warm, ENTRANTS)
-    field += sized_at_release(fitter, base)
+def halving(fitter: Fitter, starts: Sequence[FittedModel]) -> list[FittedModel]:
+    """Return the best additions of one effect to models, each from its start at the shortest memory, fitted at S2."""
+    field: list[FittedModel] = []
+    for start in starts:
+        field += entrants(fitter, FittedModel(start.effects, start.z if start.start is None else start.start))
     fitter.evaluate_all(field, S1)
     for most, margin in ROUNDS:
         field = within(field, most, margin)
@@ -54,6 +50,15 @@ def halving(fitter: Fitter, start: FittedModel) -> list[FittedModel]:
     field = within(field, SECOND)
     say(fitter, "S2", field)
     return field
+
+
+def entrants(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
+    """Return a model with each of the best effects that it lacks, and with each error of the sensor sized at release."""
+    fitter.evaluate(base, S1)
+    assert base.r is not None
+    warm = S1.inflated(inflation_for(base.r, fitter.residuals(S1).count, WARM))
+    fitter.widen()
+    return proposals(fitter, fitter.evaluate(base, warm), warm, ENTRANTS) + sized_at_release(fitter, base)
 
 
 def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:

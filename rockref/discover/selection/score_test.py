@@ -13,8 +13,9 @@ import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import Stage
+from rockref.discover.hypotheses.effects import seeds_of
 from rockref.discover.hypotheses.parameter import Parameter
-from rockref.discover.hypotheses.seeds import seeds_of
+from rockref.discover.listening.listener import record_of
 
 #: Damping of the predicted step; decided: it only keeps numbers apart that do the same.
 DAMPED = 1e-3
@@ -85,8 +86,10 @@ def proposals(fitter: Fitter, h: FittedModel, stage: Stage, most: int) -> list[F
         k.r, k.objective, k.loss = h.r, h.objective, h.loss
         fitter.step(k, stage, *test.with_effect(p.effect))
         found.append(k)
+    base, records = len(fitter.problem.parameters()), [record_of(run) for run in fitter.problem.runs]
     for e in test.places:
-        seeds += [fitter.with_effect(h, e, z) for z in seeds_of(fitter.problem, e)]
+        numbers = fitter.problem.parameters((e,))[base:]
+        seeds += [fitter.with_effect(h, e, z) for z in seeds_of(numbers, e, records)]
     if seeds:
         fitter.evaluate_all(seeds, stage)
     return sorted(best_of_each([*found, *seeds]), key=lambda k: k.objective)[:most]

@@ -1,8 +1,8 @@
 """Forward selection with backward elimination over {nothing, each effect, pairs, triples}, one budget for all.
 
 1. Fit the baseline at short memories. Innovations that stay above white contradict it.
-2. If contradicted: try all effects by successive halving, from the block's nominal numbers; then the baseline from
-   starts over the whole prior, and effects beside that. Still contradicted: one more effect beside the best.
+2. If contradicted: fit the baseline from starts over the whole prior. Still contradicted: try all effects by successive
+   halving, then the law anew beside the best of them, then one more effect.
 3. Lengthen the memory. At each stage the score test proposes more effects; those that gain enough join.
 4. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
 """
@@ -12,17 +12,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
-from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit
 from rockref.discover.selection.halving import halving, say, within
 from rockref.discover.selection.score_test import best_of_each, proposals
+from rockref.discover.selection.tone import tone
 
 #: Mean loss from which innovations contradict a model (white noise: 0.947; right models stay below 1.06 here).
 CONTRADICTED = 1.12
-#: Share of the misfit that an effect may leave if more effects are tried beside it before other starts are; both are
-#: tried where that does not do (decided: it only says which comes first).
-EXPLAINS_MOST = 0.5
 #: Share of the objective that an addition has to take off to join, at each stage (decided: what weak effects gain grows
 #: with the memory).
 JOINS = {"S3": 0.01, "F": 0.006}
@@ -38,6 +35,7 @@ class Search:
     def __init__(self, fitter: Fitter):
         self.fitter, self.problem = fitter, fitter.problem
         self.seen: dict[frozenset[str], FittedModel] = {}
+        self.baseline = self.nominal()
 
     def run(self) -> list[FittedModel]:
         """Return the last hypotheses at F, best objective first; the null is always one of them."""
@@ -65,27 +63,26 @@ class Search:
         """Return the hypotheses that explain the runs at S2, or come nearest to it."""
         null = self.null()
         self.problem.say(f"baseline: mean loss {null.loss:.2f}")
-        if null.loss <= CONTRADICTED:
-            return [null]
-        beam = [null, *halving(self.fitter, self.nominal())]
-        if self.best(beam).loss - WHITE < EXPLAINS_MOST * (null.loss - WHITE):
-            beam = self.beside(beam)
-        if self.best(beam).loss > CONTRADICTED:
-            wide = self.settled(global_fit(self.fitter, self.problem.carried))
-            self.problem.say(f"baseline from anywhere: mean loss {wide.loss:.2f}")
-            beam.append(wide)
-            if wide.loss > CONTRADICTED:
-                beam = self.beside([*beam, *halving(self.fitter, wide)])
-        return within(beam, BEAM)
-
-    def beside(self, beam: list[FittedModel]) -> list[FittedModel]:
-        """Return a beam with effects beside its best, as long as that is contradicted."""
+        self.problem.tone = tone(self.fitter, null)
+        beam = [null]
+        if null.loss > CONTRADICTED:
+            beam.append(self.anywhere(self.nominal()))
+        self.baseline = self.best(beam)
         while (best := self.best(beam)).loss > CONTRADICTED and len(best.effects) < MOST:
-            added = halving(self.fitter, best)
+            starts = [self.nominal(), best] if best.effects == self.problem.carried else [best]
+            added = halving(self.fitter, starts)
             if min(h.objective for h in added) > best.objective:
                 break
-            beam = [*beam, *added]
-        return beam
+            beam += added
+            if (best := self.best(beam)).loss > CONTRADICTED:
+                beam.append(self.anywhere(best))
+        return within(beam, BEAM)
+
+    def anywhere(self, h: FittedModel) -> FittedModel:
+        """Return a hypothesis whose law starts over the whole prior; releases and effects start as they are in h."""
+        found = self.settled(global_fit(self.fitter, h.effects, h.z))
+        self.problem.say(f"{h.name}, the law from anywhere: mean loss {found.loss:.2f}")
+        return found
 
     def nominal(self) -> FittedModel:
         """Return the baseline at its nominal numbers, before it bends towards what it lacks."""
@@ -126,6 +123,8 @@ class Search:
             found.append(less)
             for h in proposals(self.fitter, self.fitter.evaluate(less.copy(), F), F, 2):
                 found.append(self.fitter.refine(h, F, 2))
+        if not any(h.effects == self.problem.carried for h in [*beam, *found]):
+            found.append(self.fitter.refine(self.baseline.copy(), F, 3))
         self.remember([*beam, *found])
         beam = best_of_each([*beam, *found, *self.seen.values()])
         beam.sort(key=lambda h: h.objective)

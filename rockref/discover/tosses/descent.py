@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.model.errors import RockrefError
 
 #: Sensitivities to the parameters' spreads, in percent and degrees, at which a frame counts half in a step (the last

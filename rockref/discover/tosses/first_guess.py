@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 
 #: Numbers of the law that go along with an effect's first guess.
 ALONG = {"rounded_corners": ("K_N", "K_T")}

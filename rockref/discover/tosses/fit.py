@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.tosses import descent
 from rockref.discover.tosses.parameters import apply, parameters
 from rockref.discover.tosses.predict import Prediction, predict

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.tosses.body import nominal_model
 from rockref.discover.tosses.compare import measured
 from rockref.discover.tosses.errors import Errors, errors

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
 

@@ -61,3 +61,8 @@ class GyroSaturation(Effect):
 
     def heard(self, t, crv):
         return np.abs(crv) < TOP * self.range
+
+    @classmethod
+    def seeds_in(cls, records):
+        """The largest rate of all records: no range is smaller, and a larger one cuts nothing."""
+        return ({"range": max(float(np.abs(crv).max()) for _, crv in records)},)

@@ -7,8 +7,8 @@ import numpy as np
 
 from rockref.discover.fit.families import Family
 from rockref.discover.fit.least_squares import Point
-from rockref.discover.fit.parameter import Parameter
 from rockref.discover.fit.search import Setup
+from rockref.discover.hypotheses.counted import Parameter
 
 WINDOWS, SAMPLES = 40, 60
 #: What fits that are no fits need of a setup: one after the other.

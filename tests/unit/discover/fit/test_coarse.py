@@ -8,7 +8,7 @@ import pytest
 
 from rockref.discover.fit.coarse import coarse_to_fine
 from rockref.discover.fit.least_squares import Fit, running_mean
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.windows.series import STATES
 
 B, M = 6, 160

@@ -7,9 +7,9 @@ import pytest
 
 from rockref import Model
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.candidates import parameters_of
 from rockref.discover.fit.common_factor import COMMON, EXACTLY, directions, shared_out
 from rockref.discover.fit.least_squares import Fit
+from rockref.discover.hypotheses.candidates import parameters_of
 from rockref.effects import catalogue
 
 WINDOWS, SAMPLES = 3, 4

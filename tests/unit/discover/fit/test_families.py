@@ -17,7 +17,7 @@ from rockref.discover.fit.families import (
 )
 from rockref.discover.fit.fitted import estimates
 from rockref.discover.fit.least_squares import Point
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from tests.unit.discover.bowls import SAMPLES, WINDOWS, Bowl, family, series
 
 

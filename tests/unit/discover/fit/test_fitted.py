@@ -7,11 +7,11 @@ import pytest
 
 from rockref import Model
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.candidates import parameters_of
 from rockref.discover.fit.errors import STRETCHES, errors_of, stretch_of
 from rockref.discover.fit.fitted import estimates, fitted_model, in_file_order, origin_of
 from rockref.discover.fit.gates import off_bounds, other_start, step_small
 from rockref.discover.fit.least_squares import Fit
+from rockref.discover.hypotheses.candidates import parameters_of
 from rockref.discover.windows.series import series
 from rockref.effects import catalogue
 from tests.unit.discover.synthetic import experiment

@@ -8,8 +8,8 @@ import pytest
 from rockref import Model
 from rockref.discover import window_rules as rules
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.candidates import SELDOM_PRIOR, parameters_of
 from rockref.discover.fit.intervals import NINETY, UNSEEN, half_widths
+from rockref.discover.hypotheses.candidates import SELDOM_PRIOR, parameters_of
 from rockref.effects import catalogue
 
 

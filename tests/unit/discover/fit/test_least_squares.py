@@ -7,7 +7,7 @@ import pytest
 
 from rockref.discover.fit.information import by_run, eliminated
 from rockref.discover.fit.least_squares import CAP, CAUCHY, Fit
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.windows.series import STATES
 
 B, G, M = 6, 4, 5

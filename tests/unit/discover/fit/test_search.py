@@ -12,8 +12,8 @@ from rockref.discover.fit.approach import JUMPS, along_ridge
 from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.fit.coarse import STAGES
 from rockref.discover.fit.least_squares import Point
-from rockref.discover.fit.parameter import Parameter
 from rockref.discover.fit.search import ARRIVED, arrived, early, jumped, led_on
+from rockref.discover.hypotheses.counted import Parameter
 from tests.unit.discover.bowls import ALONE, Bowl
 from tests.unit.discover.bowls import WINDOWS as BOWLS
 

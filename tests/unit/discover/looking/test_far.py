@@ -11,8 +11,8 @@ from rockref.discover import window_rules as rules
 from rockref.discover.fit import families, search
 from rockref.discover.fit.families import Family, same_windows
 from rockref.discover.fit.least_squares import Point
-from rockref.discover.fit.parameter import Parameter
 from rockref.discover.fit.search import SHORT, Setup, nominal, windows
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.looking import far
 from rockref.discover.looking.far import first_looks, first_steps, in_the_valley_of, kin, nominal_beside
 from rockref.effects import catalogue

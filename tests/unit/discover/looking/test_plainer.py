@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.looking.plainer import plainer
 from rockref.discover.window_rules import DETECTED
 from tests.unit.discover.bowls import Bowl, family

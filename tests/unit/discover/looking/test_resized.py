@@ -10,7 +10,7 @@ from rockref.discover import window_rules as rules
 from rockref.discover.fit.approach import HIGHER, higher
 from rockref.discover.fit.families import mean_loss, room, structured
 from rockref.discover.fit.least_squares import Point
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.looking import resized as module
 from rockref.discover.looking.resized import (
     AFFORDABLE,

@@ -7,7 +7,7 @@ import pytest
 
 from rockref.discover import window_rules as rules
 from rockref.discover.fit.families import gain_over
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.looking import winning
 from rockref.discover.looking.look import Look
 from rockref.discover.looking.winning import (

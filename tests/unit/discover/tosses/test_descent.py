@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.tosses import descent
 from rockref.model.errors import InputError
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.tosses import together
 from rockref.discover.tosses.descent import Slopes
 from rockref.discover.tosses.together import LUCK, Stair, luck, needed, taken_away, way_down, way_up

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rockref import InputError, Model
-from rockref.discover.fit.candidates import parameters_of
+from rockref.discover.hypotheses.candidates import parameters_of
 from rockref.discover.windows.record import filter_coefficients, records
 from rockref.discover.windows.series import Sensor, sensor_of
 from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth

@@ -6,9 +6,11 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
+from typing import TypeVar
 
 from rockref.api import Model
-from rockref.discover.fit.parameter import Parameter
+from rockref.discover.hypotheses.counted import Parameter
+from rockref.discover.hypotheses.parameter import Parameter as PriorParameter
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
 from rockref.effects.prior import TYPICALLY_NONE, Prior, from_scale, prior_of
@@ -126,7 +128,10 @@ def kind_and_key(name: str) -> tuple[type[Effect] | None, str]:
     return (kind, key) if kind is not None and key in kind.quantities else (None, key)
 
 
-def within_base(p: Parameter, model: Model) -> Parameter:
+P = TypeVar("P", Parameter, PriorParameter)
+
+
+def within_base(p: P, model: Model) -> P:
     """A parameter of an effect that keeps it within what a model's base has room for."""
     kind, key = kind_and_key(p.name)
     if kind is None or kind.largest_on(key, model.width, model.depth) >= p.high:

@@ -8,9 +8,11 @@ import pytest
 
 from rockref import InputError, Model
 from rockref.discover import plan as planning
-from rockref.discover.fit import candidates
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.candidates import (
+from rockref.discover.fit.fitted import start_from, z_of
+from rockref.discover.fitting import known_effects
+from rockref.discover.hypotheses import candidates
+from rockref.discover.hypotheses.candidates import (
     FORMS,
     LEFT_OUT,
     OF_EACH_FOOT,
@@ -21,11 +23,9 @@ from rockref.discover.fit.candidates import (
     value_of,
     within_base,
 )
-from rockref.discover.fit.fitted import start_from, z_of
-from rockref.discover.fitting import known_effects
 from rockref.effects import catalogue
 from rockref.effects.prior import prior_of
-from tests.unit.discover.fit.counted import PARAMETERS
+from tests.unit.discover.hypotheses.counted import PARAMETERS
 
 TABLE = Model.table_3_1()
 PLAIN = [kind for kind in catalogue.IN_STEP_ORDER if kind.id != "base_vibration"]
