@@ -43,29 +43,21 @@ class Diagnosis:
     """The result: `to_dict()` is what `rockref diagnose --json` prints; `evidence` is what it was decided from."""
 
     experiment: Experiment
-    decision: Verdict
-    evidence: Evidence
+    verdict: str
+    effects: tuple[str, ...]
     sentence: str
+    ranking: list[dict[str, Any]]
+    amplitudes: dict[str, dict[str, Any]]
+    error: dict[str, Any]
+    signature: dict[str, Any]
+    gates: dict[str, Any]
     seconds: float
     model: Model
-    end: float
     separating_experiment: str = ""
+    probability: float = 1.0
+    detection_limits: dict[str, dict[str, Any]] = field(default_factory=dict)
     confusion: dict[str, dict[str, float]] = field(default_factory=dict)
-
-    @property
-    def verdict(self) -> str:
-        """Return the word of the verdict."""
-        return self.decision.word
-
-    @property
-    def effects(self) -> tuple[str, ...]:
-        """Return the effects of the verdict."""
-        return self.decision.effects
-
-    @property
-    def signature(self) -> dict[str, Any]:
-        """Return what the misfit of the baseline looks like."""
-        return self.evidence.signature
+    evidence: Evidence | None = field(default=None, repr=False)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers and words."""
@@ -74,17 +66,17 @@ class Diagnosis:
         return {
             "experiment": self.experiment.name,
             "verdict": self.verdict,
-            "probability": self.decision.probability,
+            "probability": self.probability,
             "effects": list(self.effects),
             "sentence": self.sentence,
-            "ranking": ranking(self.decision, self.evidence),
-            "amplitudes": amplitudes(self.decision),
-            "error": error(self.decision, self.evidence, self.end, self.experiment),
+            "ranking": self.ranking,
+            "amplitudes": self.amplitudes,
+            "error": self.error,
             "separating_experiment": self.separating_experiment,
             "signature": self.signature,
-            "detection_limits": self.evidence.limits,
-            "confusion": self.evidence.confusions,
-            "gates": gates(self.decision, self.evidence),
+            "detection_limits": self.detection_limits,
+            "confusion": self.confusion,
+            "gates": self.gates,
             "seconds": round(self.seconds, 1),
             "versions": versions(self.experiment),
         }
@@ -125,16 +117,32 @@ def diagnose(
     evidence = evidence_of(fitter, fits, whole)
     decision = decide(evidence)
     best = next(h for h in fits if h.effects == decision.best.effects)
-    shown = decision.effects or ()
+    model_found = model_of(fitter, best, decision.best, "rockref diagnose")
+    seconds = time.perf_counter() - started
+    return diagnosis(whole, evidence, decision, model_found, end * problem.time_scale, seconds)
+
+
+def diagnosis(
+    experiment: Experiment, evidence: Evidence, decision: Verdict, model: Model, end: float, seconds: float
+) -> Diagnosis:
+    """Return a verdict with all that a reader wants to know of it; end [s] of each run that was used."""
     return Diagnosis(
-        experiment=whole,
-        decision=decision,
-        evidence=evidence,
+        experiment=experiment,
+        verdict=decision.word,
+        effects=decision.effects,
         sentence=sentence(decision, evidence),
-        seconds=time.perf_counter() - started,
-        model=model_of(fitter, best, decision.best, "rockref diagnose"),
-        end=end * problem.time_scale,
-        separating_experiment=catalogue.find(shown[0]).experiment if shown else "",
+        ranking=ranking(decision, evidence),
+        amplitudes=amplitudes(decision),
+        error=error(decision, evidence, end, experiment),
+        signature=evidence.signature,
+        gates=gates(decision, evidence),
+        seconds=seconds,
+        model=model,
+        separating_experiment=catalogue.find(decision.effects[0]).experiment if decision.effects else "",
+        probability=decision.probability,
+        detection_limits=evidence.limits,
+        confusion=evidence.confusions,
+        evidence=evidence,
     )
 
 

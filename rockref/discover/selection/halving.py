@@ -53,7 +53,7 @@ def halving(fitter: Fitter, starts: Sequence[FittedModel]) -> list[FittedModel]:
 
 
 def entrants(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
-    """Return a model with each of the best effects that it lacks, and with each error of the sensor sized at release."""
+    """Return a model with each of the best effects that it lacks, and each error of the sensor, sized at release."""
     fitter.evaluate(base, S1)
     assert base.r is not None
     warm = S1.inflated(inflation_for(base.r, fitter.residuals(S1).count, WARM))

@@ -1,8 +1,8 @@
 """Forward selection with backward elimination over {nothing, each effect, pairs, triples}, one budget for all.
 
 1. Fit the baseline at short memories. Innovations that stay above white contradict it.
-2. If contradicted: fit the baseline from starts over the whole prior. Still contradicted: try all effects by successive
-   halving, then the law anew beside the best of them, then one more effect.
+2. If contradicted: fit the baseline from starts over the whole prior. Still contradicted: try all effects by
+   successive halving, then the law anew beside the best of them, then one more effect.
 3. Lengthen the memory. At each stage the score test proposes more effects; those that gain enough join.
 4. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
 """
