@@ -11,7 +11,7 @@ import numpy as np
 
 from rockref import model_file
 from rockref.effects.base import Effect
-from rockref.effects.catalogue import in_step_order
+from rockref.effects.catalogue import in_step_order, parse
 from rockref.engines import run
 from rockref.model.errors import InputError
 from rockref.model.geometry import (
@@ -52,7 +52,7 @@ class Model:
     properties : optional, the six properties of every point (n each), for the 54-parameter model
     inertia : optional (3, 3) [kg m2], in place of the uniform cuboid's
     foot_radius : [m], zero in the source
-    effects : in the order in which they act
+    effects : in the order in which they act; or words, as "rolling_resistance:lever=3e-4", or a list of them
     uncertainty, origin : notes kept with the model (per parameter; where it came from)
 
     >>> from rockref import Model
@@ -80,6 +80,19 @@ class Model:
     effects: tuple[Effect, ...] = ()
     uncertainty: dict[str, Any] = field(default_factory=dict)
     origin: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Read effects that are given in words. Raises InputError (E-TYPE, E-EFFECT, ...)."""
+        object.__setattr__(self, "effects", effects_of(self.effects))
+        if not isinstance(self.parameters, Parameters):
+            cure = "Give Parameters(...), or its numbers to Model.replace: replace(K_N=6e7)."
+            raise InputError("E-TYPE", "parameters", f"is {self.parameters!r}"[:80], cure)
+
+    def __repr__(self) -> str:
+        """Return the block in a line."""
+        effects = ", ".join(effect.id for effect in self.effects) or "no effects"
+        sides = f"{self.width} x {self.depth} x {self.height} m"
+        return f"<Model: {self.mass} kg, {sides}, {self.points}, {effects}>"
 
     def __eq__(self, other: object) -> bool:
         """Whether two models have the same values, arrays and notes included."""
@@ -268,6 +281,24 @@ class Model:
         return Problem(block, points, start, step, duration, output_rate, effects)
 
 
+def effects_of(given: Any) -> tuple[Effect, ...]:
+    """Return effects, given as such or in words: one, or a sequence of them.
+
+    Raises InputError: E-TYPE for what is neither, those of :func:`rockref.effects.catalogue.parse`.
+    """
+    listed = [given] if isinstance(given, (str, Effect)) else given
+    if not isinstance(listed, (list, tuple)):
+        cure = 'Give effects, or words such as "rolling_resistance:lever=3e-4".'
+        raise InputError("E-TYPE", "effects", f"is {given!r}"[:80], cure)
+    found = []
+    for one in listed:
+        if not isinstance(one, (str, Effect)):
+            cure = 'Give effects, or words such as "rolling_resistance:lever=3e-4".'
+            raise InputError("E-TYPE", "effects", f"holds {one!r}"[:80], cure)
+        found.append(parse(one, "effects") if isinstance(one, str) else one)
+    return in_step_order(found) if any(isinstance(one, str) for one in listed) else tuple(found)
+
+
 def point_set(properties: dict[str, Any]) -> ContactPoints:
     """The properties of the eight points, or of the first four, in no place yet."""
     names = (EXTERNAL + INTERNAL)[: len(properties["K_N"])]
@@ -288,7 +319,7 @@ def simulate(
     duration: float = 1.5,
     step: float = 1e-5,
     output_rate: float = 2000.0,
-    engine: str = "numpy",
+    engine: str = "auto",
     progress: Callable[[float], None] | None = None,
     dtype: Any = None,
     **start: Any,
@@ -299,7 +330,7 @@ def simulate(
     ----------
     model : Model or Problem; a Problem brings its own duration, step and output rate.
     duration, step : [s];  output_rate : rows a second [Hz].
-    engine : "numpy" (the law), "numba" (compiled, extra `fast`), "auto" (the fastest that is there).
+    engine : "auto" (the fastest that is there), "numpy" (the law), "numba" (compiled, extra `fast`); the same bits.
     progress : called with the fraction done.
     dtype : float32, float64, longdouble (numpy engine).
     start : `start=` a State, or `turned=`, `out_of_plane=`, `theta_0=` of the release.

@@ -115,6 +115,15 @@ class Experiment:
     notices: tuple[Notice, ...] = field(default=(), repr=False)
     toml_sha256: str = field(default="", repr=False)
 
+    def __repr__(self) -> str:
+        """Return the experiment in a line."""
+        uses = f"{len(self.fit_runs())} fit, {len(self.holdout_runs())} holdout"
+        remarks = f", {len(self.notices)} remarks" if self.notices else ""
+        sides = f"{self.width:g} x {self.height:g} m"
+        return (
+            f"<Experiment {self.name}: {self.kind}, {self.mass:g} kg, {sides}, {len(self.runs)} runs ({uses}){remarks}>"
+        )
+
     def fit_runs(self) -> tuple[Run, ...]:
         """Return the runs that may be fitted."""
         return tuple(run for run in self.runs if run.use == FIT)

@@ -61,6 +61,12 @@ class Response:
     sliding: np.ndarray
     final_state: State
 
+    def __repr__(self) -> str:
+        """Return the response in a line."""
+        blocks = f"{self.W.shape[:-2]} blocks, " if self.W.ndim > 2 else ""
+        span = f"{len(self.t)} rows, {self.t[0]:g} to {self.t[-1]:g} s" if len(self.t) else "no rows"
+        return f"<Response: {blocks}{span}, {self.F.shape[-2]} points>"
+
     def __getitem__(self, index) -> Response:
         """One response of a batch."""
         if not self.problem.batch:

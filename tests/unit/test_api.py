@@ -187,3 +187,27 @@ class TestSimulate:
         pushed = problem.replace(start=rockref.State.at_rest(problem.start.x, problem.start.Lambda, 8, W=[-1.5, 0, 0]))
         assert rockref.simulate(pushed, engine="numba").overturned
         assert not rockref.simulate(Model(), duration=0.1, engine="numba").overturned
+
+
+class TestEffectsInWords:
+    def test_one_or_several(self):
+        one = Model(effects="rolling_resistance:lever=3e-4")
+        assert [(e.id, e.values()["lever"]) for e in one.effects] == [("rolling_resistance", 3e-4)]
+        both = one.replace(effects=["gyro_scale:x=1.02", "rolling_resistance:lever=3e-4"])
+        assert {e.id for e in both.effects} == {"gyro_scale", "rolling_resistance"}
+        assert both.replace(effects=both.effects) == both
+
+    @pytest.mark.parametrize("effects", [3, [3], {"rolling_resistance": 3e-4}, None])
+    def test_wrong_types_are_refused(self, effects):
+        with pytest.raises(InputError) as refused:
+            Model(effects=effects)
+        assert refused.value.code == "E-TYPE"
+
+    def test_parameters_that_are_none(self):
+        with pytest.raises(InputError) as refused:
+            Model(parameters={"K_N": 6e7})
+        assert refused.value.code == "E-TYPE"
+
+    def test_a_model_says_itself_in_a_line(self):
+        model = Model(effects="rolling_resistance:lever=3e-4")
+        assert repr(model) == "<Model: 54.0 kg, 0.1 x 0.1 x 0.688 m, eight_points, rolling_resistance>"
