@@ -86,8 +86,7 @@ own; names like K1 and T5 are those of this project, also for what the source sa
 Every rule is one undecorated function of the folder `rockref/model`. Tests that run whole trajectories hold all of them
 together and stand at the end.
 
-![The block tilted by θ₀ on corners 1 and 2 with its axes; turned by 180 degrees, on corners 3 and 4; its feet](figures/block.svg)
-"""
+![The block on corners 1 and 2 with its axes; turned, on corners 3 and 4; its feet](figures/block.svg)"""
 
 
 def source_of(rule: Rule) -> tuple[str, str, str]:
