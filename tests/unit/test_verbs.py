@@ -23,9 +23,7 @@ def compared(short):
 
 
 def test_a_verb_is_loaded_when_it_is_asked_for():
-    code = (
-        "import sys, rockref; n, m = 'rockref.verbs', sys.modules; print(n in m); rockref.load; print(n in m)"
-    )
+    code = "import sys, rockref; n, m = 'rockref.verbs', sys.modules; print(n in m); rockref.load; print(n in m)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "True"]
     assert set(rockref.__all__) <= set(dir(rockref))
