@@ -1,14 +1,12 @@
 """rockref: the reference implementation of the eight-point rocking-block model."""
 
-from typing import TYPE_CHECKING, Any
+from importlib import import_module
+from typing import Any
 
 from rockref.api import Model, simulate
 from rockref.model.errors import InputError, NumericalError, RockrefError
 from rockref.model.problem import Block, ContactPoints, Problem, State
 from rockref.model.response import Response
-
-if TYPE_CHECKING:
-    from rockref.verbs import add, compare, conform, diagnose, fit, load, plan
 
 __version__ = "0.1.0"
 __all__ = [
@@ -38,9 +36,8 @@ def __getattr__(name: str) -> Any:
     """Return a verb when it is first asked for: what it needs is loaded then, and NumPy alone before."""
     if name not in _VERBS:
         raise AttributeError(f"module 'rockref' has no attribute {name!r}")
-    from rockref import verbs
-
-    return getattr(verbs, name)
+    # By its name: the verbs import every folder, and every folder may ask this module for its version.
+    return getattr(import_module("rockref.verbs"), name)
 
 
 def __dir__() -> list[str]:
