@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand
 
-ACTIONS = ("exe", "export", "answer", "serve", "judge", "zoo", "example")
+ACTIONS = ("exe", "export", "answer", "serve", "judge", "zoo", "example", "physics")
 
 
 class WithProgram(TyperCommand):
@@ -52,7 +52,7 @@ def conform(
     badge: Annotated[Path | None, typer.Option(help="Write a badge (SVG) there.")] = None,
     html: Annotated[Path | None, typer.Option(help="Write a page with the divergence drawn there.")] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="export, answer, zoo, example: the file to write.")
+        Path | None, typer.Option("--output", "-o", help="export, answer, zoo, example, physics: the file to write.")
     ] = None,
     timeout: Annotated[
         float, typer.Option(help="exe: seconds for a run; a sixtieth of it for a small question.")
@@ -67,7 +67,8 @@ def conform(
     TARGET is numpy, numba, path/to/file.py:Class, package:Class, the name of an entry point, or one of
     exe (a program that speaks JSON lines), export and judge (questions and answers as files), answer and serve
     (a Python backend as file or as program), zoo (the judge judged by planted mistakes), example (a backend to start
-    from: python or c). From the first option that is none of those below, words after exe PROGRAM are the program's;
+    from: python or c), physics (engines with a contact law of their own, by mechanics: mujoco, pybullet, ..., or a
+    file). From the first option that is none of those below, words after exe PROGRAM are the program's;
     after -- all are.
     Exit code 1 where the backend falls short.
 
@@ -82,7 +83,9 @@ def conform(
       rockref conform judge responses.jsonl --json
       rockref conform example c --output mine.c
       rockref conform zoo --json
+      rockref conform physics mujoco
     """
+    from rockref.commands._physics import physics
     from rockref.commands._results import usable_files
     from rockref.conformance.judge import LAYERS
     from rockref.model.errors import InputError
@@ -93,7 +96,7 @@ def conform(
             "E-ARGUMENT",
             target,
             f"is followed by {rest[0]!r}",
-            "Only exe, judge, answer, serve, example take more arguments.",
+            "Only exe, judge, answer, serve, example, physics take more arguments.",
         )
     # A bare "not timeout > 0" lets infinity pass, which is no limit and may be wanted, and not nan.
     if not timeout > 0.0:
@@ -104,6 +107,8 @@ def conform(
         _zoo(as_json, quick, output)
     elif target == "example":
         _example(rest, output)
+    elif target == "physics":
+        physics(rest, as_json, quick, output, _progress if sys.stderr.isatty() and not as_json else None)
     elif target in ("export", "answer", "serve"):
         _files(target, rest, chosen, profile or "float64", output)
     else:

@@ -1,0 +1,1 @@
+"""Adapters: a file an engine, each with one function `run`. They are examples to copy, too."""
