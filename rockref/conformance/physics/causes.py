@@ -19,7 +19,10 @@ CAUSES = {
                        "choose an elliptic or round cone"),
     "pyramid_outside": ("the friction cone is a pyramid around Coulomb's cone, stronger by sqrt(2) along its diagonal",
                         "choose an elliptic or round cone, or a friction model that couples both directions"),
-    "friction": ("friction is another one", "check how the engine combines the coefficients of two bodies"),
+    "friction": ("friction is not that of its coefficient", "check how the engine combines the coefficients of two "
+                 "bodies, and at how many points a face rests"),
+    "integrator": ("the integrator is of first order in free rotation", "halve the step, or choose one of higher "
+                   "order"),
     "few_contacts": ("the block stands on fewer contact points than it has corners", "give the body a contact point at "
                      "every corner, or the ground as a large box"),
     "energy": ("the contact gives energy", "lower stiffness or step, switch position correction with velocity off, or "

@@ -21,6 +21,7 @@ PASSPORT = {
 }
 KNOBS = {
     "few_contacts": "give the body small spheres at its corners: a box on a half-space has one contact point",
+    "friction": "give the body small spheres at its corners: a box on a half-space has one contact point",
     "energy": "give the body small spheres at its corners: a box on a half-space has one contact point",
     "creep": "give the body small spheres at its corners, or raise point_contact_stiffness",
     "rattling": "give the body small spheres at its corners: a box on a half-space has one contact point",

@@ -21,6 +21,7 @@ PASSPORT = {
 }
 KNOBS = {
     "pyramid_inside": '<option cone="elliptic"/>',
+    "integrator": '<option integrator="RK4"/>',
     "creep": 'raise impratio (10) with cone="elliptic", and solimp towards 0.99',
     "soft": "lower the first number of solref (not below two steps), raise solimp towards 0.99",
     "rattling": "raise the damping ratio, the second number of solref, to 1",

@@ -16,6 +16,8 @@ FINE, HELD = 0.0025, 2.0  # 1, s
 COARSE, BRIEF = 0.05, 0.25  # 1, s
 #: The first step above the limit topples: up to one step late, and one more where it exceeds the limit by a hair.
 LOW, HIGH = -0.003, 0.006
+#: Decided: contact that takes up to a twentieth of the base away is told; more makes another block.
+PATCH = 0.05
 
 
 def loads(around: float) -> np.ndarray:
@@ -47,10 +49,16 @@ def toppling(trial: Trial) -> Finding:
     off = load - limit
     if trial.is_soft:
         return soft(trial, "toppling", f"{load:.4f}", reference)
-    early = off < LOW
-    seen = f"the block topples {abs(100 * off):.2g} % {'too early' if early else 'too late'}"
-    return judged("toppling", LOW <= off <= HIGH, f"{load:.4f}", reference, bar, seen, "pivot" if early else "sleep",
-                  {"load": load, "limit": limit})  # fmt: skip
+    numbers = {"load": load, "limit": limit}
+    if LOW <= off <= HIGH:
+        return Finding("toppling", "pass", f"{load:.4f}", reference, bar, numbers=numbers)
+    if off > HIGH:
+        seen = f"the block topples {100 * off:.2g} % too late"
+        return Finding("toppling", "fail", f"{load:.4f}", reference, bar, seen, "sleep", numbers)
+    # Where contact spreads over a patch or several points, its law moves the pivot inwards: another base, no fault.
+    seen = f"the block topples {-100 * off:.2g} % too early, as one with a base of {2 * b * (1 + off):.3f} m would"
+    verdict = "remark" if off > -PATCH else "fail"
+    return Finding("toppling", verdict, f"{load:.4f}", reference, bar, seen, "pivot", numbers)
 
 
 #: Deviation from the balance angle over alpha: sunk and rounded edges move it by less; at rest engines keep poses to

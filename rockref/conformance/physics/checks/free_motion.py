@@ -100,8 +100,8 @@ def flight(trial: Trial) -> Finding:
     bars = f"{percent(bar)[1:]} of the interval; losses up to {percent(DRIFT_BAR)[1:]}"
     if seen or drift <= 1e-3:
         return judged("flight", not seen, measured, f"{interval:.4f} s", bars, seen, cause, numbers)
-    told = f"energy or momentum drifts by {100 * drift:.2g} %; a drift that halves with the step is the integrator's"
-    return Finding("flight", "remark", measured, f"{interval:.4f} s", bars, told, "", numbers)
+    told = f"energy or momentum drifts by {100 * drift:.2g} % in four flips"
+    return Finding("flight", "remark", measured, f"{interval:.4f} s", bars, told, "integrator", numbers)
 
 
 FALL = 2.0  # s

@@ -33,9 +33,9 @@ def symmetry(trial: Trial) -> Finding:
     numbers = {"off": worst, "low": span[0] / alpha, "high": span[1] / alpha}
     if worst <= SYMMETRY:
         return Finding("symmetry", "pass", measured, "0", f"{SYMMETRY:g}", numbers=numbers)
-    seen = f"the amplitude after three impacts depends on the direction: {numbers['low']:.4f} to {numbers['high']:.4f}"
-    return Finding("symmetry", "remark", measured, "0", f"{SYMMETRY:g}", f"{seen} of alpha (most where {where})",
-                   numbers=numbers)  # fmt: skip
+    between = f", {numbers['low']:.3f} to {numbers['high']:.3f} of alpha after three impacts" if worst > 1e-3 else ""
+    seen = f"the amplitudes depend on the direction by {worst:.1g} of themselves{between} (most where {where})"
+    return Finding("symmetry", "remark", measured, "0", f"{SYMMETRY:g}", seen, numbers=numbers)
 
 
 #: Differences below this share of the time are converged (decided: half the bar of the quarter period is 1e-3).
