@@ -30,10 +30,26 @@ html_title = f"rockref {release}"
 html_static_path: list[str] = []
 
 
+#: Copied into the site as they are: the lab, which `setup` makes.
+html_extra_path = ["_lab"]
+
+
 def setup(app):
-    """Draw the pictures of the effects; they are not kept with the text."""
+    """Draw the pictures of the effects and make the page of the lab; they are not kept with the text."""
     from pathlib import Path
 
     from rockref.report.gallery import write_pictures
 
     app.connect("builder-inited", lambda app: write_pictures(Path(app.srcdir, "reference", "effects")))
+    app.connect("builder-inited", lambda app: write_lab(Path(app.srcdir)))
+
+
+def write_lab(docs):
+    """Write the page of the lab, with a practice experiment, where the site takes it from."""
+    from rockref.discover.compare.models import baseline_model
+    from rockref.lab.page import write_page
+    from rockref.measure import load_experiment
+
+    experiment = load_experiment(docs.parent / "data" / "experiments" / "mystery-04")
+    (docs / "_lab").mkdir(exist_ok=True)
+    write_page(docs / "_lab" / "lab_page.html", baseline_model(experiment), experiment)

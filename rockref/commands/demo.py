@@ -32,8 +32,11 @@ def demo(
     """
     from rockref.api import Model
     from rockref.commands._stages import stages
+    from rockref.discover.compare.models import baseline_model
     from rockref.engines import chosen, compiled_ahead
-    from rockref.report.demo import find_experiments, tell
+    from rockref.lab.page import write_page
+    from rockref.measure import load_experiment
+    from rockref.report.demo import EXPERIMENTS, find_experiments, tell
     from rockref.report.output import made_folder
 
     began = time.monotonic()
@@ -44,7 +47,10 @@ def demo(
         # A terminal has one line that changes; elsewhere a line a stage is left.
         report = show if sys.stderr.isatty() else lambda text: typer.echo(f"... {text}", err=True)
         story = tell(folder, out, engine, report, show)
+    experiment = load_experiment(folder / EXPERIMENTS[0])
+    lab = write_page(out / "lab.html", baseline_model(experiment), experiment)
     for line in story.lines:
         typer.echo(f"- {line}")
     typer.echo(f"\nThe page: {story.written[0].resolve()}")
     typer.echo(f"{len(story.written) - 1} figures beside it; {time.monotonic() - began:.0f} s.")
+    typer.echo(f"The lab, to find it yourself: {lab.resolve()}")

@@ -28,7 +28,9 @@ def test_the_lines_that_matter_and_the_place_of_the_page(demo):
     lines = [line for line in printed.splitlines() if line.startswith("- ")]
     # One about the model, two about each of two experiments; of one the verdict, its sizes, the errors.
     assert len(lines) == 8
-    assert len(printed.split("\n\n")[-1].splitlines()) == 2
+    last = printed.split("\n\n")[-1].splitlines()
+    assert len(last) == 3 and last[-1] == f"The lab, to find it yourself: {out / 'lab.html'}"
+    assert (out / "lab.html").is_file()
     assert "main impacts at 0.5104" in lines[0]
     for name in EXPERIMENTS:
         assert any(line.startswith(f"- {name}: The model leaves the band") for line in lines)

@@ -60,19 +60,59 @@ function makeCurves(host, onTime) {
   }
 
   const ink = () => colourOf("soft");
-  const axis = (more) => ({ stroke: ink, grid: { stroke: () => colourOf("line"), width: 1 }, ticks: { show: false }, font: "11px system-ui, -apple-system, sans-serif", ...more });
+  const axis = (more) => ({
+    stroke: ink,
+    grid: { stroke: () => colourOf("line"), width: 1 },
+    ticks: { show: false },
+    font: "11px system-ui, -apple-system, sans-serif",
+    ...more,
+  });
 
   function options(k) {
     const last = k === 3;
     return {
-      width: Math.max(200, host.clientWidth), height: last ? 128 : k === 0 ? 156 : 120, legend: { show: false }, pxAlign: false,
+      width: Math.max(200, host.clientWidth),
+      height: last ? 128 : k === 0 ? 156 : 120,
+      legend: { show: false },
+      pxAlign: false,
       padding: [6, 8, 0, 0],
       cursor: { sync: { key: "lab" }, drag: { x: true, y: false, setScale: true }, y: false, points: { show: false } },
       scales: { x: { time: false, range: () => range }, y: { range: last ? [0, 1] : limits } },
-      axes: [axis({ size: last ? 22 : 4, gap: 3, values: last ? undefined : () => [], label: last ? "time from the release (s)" : undefined, labelSize: 16, labelFont: "11px system-ui, sans-serif", labelGap: 0 }),
-        axis({ size: 58, values: last ? () => [] : undefined, label: last ? "feet" : NAMES[k], labelSize: 18, labelFont: "12px system-ui, sans-serif", grid: { show: !last, stroke: () => colourOf("line"), width: 1 } })],
-      series: last ? [{}, {}] : [{}, { stroke: () => colourOf("measured"), width: 3, spanGaps: false, points: { show: false } }, { stroke: () => colourOf("model"), width: 1.5, points: { show: false } }],
-      hooks: { draw: [last ? drawContacts : drawMarks], setSelect: [(u) => { if (u.select.width > 4) zoom(u.posToVal(u.select.left, "x"), u.posToVal(u.select.left + u.select.width, "x")); }] },
+      axes: [
+        axis({
+          size: last ? 22 : 4,
+          gap: 3,
+          values: last ? undefined : () => [],
+          label: last ? "time from the release (s)" : undefined,
+          labelSize: 16,
+          labelFont: "11px system-ui, sans-serif",
+          labelGap: 0,
+        }),
+        axis({
+          size: 58,
+          values: last ? () => [] : undefined,
+          label: last ? "feet" : NAMES[k],
+          labelSize: 18,
+          labelFont: "12px system-ui, sans-serif",
+          grid: { show: !last, stroke: () => colourOf("line"), width: 1 },
+        }),
+      ],
+      series: last
+        ? [{}, {}]
+        : [
+            {},
+            { stroke: () => colourOf("measured"), width: 3, spanGaps: false, points: { show: false } },
+            { stroke: () => colourOf("model"), width: 1.5, points: { show: false } },
+          ],
+      hooks: {
+        draw: [last ? drawContacts : drawMarks],
+        setSelect: [
+          (u) => {
+            if (u.select.width > 4)
+              zoom(u.posToVal(u.select.left, "x"), u.posToVal(u.select.left + u.select.width, "x"));
+          },
+        ],
+      },
     };
   }
 
@@ -86,7 +126,20 @@ function makeCurves(host, onTime) {
   for (let k = 0; k < 4; k++) {
     const frame = document.createElement("div");
     host.append(frame);
-    const plot = new uPlot(options(k), k === 3 ? [[0, 1], [null, null]] : [[0, 1], [null, null], [null, null]], frame);
+    const plot = new uPlot(
+      options(k),
+      k === 3
+        ? [
+            [0, 1],
+            [null, null],
+          ]
+        : [
+            [0, 1],
+            [null, null],
+            [null, null],
+          ],
+      frame,
+    );
     plots.push(plot);
     plot.over.addEventListener("click", (event) => {
       const box = plot.over.getBoundingClientRect();
@@ -98,7 +151,10 @@ function makeCurves(host, onTime) {
   function zoom(a, b) {
     if (!(b - a > 0.005)) return;
     range = [a, b];
-    plots.forEach((p) => { p.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false); p.setScale("x", { min: a, max: b }); });
+    plots.forEach((p) => {
+      p.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
+      p.setScale("x", { min: a, max: b });
+    });
   }
 
   function show(shown, answer, pointNames) {
@@ -112,7 +168,13 @@ function makeCurves(host, onTime) {
       plots[k].setData([run.t, run.axes[k], model], false);
       plots[k].setScale("x", { min: range[0], max: range[1] });
     }
-    plots[3].setData([[range[0], range[1]], [null, null]], false);
+    plots[3].setData(
+      [
+        [range[0], range[1]],
+        [null, null],
+      ],
+      false,
+    );
     plots[3].setScale("x", { min: range[0], max: range[1] });
   }
 
@@ -121,7 +183,14 @@ function makeCurves(host, onTime) {
     plots.forEach((p) => p.redraw(false, false));
   }
 
-  new ResizeObserver(() => plots.forEach((p, k) => { if (Math.abs(p.width - host.clientWidth) > 1) p.setSize({ width: Math.max(200, host.clientWidth), height: options(k).height }); })).observe(host);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plots.forEach((p) => p.redraw(true, true)));
+  new ResizeObserver(() =>
+    plots.forEach((p, k) => {
+      if (Math.abs(p.width - host.clientWidth) > 1)
+        p.setSize({ width: Math.max(200, host.clientWidth), height: options(k).height });
+    }),
+  ).observe(host);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () =>
+    plots.forEach((p) => p.redraw(true, true)),
+  );
   return { show, seek, zoom, plots, range: () => range };
 }

@@ -46,14 +46,37 @@ function makeEngine(bytes, layout) {
     const forces = buffer("forces", q.rows * q.points * 3);
     const model = put("model", modelRow(q.numbers));
     const values = put("values", valueRow(q.effects));
-    const written = code.run_model(model, values, q.theta, q.turned ? 1 : 0, q.roll, q.step, q.every, q.rows, states, forces, 0);
+    const written = code.run_model(
+      model,
+      values,
+      q.theta,
+      q.turned ? 1 : 0,
+      q.roll,
+      q.step,
+      q.every,
+      q.rows,
+      states,
+      forces,
+      0,
+    );
     return { written: written, rows: q.rows, states: states, forces: forces, values: values, fine: q.step * q.every };
   }
 
   // What the gyroscope records of the rows of a run: (m, 3).
   function recorded(made, gyro, m) {
     const out = buffer("recorded", 3 * m);
-    code.recorded(made.values, made.states + 8 * C.W_, C.STATE, made.written, made.fine, gyro.rate, gyro.bandwidth, gyro.range || 0, out, m);
+    code.recorded(
+      made.values,
+      made.states + 8 * C.W_,
+      C.STATE,
+      made.written,
+      made.fine,
+      gyro.rate,
+      gyro.bandwidth,
+      gyro.range || 0,
+      out,
+      m,
+    );
     return floats(out, 3 * m);
   }
 
@@ -67,9 +90,23 @@ function makeEngine(bytes, layout) {
   function innovations(q) {
     const r = buffer("innovations", 3 * q.samples);
     const left = code.innovations_of(
-      put("model", q.row), put("values", q.values), q.gyro.rate, q.gyro.bandwidth, q.gyro.range || 0, q.theta, q.roll, q.turned ? 1 : 0,
-      q.stage.rates, q.stage.attitude, q.stage.jitter, q.stage.steps, q.stage.smoothing,
-      put("record" + q.id, q.record), q.samples, put("sigma", q.sigma), r
+      put("model", q.row),
+      put("values", q.values),
+      q.gyro.rate,
+      q.gyro.bandwidth,
+      q.gyro.range || 0,
+      q.theta,
+      q.roll,
+      q.turned ? 1 : 0,
+      q.stage.rates,
+      q.stage.attitude,
+      q.stage.jitter,
+      q.stage.steps,
+      q.stage.smoothing,
+      put("record" + q.id, q.record),
+      q.samples,
+      put("sigma", q.sigma),
+      r,
     );
     return floats(r, 3 * left).slice();
   }

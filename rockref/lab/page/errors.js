@@ -13,33 +13,37 @@ function makeErrors(table) {
   AXES.forEach((axis) => {
     const row = element("tr");
     row.append(element("th", { scope: "row" }, axis));
-    cells.push(STRETCHES.map(() => {
-      const cell = element("td");
-      const number = element("span", { class: "number" });
-      const bar = element("span", { class: "bar", "aria-hidden": "true" });
-      const fill = element("span", { class: "fill" });
-      const noise = element("span", { class: "mark noise", title: "noise" });
-      const spread = element("span", { class: "mark spread", title: "spread between repeated runs" });
-      bar.append(fill, noise, spread);
-      cell.append(number, bar);
-      row.append(cell);
-      return { cell, number, fill, noise, spread };
-    }));
+    cells.push(
+      STRETCHES.map(() => {
+        const cell = element("td");
+        const number = element("span", { class: "number" });
+        const bar = element("span", { class: "bar", "aria-hidden": "true" });
+        const fill = element("span", { class: "fill" });
+        const noise = element("span", { class: "mark noise", title: "noise" });
+        const spread = element("span", { class: "mark spread", title: "spread between repeated runs" });
+        bar.append(fill, noise, spread);
+        cell.append(number, bar);
+        row.append(cell);
+        return { cell, number, fill, noise, spread };
+      }),
+    );
     body.append(row);
   });
 
   function show(run, errors) {
-    errors.forEach((row, stretch) => row.forEach((value, axis) => {
-      const { cell, number, fill, noise, spread } = cells[axis][stretch];
-      const known = Number.isFinite(value);
-      number.textContent = known ? short(value) : "–";
-      fill.style.width = known ? 100 * share(value) + "%" : "0";
-      noise.style.left = 100 * share(run.noise[axis]) + "%";
-      const between = run.spread && run.spread[stretch][axis];
-      spread.hidden = !between;
-      if (between) spread.style.left = 100 * share(between) + "%";
-      cell.classList.toggle("good", known && value <= 1.5 * Math.max(run.noise[axis], between || 0));
-    }));
+    errors.forEach((row, stretch) =>
+      row.forEach((value, axis) => {
+        const { cell, number, fill, noise, spread } = cells[axis][stretch];
+        const known = Number.isFinite(value);
+        number.textContent = known ? short(value) : "–";
+        fill.style.width = known ? 100 * share(value) + "%" : "0";
+        noise.style.left = 100 * share(run.noise[axis]) + "%";
+        const between = run.spread && run.spread[stretch][axis];
+        spread.hidden = !between;
+        if (between) spread.style.left = 100 * share(between) + "%";
+        cell.classList.toggle("good", known && value <= 1.5 * Math.max(run.noise[axis], between || 0));
+      }),
+    );
   }
   return { show };
 }

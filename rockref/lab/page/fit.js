@@ -8,7 +8,16 @@ const WIDEST = 0.25;
 const LONGEST = 1.5;
 // Memories of rates and attitude [s], means over residuals [samples], timing error [s], steps in a tick of 0.5 ms.
 // The release alone comes first: what the sensor does to the swing before any impact would lead the contacts astray.
-const RELEASE = { name: "release", rates: 0.04, attitude: 1, smoothing: 2, jitter: 0, steps: 8, iterations: 2, early: true };
+const RELEASE = {
+  name: "release",
+  rates: 0.04,
+  attitude: 1,
+  smoothing: 2,
+  jitter: 0,
+  steps: 8,
+  iterations: 2,
+  early: true,
+};
 const STAGES = [
   RELEASE,
   { name: "memory 5 ms", rates: 0.005, attitude: 0.1, smoothing: 8, jitter: 0, steps: 8, iterations: 3 },
@@ -60,15 +69,29 @@ function residuals(problem, items, z, stages) {
   const model = modelAt(problem, items, z);
   const row = engine.modelRow(model.numbers);
   const values = engine.valueRow(model.effects);
-  const parts = [].concat(stages).flatMap((stage) => problem.runs.map((run, k) =>
-    engine.innovations({
-      id: k, row, values, gyro: problem.gyro, stage, record: run.record, samples: stage.early ? run.early : run.samples, sigma: run.sigma,
-      turned: run.turned, theta: run.tilt + model.releases[k].tilt, roll: model.releases[k].roll,
-    })
-  ));
+  const parts = [].concat(stages).flatMap((stage) =>
+    problem.runs.map((run, k) =>
+      engine.innovations({
+        id: k,
+        row,
+        values,
+        gyro: problem.gyro,
+        stage,
+        record: run.record,
+        samples: stage.early ? run.early : run.samples,
+        sigma: run.sigma,
+        turned: run.turned,
+        theta: run.tilt + model.releases[k].tilt,
+        roll: model.releases[k].roll,
+      }),
+    ),
+  );
   const all = new Float64Array(parts.reduce((sum, part) => sum + part.length, 0));
   let at = 0;
-  for (const part of parts) { all.set(part, at); at += part.length; }
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
+  }
   return all;
 }
 
@@ -84,7 +107,11 @@ const meanLoss = (r) => (2 * objective(r, [])) / r.length;
 // One column of the Jacobian: by differences as wide as the objective bears.
 function difference(problem, items, z, r, stage, k, worst) {
   for (let width = WIDEST; ; width /= 4) {
-    const moved = (by) => { const w = z.slice(); w[k] += by; return w; };
+    const moved = (by) => {
+      const w = z.slice();
+      w[k] += by;
+      return w;
+    };
     const up = moved(width);
     const above = residuals(problem, items, up, stage);
     let most = objective(above, up);
@@ -133,8 +160,14 @@ function solve(H, b) {
     }
   }
   const x = Float64Array.from(b);
-  for (let i = 0; i < n; i++) { for (let k = 0; k < i; k++) x[i] -= L[i][k] * x[k]; x[i] /= L[i][i]; }
-  for (let i = n - 1; i >= 0; i--) { for (let k = i + 1; k < n; k++) x[i] -= L[k][i] * x[k]; x[i] /= L[i][i]; }
+  for (let i = 0; i < n; i++) {
+    for (let k = 0; k < i; k++) x[i] -= L[i][k] * x[k];
+    x[i] /= L[i][i];
+  }
+  for (let i = n - 1; i >= 0; i--) {
+    for (let k = i + 1; k < n; k++) x[i] -= L[k][i] * x[k];
+    x[i] /= L[i][i];
+  }
   return x;
 }
 
@@ -142,7 +175,10 @@ function solve(H, b) {
 function stepOf(H, b, damping, of) {
   const at = of || b.map((_, i) => i);
   const A = Array.from(at, (i) => Float64Array.from(at, (j) => H[i][j] * (i === j ? 1 + damping : 1)));
-  const d = solve(A, Float64Array.from(at, (i) => -b[i]));
+  const d = solve(
+    A,
+    Float64Array.from(at, (i) => -b[i]),
+  );
   const size = Math.max(...d.map(Math.abs));
   return size > LONGEST ? d.map((v) => (v * LONGEST) / size) : d;
 }

@@ -53,8 +53,15 @@ function hide(q) {
   const samples = MYSTERY.duration * MYSTERY.gyro.rate + 1;
   const runs = MYSTERY.runs.map((run) => {
     const made = engine.run({
-      numbers, effects: { [effect.id]: effect.values }, points: 8, rows: MYSTERY.duration * 4000 + 2, every: 25, step: 1e-5,
-      theta: run.tilt + 5e-4 * gauss(), turned: run.turned, roll: 5e-5 * gauss(),
+      numbers,
+      effects: { [effect.id]: effect.values },
+      points: 8,
+      rows: MYSTERY.duration * 4000 + 2,
+      every: 25,
+      step: 1e-5,
+      theta: run.tilt + 5e-4 * gauss(),
+      turned: run.turned,
+      roll: 5e-5 * gauss(),
     });
     const rates = Float64Array.from(engine.recorded(made, MYSTERY.gyro, samples), (w) => {
       const shown = w * DEGREES + MYSTERY.gyro.noise * gauss();

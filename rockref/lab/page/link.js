@@ -23,13 +23,23 @@ function startWorker(pack) {
     worker.onmessage = ({ data }) => {
       const entry = waiting.get(data.id);
       if (!entry) return;
-      if (data.news) { if (entry.news) entry.news(data.news); return; }
+      if (data.news) {
+        if (entry.news) entry.news(data.news);
+        return;
+      }
       waiting.delete(data.id);
       if (data.failure) entry.reject(new Error(data.failure));
       else entry.resolve(data.answer);
     };
     const wasm = Uint8Array.from(atob(pack.wasm), (c) => c.charCodeAt(0));
-    return send({ kind: "setup", wasm, layout: pack.layout, golden: pack.golden, golden_models: pack.golden_models, ...pack.for_worker });
+    return send({
+      kind: "setup",
+      wasm,
+      layout: pack.layout,
+      golden: pack.golden,
+      golden_models: pack.golden_models,
+      ...pack.for_worker,
+    });
   }
 
   // The latest run wins: one is computed, one waits.

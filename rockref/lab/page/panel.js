@@ -9,7 +9,9 @@ function element(tag, attributes, text) {
   return made;
 }
 
-const withUnit = (value, unit) => Number(value.toPrecision(4)).toString() + (unit === "1" || !unit ? "" : "\u202f" + unit.replace("m2", "m²").replace("s2", "s²"));
+const withUnit = (value, unit) =>
+  Number(value.toPrecision(4)).toString() +
+  (unit === "1" || !unit ? "" : "\u202f" + unit.replace("m2", "m²").replace("s2", "s²"));
 
 function scaleOf(low, high, log) {
   const to = log ? Math.log : (v) => v;
@@ -22,7 +24,8 @@ function scaleOf(low, high, log) {
 
 // Shading of a prior about its centre: two deviations fade out on either side.
 function shading(scale, centre, spread, log) {
-  const at = (z) => Math.min(100, Math.max(0, scale.place(log ? centre * Math.exp(z * spread) : centre + z * spread) / (PLACES / 100)));
+  const at = (z) =>
+    Math.min(100, Math.max(0, scale.place(log ? centre * Math.exp(z * spread) : centre + z * spread) / (PLACES / 100)));
   const tone = (z) => "color-mix(in srgb, var(--prior) " + Math.round(100 * Math.exp((-z * z) / 2)) + "%, transparent)";
   const stops = [-3, -2, -1.5, -1, -0.5, 0, 0.5, 1, 1.5, 2, 3].map((z) => tone(z) + " " + at(z).toFixed(1) + "%");
   return "linear-gradient(90deg, " + stops.join(", ") + ")";
@@ -42,15 +45,38 @@ function slider(q) {
     output.textContent = withUnit(value * (q.factor || 1), q.shownUnit || q.unit);
     input.setAttribute("aria-valuetext", output.textContent);
   };
-  const set = (value) => { input.value = Math.round(scale.place(value)); tell(value); };
-  input.addEventListener("input", () => { const v = scale.value(Number(input.value)); tell(v); q.change(v, false); });
+  const set = (value) => {
+    input.value = Math.round(scale.place(value));
+    tell(value);
+  };
+  input.addEventListener("input", () => {
+    const v = scale.value(Number(input.value));
+    tell(v);
+    q.change(v, false);
+  });
   input.addEventListener("change", () => q.change(scale.value(Number(input.value)), true));
-  input.addEventListener("dblclick", () => { set(q.reset); q.change(q.reset, true); });
+  input.addEventListener("dblclick", () => {
+    set(q.reset);
+    q.change(q.reset, true);
+  });
   row.append(label, input, output);
   return { row, input, set };
 }
 
-const SYMBOLS = { K_N: "K_N", K_T: "K_T", beta_int: "β int", beta_ext: "β ext", mu_int: "μ int", mu_ext: "μ ext", delta_long_1: "δ₁", delta_long_2: "δ₂", delta_long_3: "δ₃", delta_long_4: "δ₄", delta_diag: "δ diag", theta_0: "θ₀" };
+const SYMBOLS = {
+  K_N: "K_N",
+  K_T: "K_T",
+  beta_int: "β int",
+  beta_ext: "β ext",
+  mu_int: "μ int",
+  mu_ext: "μ ext",
+  delta_long_1: "δ₁",
+  delta_long_2: "δ₂",
+  delta_long_3: "δ₃",
+  delta_long_4: "δ₄",
+  delta_diag: "δ diag",
+  theta_0: "θ₀",
+};
 
 function parameterSliders(pack, host, change) {
   const made = {};
@@ -60,8 +86,19 @@ function parameterSliders(pack, host, change) {
     const height = p.name.startsWith("delta_long");
     const stiff = p.unit === "N/m";
     made[p.name] = slider({
-      key: p.name, symbol: SYMBOLS[p.name], label: p.words, unit: p.unit, low: p.low, high: p.high, log: !height, centre: p.centre, spread: p.spread, priorLog: true,
-      reset: pack.start.numbers[p.name], factor: height ? 1e6 : length ? 1e3 : stiff ? 1e-6 : 1, shownUnit: height ? "µm" : length ? "mm" : stiff ? "MN/m" : p.unit,
+      key: p.name,
+      symbol: SYMBOLS[p.name],
+      label: p.words,
+      unit: p.unit,
+      low: p.low,
+      high: p.high,
+      log: !height,
+      centre: p.centre,
+      spread: p.spread,
+      priorLog: true,
+      reset: pack.start.numbers[p.name],
+      factor: height ? 1e6 : length ? 1e3 : stiff ? 1e-6 : 1,
+      shownUnit: height ? "µm" : length ? "mm" : stiff ? "MN/m" : p.unit,
       change: (value, done) => change(p.name, value, done),
     });
     made[p.name].input.disabled = !p.acts;
@@ -76,7 +113,11 @@ const plainName = (id) => id.replace(/_/g, " ");
 function spanOf(q) {
   if (q.absent === Infinity) return [q.low, q.high, true];
   const low = q.sign === "+" && q.absent !== null && !Number.isNaN(q.absent) ? Math.min(q.absent, q.low) : q.low;
-  return [Number.isNaN(q.absent) ? q.low : Math.min(low, q.absent), Math.max(q.high, Number.isNaN(q.absent) ? q.high : q.absent), false];
+  return [
+    Number.isNaN(q.absent) ? q.low : Math.min(low, q.absent),
+    Math.max(q.high, Number.isNaN(q.absent) ? q.high : q.absent),
+    false,
+  ];
 }
 
 function effectSwitch(effect, state, change) {
@@ -92,7 +133,14 @@ function effectSwitch(effect, state, change) {
     const [low, high, log] = spanOf(q);
     if (!(high > low)) continue;
     sliders[q.name] = slider({
-      key: effect.id + "." + q.name, symbol: q.name, label: q.meaning, unit: q.unit, low, high, log, reset: Number.isNaN(q.typical) ? (low + high) / 2 : q.typical,
+      key: effect.id + "." + q.name,
+      symbol: q.name,
+      label: q.meaning,
+      unit: q.unit,
+      low,
+      high,
+      log,
+      reset: Number.isNaN(q.typical) ? (low + high) / 2 : q.typical,
       change: (value, done) => change(effect.id, q.name, value, done),
     });
     inside.append(sliders[q.name].row);

@@ -8,14 +8,31 @@ function sharedItems(pack, numbers) {
     .filter((p) => p.name !== "theta_0" && p.acts)
     .map((p) => {
       const given = Math.log(Math.max(numbers[p.name], 1e-12) / p.centre) / p.spread;
-      return { ...WITHIN, kind: "parameter", name: p.name, map: "log", centre: p.centre, spread: p.spread, z: Math.min(Math.max(given, -6), 6) };
+      return {
+        ...WITHIN,
+        kind: "parameter",
+        name: p.name,
+        map: "log",
+        centre: p.centre,
+        spread: p.spread,
+        z: Math.min(Math.max(given, -6), 6),
+      };
     });
 }
 
 function releaseItems(runs, state, uncertainty, rollUncertainty) {
   return runs.flatMap((run, k) => {
     const at = state.releaseOf(run.id);
-    const item = (name, spread) => ({ ...WITHIN, kind: "release", run: k, name, map: "linear", centre: 0, spread, z: at[name] / spread });
+    const item = (name, spread) => ({
+      ...WITHIN,
+      kind: "release",
+      run: k,
+      name,
+      map: "linear",
+      centre: 0,
+      spread,
+      z: at[name] / spread,
+    });
     return [item("tilt", uncertainty), item("roll", rollUncertainty)];
   });
 }
@@ -23,28 +40,76 @@ function releaseItems(runs, state, uncertainty, rollUncertainty) {
 // The numbers of an effect that a fit can move. Those of a typical size of nothing, directions and shares, stay as they
 // stand; those that only shape the effect come last and are left out of a first look.
 function effectItems(effect, values, shapes) {
-  const bring = effect.quantities.filter((q) => effect.switches.includes(q.name) && q.typical !== q.absent && !Number.isNaN(q.absent));
-  const shape = shapes ? effect.quantities.filter((q) => !effect.switches.includes(q.name) && q.sign === "+" && q.absent > 0) : [];
+  const bring = effect.quantities.filter(
+    (q) => effect.switches.includes(q.name) && q.typical !== q.absent && !Number.isNaN(q.absent),
+  );
+  const shape = shapes
+    ? effect.quantities.filter((q) => !effect.switches.includes(q.name) && q.sign === "+" && q.absent > 0)
+    : [];
   return [...bring.map((q) => amplitudeItem(effect, q, values)), ...shape.map((q) => shapeItem(effect, q, values))];
 }
 
 function shapeItem(effect, q, values) {
   const value = values ? values[q.name] : q.typical;
-  return { kind: "effect", effect: effect.id, name: q.name, map: "log", centre: q.typical, spread: 0.5, positive: false, least: q.least, most: q.most, z: Math.log(value / q.typical) / 0.5 };
+  return {
+    kind: "effect",
+    effect: effect.id,
+    name: q.name,
+    map: "log",
+    centre: q.typical,
+    spread: 0.5,
+    positive: false,
+    least: q.least,
+    most: q.most,
+    z: Math.log(value / q.typical) / 0.5,
+  };
 }
 
 // Three typical sizes are one prior deviation; factors about one by their logarithm, at most a half.
 function amplitudeItem(effect, q, values) {
-  const item = { kind: "effect", effect: effect.id, name: q.name, positive: q.sign === "+", least: q.least, most: q.most, typical: q.typical, typical_z: 1 / 3 };
+  const item = {
+    kind: "effect",
+    effect: effect.id,
+    name: q.name,
+    positive: q.sign === "+",
+    least: q.least,
+    most: q.most,
+    typical: q.typical,
+    typical_z: 1 / 3,
+  };
   const value = values ? values[q.name] : q.absent;
   if (effect.id === "compliant_support") {
-    return { ...item, map: "compliance", positive: true, least: 0, most: Infinity, seeded: true, z: value > 0 ? (q.typical / value) ** 2 / 3 : 0 };
+    return {
+      ...item,
+      map: "compliance",
+      positive: true,
+      least: 0,
+      most: Infinity,
+      seeded: true,
+      z: value > 0 ? (q.typical / value) ** 2 / 3 : 0,
+    };
   }
-  if (q.absent === Infinity) return { ...item, map: "inverse", positive: true, least: 0, most: Infinity, z: Number.isFinite(value) ? q.typical / value / 3 : 0, seeded: effect.id === "gyro_saturation" };
+  if (q.absent === Infinity)
+    return {
+      ...item,
+      map: "inverse",
+      positive: true,
+      least: 0,
+      most: Infinity,
+      z: Number.isFinite(value) ? q.typical / value / 3 : 0,
+      seeded: effect.id === "gyro_saturation",
+    };
   if (q.absent === 1 && q.sign !== "+") {
     const size = Math.abs(Math.log(q.typical)) || Math.abs(Math.log(q.high)) / 2;
     const spread = Math.min(3 * size, 0.5);
-    return { ...item, map: "log", centre: 1, spread, typical_z: size / spread, z: Math.log(Math.max(value, 1e-6)) / spread };
+    return {
+      ...item,
+      map: "log",
+      centre: 1,
+      spread,
+      typical_z: size / spread,
+      z: Math.log(Math.max(value, 1e-6)) / spread,
+    };
   }
   const spread = 3 * Math.abs(q.typical - q.absent);
   return { ...item, map: "linear", centre: q.absent, spread, z: (value - q.absent) / spread };
@@ -66,14 +131,25 @@ function fitProblem(pack, state, experiment) {
     ...Object.entries(acting).flatMap(([id, values]) => effectItems(state.catalogue[id], values, true)),
   ];
   return {
-    numbers: state.now.numbers, effects: acting, gyro: workerGyro(experiment.gyro), items,
+    numbers: state.now.numbers,
+    effects: acting,
+    gyro: workerGyro(experiment.gyro),
+    items,
     runs: runs.map((run) => {
       const end = run.impacts.length ? HORIZON * run.impacts[0] : 1.2;
       const samples = Math.min(run.samples, Math.ceil(end / run.step));
       const record = new Float64Array(3 * samples);
       for (let i = 0; i < samples; i++) for (let k = 0; k < 3; k++) record[3 * i + k] = run.axes[k][i] * radians;
       const early = Math.min(samples, Math.max(40, Math.floor((EARLY / HORIZON) * samples)));
-      return { record, samples, early, tilt: run.tilt, turned: run.turned, sigma: run.noise.map((v) => v * radians), offset: state.releaseOf(run.id) };
+      return {
+        record,
+        samples,
+        early,
+        tilt: run.tilt,
+        turned: run.turned,
+        sigma: run.noise.map((v) => v * radians),
+        offset: state.releaseOf(run.id),
+      };
     }),
   };
 }
@@ -88,7 +164,11 @@ function candidates(state) {
   const on = state.acting();
   const found = {};
   for (const effect of Object.values(state.catalogue)) {
-    if (on[effect.id] || (effect.id === "foot_defects") !== (state.now.numbers.points === 4 && effect.id === "foot_defects")) continue;
+    if (
+      on[effect.id] ||
+      (effect.id === "foot_defects") !== (state.now.numbers.points === 4 && effect.id === "foot_defects")
+    )
+      continue;
     const items = effectItems(effect, null, false);
     if (items.length) found[effect.id] = items;
   }

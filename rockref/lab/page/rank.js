@@ -11,7 +11,9 @@ function promised(H, b, of) {
   let gain = 0;
   of.forEach((i, p) => {
     gain -= b[i] * d[p];
-    of.forEach((j, q) => { gain -= 0.5 * d[p] * H[i][j] * d[q]; });
+    of.forEach((j, q) => {
+      gain -= 0.5 * d[p] * H[i][j] * d[q];
+    });
   });
   return gain;
 }
@@ -45,7 +47,10 @@ function rank(problem, say) {
   const candidates = Object.entries(problem.candidates);
   candidates.forEach(([id, extra], k) => {
     say({ share: k / candidates.length, id });
-    if (extra[0].seeded) { seeds[id] = seeded(problem, items, z, J, extra, stage); return; }
+    if (extra[0].seeded) {
+      seeds[id] = seeded(problem, items, z, J, extra, stage);
+      return;
+    }
     const wide = [...items, ...extra];
     const w = [...z, ...extra.map(() => 0)];
     places[id] = [...z.keys(), ...extra.map((_, j) => all.length + j)];
@@ -56,12 +61,17 @@ function rank(problem, say) {
   const order = Object.keys(places).sort((a, c) => promised(H, b, places[c]) - promised(H, b, places[a]));
   const found = order.slice(0, LOOKED_AT).map((id) => {
     const wide = [...items, ...problem.candidates[id]];
-    return { id, ...lineSearch(problem, wide, [...z, ...problem.candidates[id].map(() => 0)], H, b, stage, places[id]) };
+    return {
+      id,
+      ...lineSearch(problem, wide, [...z, ...problem.candidates[id].map(() => 0)], H, b, stage, places[id]),
+    };
   });
   for (const [id, best] of Object.entries(seeds)) found.push({ id, ...best });
   found.sort((a, c) => a.objective - c.objective);
   const rows = found.map((f) => ({
-    id: f.id, objective: f.objective, model: modelAt(problem, [...items, ...problem.candidates[f.id]], f.z),
+    id: f.id,
+    objective: f.objective,
+    model: modelAt(problem, [...items, ...problem.candidates[f.id]], f.z),
   }));
   return { before, plain: plain.objective, samples: r.length, rows };
 }

@@ -1,11 +1,19 @@
 "use strict";
 // The block in motion: the modelled one solid, the measured one as an outline; out-of-plane angles are exaggerated, feet
 // glow as hard as they are pressed.
-const SPEEDS = [["1/50", 0.02], ["1/20", 0.05], ["1/5", 0.2], ["1", 1]];
+const SPEEDS = [
+  ["1/50", 0.02],
+  ["1/20", 0.05],
+  ["1/5", 0.2],
+  ["1", 1],
+];
 // Frames of 2 ms after which a foot is dark again: contacts of 1.5 ms would not be seen.
 const AFTERGLOW = 8;
 
-const colourOf = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+const colourOf = (name) =>
+  getComputedStyle(document.documentElement)
+    .getPropertyValue("--" + name)
+    .trim();
 const turnedBy = (R, p) => R.map((r) => r[0] * p[0] + r[1] * p[1] + r[2] * p[2]);
 
 // The block stands on its lowest points, and these stay where they are on the plate.
@@ -26,7 +34,12 @@ function placed(R, points, standing) {
 // Places of the points, as the model's sides and heights say.
 function pointsOf(n) {
   const inward = 1 - n.delta_diag / (Math.hypot(n.width, n.depth) / 2);
-  const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([x, y]) => [(x * n.width) / 2, (y * n.depth) / 2]);
+  const corners = [
+    [1, 1],
+    [-1, 1],
+    [-1, -1],
+    [1, -1],
+  ].map(([x, y]) => [(x * n.width) / 2, (y * n.depth) / 2]);
   const outer = corners.map(([x, y], i) => [x, y, -n.height / 2 + (n.points === 4 ? 0 : n["delta_long_" + (i + 1)])]);
   return [...outer, ...corners.map(([x, y]) => [x * inward, y * inward, -n.height / 2])];
 }
@@ -35,7 +48,12 @@ function makeScene(canvas, view) {
   let data = null;
 
   function project(width, height, size) {
-    const [ca, sa, ce, se] = [Math.cos(view.azimuth), Math.sin(view.azimuth), Math.cos(view.elevation), Math.sin(view.elevation)];
+    const [ca, sa, ce, se] = [
+      Math.cos(view.azimuth),
+      Math.sin(view.azimuth),
+      Math.cos(view.elevation),
+      Math.sin(view.elevation),
+    ];
     const scale = Math.min((0.86 * height) / size, (0.9 * width) / (0.62 * size));
     return (p) => {
       const x = ca * p[0] + sa * p[1];
@@ -53,7 +71,9 @@ function makeScene(canvas, view) {
 
   function drawPlate(c, at, width) {
     const reach = 2.1 * width;
-    const disc = Array.from({ length: 60 }, (_, k) => at([reach * Math.cos((k * Math.PI) / 30), reach * Math.sin((k * Math.PI) / 30), 0]));
+    const disc = Array.from({ length: 60 }, (_, k) =>
+      at([reach * Math.cos((k * Math.PI) / 30), reach * Math.sin((k * Math.PI) / 30), 0]),
+    );
     const middle = at([0, 0, 0]);
     const glow = c.createRadialGradient(middle[0], middle[1], 0, middle[0], middle[1], reach * middle[3]);
     glow.addColorStop(0, colourOf("plate"));
@@ -66,7 +86,16 @@ function makeScene(canvas, view) {
     for (let k = -4; k <= 4; k++) {
       const s = (k / 4) * 1.6 * width;
       const e = Math.sqrt(Math.max(0, (1.75 * width) ** 2 - s * s));
-      for (const [a, b] of [[[s, -e, 0], [s, e, 0]], [[-e, s, 0], [e, s, 0]]]) {
+      for (const [a, b] of [
+        [
+          [s, -e, 0],
+          [s, e, 0],
+        ],
+        [
+          [-e, s, 0],
+          [e, s, 0],
+        ],
+      ]) {
         const [p, q] = [at(a), at(b)];
         c.beginPath();
         c.moveTo(p[0], p[1]);
@@ -85,9 +114,16 @@ function makeScene(canvas, view) {
     const faces = [];
     for (let axis = 0; axis < 3; axis++) {
       for (const side of [-1, 1]) {
-        const loop = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => {
+        const loop = [
+          [-1, -1],
+          [1, -1],
+          [1, 1],
+          [-1, 1],
+        ].map(([a, b]) => {
           const v = [0, 0, 0];
-          v[axis] = side; v[(axis + 1) % 3] = a; v[(axis + 2) % 3] = b;
+          v[axis] = side;
+          v[(axis + 1) % 3] = a;
+          v[(axis + 2) % 3] = b;
           return corner(v[0], v[1], v[2]);
         });
         faces.push({ loop, axis, side, depth: loop.reduce((s, p) => s + p[2], 0) });
@@ -98,12 +134,17 @@ function makeScene(canvas, view) {
 
   function drawShadow(c, at, R, shift, box) {
     // The light comes from above, a little from the left and behind.
-    const cast = [[-1, -1], [1, -1], [1, 1], [-1, 1]].flatMap(([a, b]) =>
+    const cast = [
+      [-1, -1],
+      [1, -1],
+      [1, 1],
+      [-1, 1],
+    ].flatMap(([a, b]) =>
       [-1, 1].map((z) => {
         const p = turnedBy(R, [(a * box[0]) / 2, (b * box[1]) / 2, (z * box[2]) / 2]);
         const height = p[2] + shift[2];
         return at([p[0] + shift[0] + 0.34 * height, p[1] + shift[1] + 0.28 * height, 0]);
-      })
+      }),
     );
     path(c, hull(cast));
     c.fillStyle = colourOf("shadow");
@@ -131,7 +172,10 @@ function makeScene(canvas, view) {
     c.setLineDash([5, 4]);
     c.strokeStyle = colourOf("measured");
     c.lineWidth = 1.4;
-    faces.slice(3).forEach((f) => { path(c, f.loop); c.stroke(); });
+    faces.slice(3).forEach((f) => {
+      path(c, f.loop);
+      c.stroke();
+    });
     c.setLineDash([]);
   }
 
@@ -241,7 +285,13 @@ function makeScene(canvas, view) {
     drawBase(c, k, { x: width - 0.66 * size, y: 0.72 * size, size }, data.spin);
   }
 
-  return { draw, show: (made) => { data = made; }, lit: (frame) => data.points.slice(0, data.n).map((_, i) => glowOf(frame, i) > 0.02) };
+  return {
+    draw,
+    show: (made) => {
+      data = made;
+    },
+    lit: (frame) => data.points.slice(0, data.n).map((_, i) => glowOf(frame, i) > 0.02),
+  };
 }
 
 // Convex hull of plane points (Andrew 1979).

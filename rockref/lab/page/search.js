@@ -2,7 +2,9 @@
 // Find it yourself: the fit, the ranking of effects, the mystery.
 function wireSearch(at) {
   const { byId, state, worker, pack } = at;
-  const say = (text) => { byId("progress").textContent = text; };
+  const say = (text) => {
+    byId("progress").textContent = text;
+  };
   let running = false;
 
   function busy(on) {
@@ -32,7 +34,15 @@ function wireSearch(at) {
       const found = await worker.send({ kind: "fit", ...fitProblem(pack, state, lab.experiment) }, (news) => {
         losses.push(news.loss);
         trace(losses);
-        say("Fitting, " + news.stage + ", step " + news.step + ": mean loss " + news.loss.toFixed(2) + " (white noise: 0.95)");
+        say(
+          "Fitting, " +
+            news.stage +
+            ", step " +
+            news.step +
+            ": mean loss " +
+            news.loss.toFixed(2) +
+            " (white noise: 0.95)",
+        );
         at.apply(news.model);
       });
       at.apply(found.model);
@@ -40,24 +50,39 @@ function wireSearch(at) {
       at.changed();
       at.showAll();
       await at.update(true);
-      const words = found.loss < 1.1 ? "The record is explained to its noise." : "Something is missing: white noise would leave 0.95.";
+      const words =
+        found.loss < 1.1
+          ? "The record is explained to its noise."
+          : "Something is missing: white noise would leave 0.95.";
       say("Fitted. Mean loss " + found.loss.toFixed(2) + ". " + words);
       lab.loss = found.loss;
     } catch (error) {
       say(String(error.message) === "stopped" ? "Stopped." : "The fit failed: " + error.message);
       if (String(error.message) !== "stopped") throw error;
-    } finally { busy(false); }
+    } finally {
+      busy(false);
+    }
   };
 
   function rankRow(row, found) {
     const item = element("li");
     const fall = (100 * (found.plain - row.objective)) / found.plain;
     const button = element("button", { type: "button", class: "ranked" });
-    button.append(element("span", { class: "rank-name" }, plainName(row.id)), element("span", { class: "rank-fall" }, (fall > 0 ? "−" : "+") + Math.abs(fall).toFixed(fall > 10 ? 0 : 1) + " %"));
+    button.append(
+      element("span", { class: "rank-name" }, plainName(row.id)),
+      element(
+        "span",
+        { class: "rank-fall" },
+        (fall > 0 ? "−" : "+") + Math.abs(fall).toFixed(fall > 10 ? 0 : 1) + " %",
+      ),
+    );
     const bar = element("span", { class: "rank-bar", "aria-hidden": "true" });
     bar.style.width = Math.max(0, Math.min(100, fall)) + "%";
     button.append(bar);
-    button.setAttribute("aria-label", plainName(row.id) + ": one step takes " + fall.toFixed(1) + " percent of the objective; switch it on");
+    button.setAttribute(
+      "aria-label",
+      plainName(row.id) + ": one step takes " + fall.toFixed(1) + " percent of the objective; switch it on",
+    );
     button.addEventListener("click", () => {
       const before = state.copy();
       at.apply(row.model);
@@ -65,7 +90,9 @@ function wireSearch(at) {
       at.changed();
       at.showAll();
       at.update(true);
-      byId("effects").querySelector('[data-effect="' + row.id + '"]').scrollIntoView({ block: "nearest" });
+      byId("effects")
+        .querySelector('[data-effect="' + row.id + '"]')
+        .scrollIntoView({ block: "nearest" });
     });
     item.append(button);
     return item;
@@ -76,23 +103,35 @@ function wireSearch(at) {
     byId("ranking").textContent = "";
     try {
       const problem = { ...fitProblem(pack, state, lab.experiment), candidates: candidates(state) };
-      const found = await worker.send({ kind: "rank", ...problem }, (news) => say("Trying " + plainName(news.id) + ", " + Math.round(100 * news.share) + " %"));
+      const found = await worker.send({ kind: "rank", ...problem }, (news) =>
+        say("Trying " + plainName(news.id) + ", " + Math.round(100 * news.share) + " %"),
+      );
       lab.ranking = found;
       found.rows.slice(0, 8).forEach((row) => byId("ranking").append(rankRow(row, found)));
       const best = found.rows[0];
       const fall = (found.plain - best.objective) / found.plain;
-      say(fall > 0.02 ? "One shared step: " + plainName(best.id) + " helps most. Switch it on, then fit." : "No effect takes more than 2 % in one step.");
+      say(
+        fall > 0.02
+          ? "One shared step: " + plainName(best.id) + " helps most. Switch it on, then fit."
+          : "No effect takes more than 2 % in one step.",
+      );
     } catch (error) {
       say(String(error.message) === "stopped" ? "Stopped." : "The ranking failed: " + error.message);
       if (String(error.message) !== "stopped") throw error;
-    } finally { busy(false); }
+    } finally {
+      busy(false);
+    }
   };
 
   lab.mystery = async (seed, fresh = true) => {
     lab.seed = seed;
     byId("seed").value = seed;
     const hidden = await worker.send({ kind: "hide", seed });
-    if (fresh) { state.now = { ...state.now, releases: {}, run: 0 }; state.reset(); state.past = []; }
+    if (fresh) {
+      state.now = { ...state.now, releases: {}, run: 0 };
+      state.reset();
+      state.past = [];
+    }
     byId("guess-box").hidden = false;
     byId("verdict").textContent = "";
     byId("ranking").textContent = "";
@@ -112,7 +151,9 @@ function wireSearch(at) {
 
   byId("fit").addEventListener("click", () => lab.fit());
   byId("rank").addEventListener("click", () => lab.rank());
-  byId("hide").addEventListener("click", () => lab.mystery(Math.min(999999, Math.max(1, Math.floor(Number(byId("seed").value)) || 1))));
+  byId("hide").addEventListener("click", () =>
+    lab.mystery(Math.min(999999, Math.max(1, Math.floor(Number(byId("seed").value)) || 1))),
+  );
   byId("stop").addEventListener("click", async () => {
     await worker.stop();
     if (lab.seed) await worker.send({ kind: "hide", seed: lab.seed });
@@ -127,7 +168,20 @@ function judged(secret, id, state) {
   if (!found) return "Yes, " + plainName(id) + ". Switch it on and fit to learn its size.";
   const effect = state.catalogue[id];
   const words = effect.quantities
-    .filter((q) => effect.switches.includes(q.name) && secret.effect.values[q.name] !== q.absent && secret.effect.values[q.name] !== null)
-    .map((q) => q.name + " " + withUnit(found[q.name], q.unit) + " (hidden: " + withUnit(secret.effect.values[q.name], q.unit) + ")");
+    .filter(
+      (q) =>
+        effect.switches.includes(q.name) &&
+        secret.effect.values[q.name] !== q.absent &&
+        secret.effect.values[q.name] !== null,
+    )
+    .map(
+      (q) =>
+        q.name +
+        " " +
+        withUnit(found[q.name], q.unit) +
+        " (hidden: " +
+        withUnit(secret.effect.values[q.name], q.unit) +
+        ")",
+    );
   return "Yes, " + plainName(id) + ": " + words.join(", ") + ".";
 }

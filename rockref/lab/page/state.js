@@ -13,12 +13,19 @@ function makeState(pack) {
     catalogue[effect.id] = { ...effect, quantities };
   }
 
-  const typical = (id) => Object.fromEntries(catalogue[id].quantities.map((q) => [q.name, Number.isNaN(q.typical) ? null : q.typical]));
+  const typical = (id) =>
+    Object.fromEntries(catalogue[id].quantities.map((q) => [q.name, Number.isNaN(q.typical) ? null : q.typical]));
 
   function started() {
     const effects = {};
     for (const [id, values] of Object.entries(pack.start.effects)) {
-      effects[id] = { on: true, values: { ...typical(id), ...Object.fromEntries(Object.entries(values).map(([k, v]) => [k, v === null ? null : unquoted(v)])) } };
+      effects[id] = {
+        on: true,
+        values: {
+          ...typical(id),
+          ...Object.fromEntries(Object.entries(values).map(([k, v]) => [k, v === null ? null : unquoted(v)])),
+        },
+      };
     }
     return { run: 0, numbers: { ...pack.start.numbers }, effects, releases: {} };
   }
@@ -57,7 +64,9 @@ function makeState(pack) {
     const found = {};
     for (const [id, effect] of Object.entries(state.now.effects)) {
       if (!effect.on) continue;
-      const absent = catalogue[id].switches.every((name) => effect.values[name] === catalogue[id].quantities.find((q) => q.name === name).absent);
+      const absent = catalogue[id].switches.every(
+        (name) => effect.values[name] === catalogue[id].quantities.find((q) => q.name === name).absent,
+      );
       if (!absent && (id !== "foot_defects" || state.now.numbers.points === 4)) found[id] = effect.values;
     }
     return found;
@@ -68,12 +77,22 @@ function makeState(pack) {
     const words = new URLSearchParams(extra || {});
     const start = started();
     if (state.now.run) words.set("run", state.now.run);
-    for (const [name, value] of Object.entries(state.now.numbers)) if (value !== start.numbers[name]) words.set(name, value);
+    for (const [name, value] of Object.entries(state.now.numbers))
+      if (value !== start.numbers[name]) words.set(name, value);
     for (const [id, effect] of Object.entries(state.now.effects)) {
-      if (effect.on) words.set(id, Object.entries(effect.values).filter(([, v]) => v !== null).map(([k, v]) => k + ":" + v).join(","));
+      if (effect.on)
+        words.set(
+          id,
+          Object.entries(effect.values)
+            .filter(([, v]) => v !== null)
+            .map(([k, v]) => k + ":" + v)
+            .join(","),
+        );
     }
-    for (const id of Object.keys(start.effects)) if (!state.now.effects[id] || !state.now.effects[id].on) words.set(id, "off");
-    for (const [id, r] of Object.entries(state.now.releases)) if (r.tilt || r.roll) words.set("release." + id, r.tilt + "," + r.roll);
+    for (const id of Object.keys(start.effects))
+      if (!state.now.effects[id] || !state.now.effects[id].on) words.set(id, "off");
+    for (const [id, r] of Object.entries(state.now.releases))
+      if (r.tilt || r.roll) words.set("release." + id, r.tilt + "," + r.roll);
     return words.toString();
   };
 
@@ -104,13 +123,42 @@ function makeState(pack) {
 // A model file that `rockref` reads. Every number reads back to the same bits: JavaScript writes the shortest that does.
 function modelFile(state, theta, notes) {
   const n = state.now.numbers;
-  const toml = (value) => (value === Infinity ? "inf" : value === -Infinity ? "-inf" : /[.e]/.test(String(value)) ? String(value) : value + ".0");
+  const toml = (value) =>
+    value === Infinity
+      ? "inf"
+      : value === -Infinity
+        ? "-inf"
+        : /[.e]/.test(String(value))
+          ? String(value)
+          : value + ".0";
   const lines = ["# A rockref model. SI units; the unit is in the key.", "format = 1", "", "[block]"];
-  for (const [key, name] of [["mass_kg", "mass"], ["width_m", "width"], ["depth_m", "depth"], ["height_m", "height"], ["g_m_s2", "g"]]) lines.push(key + " = " + toml(n[name]));
+  for (const [key, name] of [
+    ["mass_kg", "mass"],
+    ["width_m", "width"],
+    ["depth_m", "depth"],
+    ["height_m", "height"],
+    ["g_m_s2", "g"],
+  ])
+    lines.push(key + " = " + toml(n[name]));
   const inertia = Array.from({ length: 9 }, (_, i) => n["inertia_" + i]);
   if (inertia.some((v) => v)) lines.push("inertia_kg_m2 = [" + inertia.map(toml).join(", ") + "]");
-  lines.push("", "[points]", 'set = "' + (n.points === 4 ? "four_points" : "eight_points") + '"', "foot_radius_m = " + toml(n.foot_radius), "", "[parameters]");
-  for (const [key, name] of [["K_N_N_m", "K_N"], ["K_T_N_m", "K_T"], ["beta_int", "beta_int"], ["beta_ext", "beta_ext"], ["mu_int", "mu_int"], ["mu_ext", "mu_ext"]]) lines.push(key + " = " + toml(n[name]));
+  lines.push(
+    "",
+    "[points]",
+    'set = "' + (n.points === 4 ? "four_points" : "eight_points") + '"',
+    "foot_radius_m = " + toml(n.foot_radius),
+    "",
+    "[parameters]",
+  );
+  for (const [key, name] of [
+    ["K_N_N_m", "K_N"],
+    ["K_T_N_m", "K_T"],
+    ["beta_int", "beta_int"],
+    ["beta_ext", "beta_ext"],
+    ["mu_int", "mu_int"],
+    ["mu_ext", "mu_ext"],
+  ])
+    lines.push(key + " = " + toml(n[name]));
   lines.push("delta_long_m = [" + [1, 2, 3, 4].map((i) => toml(n["delta_long_" + i])).join(", ") + "]");
   lines.push("delta_diag_m = " + toml(n.delta_diag), "theta_0_rad = " + toml(theta));
   for (const [id, values] of Object.entries(state.acting())) {

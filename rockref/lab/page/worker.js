@@ -7,7 +7,11 @@ let setup = null;
 
 // Angles of Lambda = Rx(tilt) Ry(roll) Rz(turn).
 function anglesOf(L, at) {
-  return [Math.atan2(-L[at + 5], L[at + 8]), Math.asin(Math.min(1, Math.max(-1, L[at + 2]))), Math.atan2(-L[at + 1], L[at])];
+  return [
+    Math.atan2(-L[at + 5], L[at + 8]),
+    Math.asin(Math.min(1, Math.max(-1, L[at + 2]))),
+    Math.atan2(-L[at + 1], L[at]),
+  ];
 }
 
 function frames(made, points) {
@@ -22,7 +26,8 @@ function frames(made, points) {
     angles.set(anglesOf(states, k * every * C.STATE + C.L), 3 * k);
     // Contacts are shorter than a frame: the largest load since the last one is shown.
     for (let row = Math.max(0, (k - 1) * every + 1); row <= k * every; row++) {
-      for (let i = 0; i < points; i++) loads[points * k + i] = Math.max(loads[points * k + i], forces[3 * (points * row + i) + 2]);
+      for (let i = 0; i < points; i++)
+        loads[points * k + i] = Math.max(loads[points * k + i], forces[3 * (points * row + i) + 2]);
     }
   }
   return { angles, loads, frames: count };
@@ -55,7 +60,15 @@ function answerRun(q) {
   const seen = Math.min(q.samples, Math.floor((made.written - 1) * made.fine * q.gyro.rate + 1e-6) + 1);
   const rates = Float64Array.from(engine.recorded(made, q.gyro, seen), (w) => w * DEGREES);
   const elapsed = performance.now() - began;
-  return { rates, points, contacts: contacts(made, points), ...frames(made, points), lost: made.written < rows, elapsed, steps: (made.written - 1) * q.every };
+  return {
+    rates,
+    points,
+    contacts: contacts(made, points),
+    ...frames(made, points),
+    lost: made.written < rows,
+    elapsed,
+    steps: (made.written - 1) * q.every,
+  };
 }
 
 // The golden runs, computed here, against the digests of the NumPy text.
@@ -67,7 +80,15 @@ function answerBadge() {
     const numbers = setup.golden_models[run.model];
     const rows = Math.round(run.duration * setup.golden.output_rate) + 1;
     const made = engine.run({
-      numbers, effects: {}, points: 8, rows, every, theta: numbers.theta_0, turned: run.turned, roll: run.out_of_plane, step: setup.golden.step,
+      numbers,
+      effects: {},
+      points: 8,
+      rows,
+      every,
+      theta: numbers.theta_0,
+      turned: run.turned,
+      roll: run.out_of_plane,
+      step: setup.golden.step,
     });
     steps += (rows - 1) * every;
     const found = engine.digest(made);
@@ -76,7 +97,14 @@ function answerBadge() {
   return { runs, steps, elapsed: performance.now() - began };
 }
 
-const ANSWERS = { run: answerRun, badge: answerBadge, fit: (q, say) => fit(q, say), rank: (q, say) => rank(q, say), hide: (q) => hide(q), reveal: () => reveal() };
+const ANSWERS = {
+  run: answerRun,
+  badge: answerBadge,
+  fit: (q, say) => fit(q, say),
+  rank: (q, say) => rank(q, say),
+  hide: (q) => hide(q),
+  reveal: () => reveal(),
+};
 
 self.onmessage = (event) => {
   const q = event.data;
