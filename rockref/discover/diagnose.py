@@ -21,12 +21,11 @@ from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.problem import END, fit_problem
 from rockref.discover.hypotheses.effects import candidate_effects
 from rockref.discover.listening.listener import Listener
+from rockref.discover.listening.records import opened, own_effects
 from rockref.discover.selection.search import Search
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.rules import Verdict, alternatives, decide
 from rockref.discover.verdict.sentences import sentence
-from rockref.discover.windows.opened import opened
-from rockref.discover.windows.own import known_own
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
 
@@ -106,12 +105,12 @@ def diagnose(
         where the experiment or an effect cannot be used.
     """
     started = time.perf_counter()
-    known = known_own(own)
+    known = own_effects(own)
     experiment, whole = opened(path)
     base = baseline_model(experiment, model)
     problem = fit_problem(experiment, experiment.fit_runs(), base, end, workers, seed=seed)
     problem.say = progress or (lambda line: None)
-    problem.candidates = candidate_effects(base.points, problem.carried, known)
+    problem.candidates = candidate_effects(base.points, problem.carried, problem.records, known)
     fitter = Fitter(problem)
     fits = Search(fitter).run()
     evidence = evidence_of(fitter, fits, whole)

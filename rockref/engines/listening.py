@@ -11,7 +11,7 @@ import numpy as np
 from rockref.engines import ENGINES, has_numba
 from rockref.model.errors import InputError
 from rockref.model.listening import Target, listen
-from rockref.model.problem import Problem
+from rockref.model.problem import Problem, stack
 
 if TYPE_CHECKING:
     from rockref.engines.compiled.batch import Batch
@@ -71,7 +71,7 @@ def run_listening(
 
         arrays: Any = batch if problems is None else compiled.from_problems(problems)
         return run(arrays, listening, workers)
-    return np.stack([alone(p, listening, b) for b, p in enumerate(problems or [])])
+    return side_by_side(problems or [], listening)
 
 
 def compiles(problems: list[Problem] | None, engine: str) -> bool:
@@ -91,25 +91,41 @@ def compiles(problems: list[Problem] | None, engine: str) -> bool:
     return engine != "numpy"
 
 
-def target_of(listening: Listening, b: int) -> Target:
-    """Return what run `b` listens to."""
-    m = int(listening.which[b])
-    heard = listening.heard[m] if listening.heard is not None else np.ones(listening.rates.shape[1:2] + (4,))
-    return Target(
-        rates=listening.rates[m], turns=listening.turns[m], gain_rate=listening.gain_rate[b] * heard[:, :3],
-        gain_attitude=listening.gain_attitude[b] * heard[:, 3], every=listening.every,
-    )  # fmt: skip
+def side_by_side(problems: Sequence[Problem], listening: Listening) -> np.ndarray:
+    """Return the rates (B, K, 3) by the law's text: runs with equal effects are stepped as one batch.
+
+    Where a step of a batch turns a block too far, its runs are stepped one by one, and that one has NaN.
+    """
+    found = np.full((len(problems), *listening.rates.shape[1:]), np.nan)
+    groups: list[list[int]] = []
+    for b, p in enumerate(problems):
+        same = next((g for g in groups if problems[g[0]].effects == p.effects), None)
+        groups.append([b]) if same is None else same.append(b)
+    for group in groups:
+        fill(found, problems, listening, group)
+    return found
 
 
-def alone(problem: Problem, listening: Listening, b: int) -> np.ndarray:
-    """Return the rates (K, 3) of run `b` by the law's text, NaN where a step turns it too far."""
-    target = target_of(listening, b)
+def fill(found: np.ndarray, problems: Sequence[Problem], listening: Listening, members: list[int]) -> None:
+    """Step some runs as one batch; where one of them is turned too far in a step, one by one, and that one has NaN."""
     try:
-        return listen(problem, target)
+        found[members] = listen(stack([problems[b] for b in members]), target_of(listening, members))
     except InputError as error:
         if error.code != "E-ANGLE":
             raise
-    return np.full_like(target.rates, np.nan)
+        for b in members if len(members) > 1 else ():
+            fill(found, problems, listening, [b])
+
+
+def target_of(listening: Listening, rows: Sequence[int]) -> Target:
+    """Return what these runs listen to."""
+    m, b = listening.which[list(rows)], list(rows)
+    heard = listening.heard[m] if listening.heard is not None else np.ones((len(b), listening.rates.shape[1], 4))
+    gain_rate = listening.gain_rate[b, None, None] * heard[..., :3]
+    return Target(
+        rates=listening.rates[m], turns=listening.turns[m], gain_rate=gain_rate,
+        gain_attitude=listening.gain_attitude[b, None] * heard[..., 3], every=listening.every,
+    )  # fmt: skip
 
 
 def checked(listening: Listening, runs: int) -> Listening:

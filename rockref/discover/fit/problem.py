@@ -13,7 +13,7 @@ from rockref.discover.hypotheses.candidates import within_base
 from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters, release_parameters
 from rockref.discover.hypotheses.parameter import Parameter
-from rockref.discover.listening.listener import Job, Listener
+from rockref.discover.listening.listener import Job, Listener, record_of
 from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment, Run
 from rockref.model.parameters import BLOCK, Parameters
 
@@ -43,6 +43,11 @@ class FitProblem:
     def runs(self) -> tuple[Run, ...]:
         """Return the runs."""
         return self.listener.runs
+
+    @property
+    def records(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Return times (N,) [s] and rates (N, 3) [rad/s] of each run."""
+        return [record_of(run) for run in self.runs]
 
     @property
     def time_scale(self) -> float:

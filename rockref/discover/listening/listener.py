@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -137,7 +137,8 @@ class Listener:
             gain_attitude=np.full(len(problems), gains[1]),
             every=every,
         )
-        batch = stacked(problems, ticks.interval / every)
+        h = ticks.interval / every
+        batch = stacked(problems, h) if all(map(pack.has_twin, problems)) else [replace(p, step=h) for p in problems]
         self.simulated += len(problems) * (K - 1) * every
         rates = run_listening(batch, listening, self.workers)
         return np.clip(np.nan_to_num(rates, nan=LOST, posinf=LOST, neginf=-LOST), -LOST, LOST)

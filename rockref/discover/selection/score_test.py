@@ -15,7 +15,6 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import Stage
 from rockref.discover.hypotheses.effects import seeds_of
 from rockref.discover.hypotheses.parameter import Parameter
-from rockref.discover.listening.listener import record_of
 
 #: Damping of the predicted step; decided: it only keeps numbers apart that do the same.
 DAMPED = 1e-3
@@ -86,10 +85,10 @@ def proposals(fitter: Fitter, h: FittedModel, stage: Stage, most: int) -> list[F
         k.r, k.objective, k.loss = h.r, h.objective, h.loss
         fitter.step(k, stage, *test.with_effect(p.effect))
         found.append(k)
-    base, records = len(fitter.problem.parameters()), [record_of(run) for run in fitter.problem.runs]
+    base = len(fitter.problem.parameters())
     for e in test.places:
         numbers = fitter.problem.parameters((e,))[base:]
-        seeds += [fitter.with_effect(h, e, z) for z in seeds_of(numbers, e, records)]
+        seeds += [fitter.with_effect(h, e, z) for z in seeds_of(numbers, e, fitter.problem.records)]
     if seeds:
         fitter.evaluate_all(seeds, stage)
     return sorted(best_of_each([*found, *seeds]), key=lambda k: k.objective)[:most]

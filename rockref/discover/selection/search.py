@@ -74,6 +74,7 @@ class Search:
             if min(h.objective for h in added) > best.objective:
                 break
             beam += added
+            self.fitter.settle(self.best(beam), S2, 4)
             if (best := self.best(beam)).loss > CONTRADICTED:
                 beam.append(self.anywhere(best))
         return within(beam, BEAM)

@@ -14,6 +14,9 @@ TOLD, PLACES = 3.0, 1501
 #: Share of the range up to which a rate is told. Decided: rounding to a fiftieth of the range hides no flat top, and
 #: below it stops of any softness bend a rate to a fifty-seventh at most.
 TOP = 0.99
+#: Seconds near the largest rate that make a top flat (decided: a cusp of a rocking block is within a hundredth of its
+#: peak for some 2 ms).
+FLAT = 12e-3
 
 
 @dataclass(frozen=True)
@@ -64,5 +67,7 @@ class GyroSaturation(Effect):
 
     @classmethod
     def seeds_in(cls, records):
-        """The largest rate of all records: no range is smaller, and a larger one cuts nothing."""
-        return ({"range": max(float(np.abs(crv).max()) for _, crv in records)},)
+        """The largest rate of all records, where some show it for longer than a cusp lasts; else none: nothing is cut."""
+        limit = max(float(np.abs(crv).max()) for _, crv in records)
+        longest = max(float(np.sum(np.abs(crv) > TOP * limit, axis=0).max() * (t[1] - t[0])) for t, crv in records)
+        return ({"range": limit},) if longest >= FLAT else ()
