@@ -13,6 +13,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.evidence.collect import add_held_out, hypothesis_evidence
+from rockref.discover.evidence.detection import detection
 from rockref.discover.evidence.evidence import Evidence, HypothesisEvidence
 from rockref.discover.evidence.misfit import misfit
 from rockref.discover.evidence.result import model_of
@@ -112,8 +113,11 @@ def diagnose(
     problem.say = progress or (lambda line: None)
     problem.candidates = candidate_effects(base.points, problem.carried, problem.records, known)
     fitter = Fitter(problem)
-    fits = Search(fitter).run()
+    search = Search(fitter)
+    fits = search.run()
     evidence = evidence_of(fitter, fits, whole)
+    if search.test is not None:
+        evidence.limits, evidence.confusions = detection(problem, search.test, calibration())
     decision = decide(evidence)
     best = next(h for h in fits if h.effects == decision.best.effects)
     model_found = model_of(fitter, best, decision.best, "rockref diagnose")

@@ -76,9 +76,11 @@ def score_test(fitter: Fitter, h: FittedModel, stage: Stage) -> ScoreTest:
     return ScoreTest(H, g, len(h.z), places)
 
 
-def proposals(fitter: Fitter, h: FittedModel, stage: Stage, most: int) -> list[FittedModel]:
+def proposals(
+    fitter: Fitter, h: FittedModel, stage: Stage, most: int, test: ScoreTest | None = None
+) -> list[FittedModel]:
     """Return the `most` best additions of one effect to h: a step from h each, or a finite start that is lower."""
-    test = score_test(fitter, h, stage)
+    test = score_test(fitter, h, stage) if test is None else test
     found, seeds = [], []
     for p in test.gains()[: EVALUATED * most]:
         k = fitter.with_effect(h, p.effect)

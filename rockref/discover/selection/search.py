@@ -15,7 +15,7 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit
 from rockref.discover.selection.halving import halving, say, within
-from rockref.discover.selection.score_test import best_of_each, proposals
+from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.tone import tone
 
 #: Mean loss from which innovations contradict a model (white noise: 0.947; right models stay below 1.06 here).
@@ -36,6 +36,7 @@ class Search:
         self.fitter, self.problem = fitter, fitter.problem
         self.seen: dict[frozenset[str], FittedModel] = {}
         self.baseline = self.nominal()
+        self.test: ScoreTest | None = None  # of the best hypothesis at the last stage
 
     def run(self) -> list[FittedModel]:
         """Return the last hypotheses at F, best objective first; the null is always one of them."""
@@ -102,7 +103,8 @@ class Search:
         beam = within(beam, BEAM)
         best = beam[0]
         if len(best.effects) < MOST:
-            added = proposals(self.fitter, self.fitter.evaluate(best, stage), stage, ADDED)
+            self.test = score_test(self.fitter, self.fitter.evaluate(best, stage), stage)
+            added = proposals(self.fitter, best, stage, ADDED, self.test)
             for h in added:
                 self.fitter.refine(h, stage, 2)
             bar = best.objective * (1 - JOINS[stage.name])

@@ -67,7 +67,7 @@ class GyroSaturation(Effect):
 
     @classmethod
     def seeds_in(cls, records):
-        """The largest rate of all records, where some show it for longer than a cusp lasts; else none: nothing is cut."""
+        """The largest rate of all records, if one shows it for longer than a cusp lasts; else none: nothing is cut."""
         limit = max(float(np.abs(crv).max()) for _, crv in records)
         longest = max(float(np.sum(np.abs(crv) > TOP * limit, axis=0).max() * (t[1] - t[0])) for t, crv in records)
         return ({"range": limit},) if longest >= FLAT else ()
