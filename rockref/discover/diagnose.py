@@ -13,7 +13,6 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.evidence.collect import add_held_out, hypothesis_evidence
-from rockref.discover.evidence.detection import detection
 from rockref.discover.evidence.evidence import Evidence, HypothesisEvidence
 from rockref.discover.evidence.misfit import misfit
 from rockref.discover.evidence.result import model_of
@@ -25,6 +24,7 @@ from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened, own_effects
 from rockref.discover.selection.search import Search
 from rockref.discover.verdict.calibration import calibration
+from rockref.discover.verdict.detection import detection
 from rockref.discover.verdict.rules import Verdict, alternatives, decide
 from rockref.discover.verdict.sentences import sentence
 from rockref.effects import catalogue
