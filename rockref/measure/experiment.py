@@ -12,13 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from rockref.measure.checks import check_faults, check_release_run, samples_before_a_fall
+from rockref.measure.checklist import checked
 from rockref.measure.columns import DEGREE, POSE, RATES
 from rockref.measure.datasheet import completed
 from rockref.measure.keys import BLOCK, FIT, GYRO, HOLDOUT, RELEASE, USES, check_complete, run_fields, top_fields
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import shown
 from rockref.measure.schema import read_fields, read_toml
+from rockref.measure.signal import Signal
 from rockref.measure.table import read_table
 from rockref.measure.timebase import check_forward, regular_samples
 from rockref.model.errors import InputError
@@ -338,13 +339,10 @@ def _load_run(run: Run, experiment: Experiment, notices: list[Notice]) -> Run:
         what = f"there is a part of a pose, without {', '.join(absent)}"
         notices.append(Notice("W-POSE", str(table.path), what, "What is there of it is left out; give all seven."))
     if release and crv is not None:
-        notices.extend(check_faults(t, crv, table, run, experiment))
-        stands = samples_before_a_fall(t, crv, run, experiment)
-        if stands < len(t):
-            what = f"the block falls over at {t[stands]:.2f} s"
-            notices.append(Notice("W-OVERTURNED", str(table.path), what, "What follows is left out."))
-            t, crv, filled = t[:stands], _frozen(crv[:stands].copy()), tuple(i for i in filled if i < stands)
-        notices.extend(check_release_run(t, crv, table, run, experiment))
+        seen = checked(Signal.of(t, crv, table, run, experiment))
+        t, crv, notices_of = seen.t, _frozen(seen.crv), seen.notices
+        filled = tuple(sorted({i for i in filled if i < len(t)} | set(seen.drawn)))
+        notices.extend(notices_of)
     return replace(run, t=_frozen(t), crv=crv, pose=_stack(columns, POSE), filled=filled, sha256=table.sha256)
 
 

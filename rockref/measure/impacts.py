@@ -129,7 +129,8 @@ def _impact(
     stop = min(peak + max(3, round(DROP_WINDOW / step)) + 1, len(t))
     bottom = peak + int(np.argmin(fine[peak:stop]))
     if fine[peak] - fine[bottom] < FLAT * fine[peak]:
-        flat = first + np.flatnonzero(fine[first:last] >= (1.0 - FLAT) * fine[peak])
+        # The peak itself may lie beyond the swing: the cusp of the rate is up to 12 ms from that of the smooth rate.
+        flat = first + np.flatnonzero(fine[first : max(last, peak + 1)] >= (1.0 - FLAT) * fine[peak])
         if flat[-1] + reach >= len(t):
             return None
         return 0.5 * float(t[flat[0]] + t[flat[-1]]), sign, float(fine[peak]), 0.0, int((flat[0] + flat[-1]) // 2)

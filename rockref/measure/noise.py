@@ -34,14 +34,15 @@ class NoiseFloor:
     resolution: np.ndarray
 
 
-def noise_floor(t: np.ndarray, crv: np.ndarray) -> NoiseFloor:
+def noise_floor(t: np.ndarray, crv: np.ndarray, *, window: float = WINDOW) -> NoiseFloor:
     """Return the noise floor of a run with times t (N,) s and body rates crv (N, 3) rad/s.
 
-    Half-overlapping windows of 40 ms are fitted with a cubic; the residuals of the calm ones are the noise.
+    Half-overlapping windows of `window` s are fitted with a cubic; the residuals of the calm ones are the noise. A
+    block that is smaller than that of Table 3.1 needs shorter windows.
     Raises InputError E-SIGNAL if the run is shorter than four windows or the shapes are wrong.
     """
     t, crv = checked_signal(t, crv)
-    size = window_samples(sample_step(t))
+    size = window_samples(sample_step(t), window)
     if len(t) < LEAST_WINDOWS * size:
         what = f"{len(t)} samples, less than four windows of {size}"
         raise InputError("E-SIGNAL", "arguments t, crv", what, "Give a longer run.")
@@ -54,9 +55,9 @@ def noise_floor(t: np.ndarray, crv: np.ndarray) -> NoiseFloor:
     return NoiseFloor(sigma, length, whiteness, smallest_step(crv))
 
 
-def window_samples(step: float) -> int:
-    """Return how many samples, `step` s apart, a window has: those of 40 ms, and enough for a cubic."""
-    return max(2 * (_DEGREE_OF_FIT + 1), round(WINDOW / step))
+def window_samples(step: float, window: float = WINDOW) -> int:
+    """Return how many samples, `step` s apart, a window has: those of `window` s, and enough for a cubic."""
+    return max(2 * (_DEGREE_OF_FIT + 1), round(window / step))
 
 
 def _window_residuals(crv: np.ndarray, size: int) -> np.ndarray:

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rockref.measure.checks import growth_rate, tilts
 from rockref.measure.experiment import Experiment, Run
 from rockref.measure.running import sample_step
+from rockref.measure.signal import growth_rate, side_of, tilts
 
 #: Seconds at the top that make it flat (decided: a cusp has two or three samples, at 1 kHz).
 FLAT = 12e-3
@@ -51,11 +51,11 @@ def _whole(experiment: Experiment, run: Run, limit: float) -> np.ndarray:
     for axis in (1, 2):
         if cut[:, axis].any():
             w[cut[:, axis], axis] = np.interp(run.t[cut[:, axis]], run.t[~cut[:, axis]], w[~cut[:, axis], axis])
-    p = growth_rate(experiment.width, experiment.height)
+    p, tilt = growth_rate(experiment.width, experiment.height), float(run.release_tilt or 0.0)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], cut[:, 0], [False]]).astype(int)))
     for first, last in edges.reshape(-1, 2):
         # Upright is where the turn that is left comes to nothing, on either side.
-        left = abs(tilts(run.t, w[:, 0], run)[first - 1]) if first else 0.0
+        left = abs(tilts(run.t, w[:, 0], tilt, side_of(run))[first - 1]) if first else 0.0
         w[first:last, 0] = _arcs(run.t, w[:, 0], cut[:, 0], first, last, p, left)
     return w
 
