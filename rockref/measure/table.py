@@ -10,7 +10,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from rockref.measure.columns import Column, parse_header
+from rockref.measure.columns import QUANTITIES, UNITS, Column, parse_header
+from rockref.measure.dialect import are_units, is_number, separator_line, split_line
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import MAX_PACKED_BYTES, MAX_TEXT_BYTES, read_text, shown
 from rockref.model.errors import InputError
@@ -20,6 +21,12 @@ MAX_ROWS = 2_000_000
 # decided: 64 columns of 24 characters make 1600.
 MAX_LINE = 4096
 
+# decided: a logger closes a file with a few facts.
+LONGEST_FOOTER = 20
+# Stands for a comma inside of quotes; no number has it.
+_INNER = "\x1f"
+# A line that begins with a word, or with a sign of remarks, is no row of numbers.
+_TEXT = re.compile(r"\s*(\"?[^\W\d][^,]{2,}|#|//|%|;)", re.ASCII)
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.ASCII | re.IGNORECASE)
 _DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+", re.ASCII)
@@ -41,6 +48,8 @@ class Table:
     sha256 : str
         Digest of the bytes on disk.
     notices : tuple of Notice
+    first_line : int
+        Line of the first row, counted from one.
     """
 
     path: Path
@@ -48,6 +57,7 @@ class Table:
     names: Mapping[str, str]
     sha256: str
     notices: tuple[Notice, ...]
+    first_line: int = 2
 
     @property
     def rows(self) -> int:
@@ -75,17 +85,22 @@ def read_table(
     if raw.text.count("\n") > max_rows + 1:
         raise InputError("E-ROWS", str(path), f"more than {max_rows} rows, which is no run", "Cut the file to the run.")
     lines = raw.text.rstrip().split("\n")
-    columns, width, notices = parse_header(_short(lines[0], path, 1), f"{path}, line 1", needed)
-    body = lines[1:]
+    above, lines = _without_separator(lines, path)
+    columns, width, notices = parse_header(
+        _plain(_short(lines[0], path, above + 1)), f"{path}, line {above + 1}", needed
+    )
+    body, skipped, said = _rows(lines, columns, path, above)
+    notices += said
     if not body:
         raise InputError("E-EMPTY", str(path), "there is no row below the header", "Export the run again.")
-    values = _numbers(body, columns, width, path)
+    values = _numbers(body, columns, width, path, skipped)
     return Table(
         path=path,
         columns=MappingProxyType({c.quantity: _frozen(values[:, c.place] * c.factor) for c in columns}),
         names=MappingProxyType({c.quantity: c.name for c in columns}),
         sha256=raw.sha256,
         notices=raw.notices + tuple(notices),
+        first_line=skipped + 1,
     )
 
 
@@ -101,19 +116,85 @@ def _short(line: str, path: Path, number: int) -> str:
     return line
 
 
-def _numbers(body: list[str], columns: list[Column], width: int, path: Path) -> np.ndarray:
-    """Return the body as (N, width) floats. Columns that are not known may hold anything."""
-    for number, line in enumerate(body, start=2):
+def _without_separator(lines: list[str], path: Path) -> tuple[int, list[str]]:
+    """Return how many lines stand above the header, and the lines from the header on; a line ``sep=,`` is passed over.
+
+    Raises InputError E-DELIMITER, E-EMPTY.
+    """
+    separator = separator_line(lines[0])
+    if separator is None:
+        return 0, lines
+    if separator != ",":
+        cure = "Separate the columns by commas and write decimals with a point."
+        raise InputError("E-DELIMITER", f"{path}, line 1", f"the columns are separated by {separator!r}", cure)
+    if len(lines) < 2:
+        raise InputError("E-EMPTY", str(path), "there is nothing below its first line", "Export the run again.")
+    return 1, lines[1:]
+
+
+def _plain(line: str) -> str:
+    """Return a line without quotes around fields; a comma inside of quotes becomes a sign that no number has."""
+    if '"' not in line:
+        return line
+    return ",".join(field.replace(",", _INNER) for field in split_line(line, ","))
+
+
+def _rows(lines: list[str], columns: list[Column], path: Path, above: int) -> tuple[list[str], int, list[Notice]]:
+    """Return the rows below the header, plain, how many lines stand above the first one, and remarks.
+
+    A row of units that agrees with the names, and lines of text behind the last row, are passed over (W-DIALECT); so
+    are delimiters at the end of every line. Raises InputError E-UNIT.
+    """
+    body, notices, skipped = lines[1:], list[Notice](), above + 1
+    if body and are_units(split_line(body[0], ",")):
+        _check_units(split_line(body[0], ","), columns, f"{path}, line {skipped + 1}")
+        notices.append(Notice("W-DIALECT", f"{path}, line {skipped + 1}", "holds units", "The line was passed over."))
+        body, skipped = body[1:], skipped + 1
+    end = len(body)
+    while end > 1 and end > len(body) - LONGEST_FOOTER and _is_text(body[end - 1]):
+        end -= 1
+    if end < len(body):
+        where, what = f"{path}, line {skipped + end + 1}", f"{len(body) - end} lines of text behind the last row"
+        notices.append(Notice("W-DIALECT", where, what, "They were passed over."))
+        body = body[:end]
+    if body and all(line.endswith(",") for line in body) and not lines[0].rstrip().endswith(","):
+        body = [line.rstrip()[:-1] for line in body]
+    if any('"' in line for line in body):
+        body = [_plain(_short(line, path, number)) for number, line in enumerate(body, start=skipped + 1)]
+    return body, skipped, notices
+
+
+def _is_text(line: str) -> bool:
+    """Whether a line begins with a word or with a sign of remarks, and holds not a row of numbers."""
+    return bool(_TEXT.match(line)) and sum(map(is_number, split_line(line[:MAX_LINE], ","))) < 2
+
+
+def _check_units(units: list[str], columns: list[Column], where: str) -> None:
+    """Refuse a row of units that says something else than the names of the columns (E-UNIT)."""
+    for column in columns:
+        unit = units[column.place].strip("[]()").lower() if column.place < len(units) else ""
+        said = {"°/s": "deg_s", "deg/s": "deg_s", "dps": "deg_s", "rad/s": "rad_s", "mrad/s": "mrad_s", "µs": "us"}
+        unit = said.get(unit, unit)
+        if unit in UNITS[QUANTITIES[column.quantity]] and unit != column.unit:
+            what = f"the unit of {column.name} is {units[column.place]}"
+            raise InputError("E-UNIT", where, what, "The unit is part of a column's name: correct one of the two.")
+
+
+def _numbers(body: list[str], columns: list[Column], width: int, path: Path, skipped: int = 1) -> np.ndarray:
+    """Return the body, below `skipped` lines, as (N, width) floats. Columns that are not known may hold anything."""
+    longest = max(map(len, body))
+    for number, line in enumerate(body, start=skipped + 1):
         if not line or line.isspace():
             cure = "Remove the empty line; if rows are missing there, leave them out."
             raise InputError("E-BLANK", f"{path}, line {number}", "an empty line between rows", cure)
-        _short(line, path, number)
+        if longest > MAX_LINE:
+            _short(line, path, number)
     try:
         values = _fast(body, columns, width)
     except ValueError:
-        raise _first_fault(body, columns, width, path) from None
+        raise _first_fault(body, columns, width, path, skipped) from None
     if not np.isfinite(values).all():
-        raise _first_fault(body, columns, width, path)
+        raise _first_fault(body, columns, width, path, skipped)
     return values
 
 
@@ -133,14 +214,16 @@ def _fast(body: list[str], columns: list[Column], width: int) -> np.ndarray:
     return values
 
 
-def _first_fault(body: list[str], columns: list[Column], width: int, path: Path) -> InputError:
+def _first_fault(body: list[str], columns: list[Column], width: int, path: Path, skipped: int) -> InputError:
     """Find the first row that is at fault, the slow way, and say what is wrong with it."""
-    for number, line in enumerate(body, start=2):
+    for number, line in enumerate(body, start=skipped + 1):
         fields = line.split(",")
         if len(fields) != width:
-            return _wrong_count(fields, width, f"{path}, line {number}", last=number == len(body) + 1)
+            return _wrong_count(fields, width, f"{path}, line {number}", last=number == len(body) + skipped)
         for column in columns:
-            fault = _wrong_number(fields[column.place].strip(), f"{path}, line {number}, column {column.name}")
+            fault = _wrong_number(
+                fields[column.place].strip().replace(_INNER, ","), f"{path}, line {number}, column {column.name}"
+            )
             if fault is not None:
                 return fault
     return InputError("E-NUMBER", str(path), "a row cannot be read as numbers", "Write plain decimal numbers.")

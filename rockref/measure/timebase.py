@@ -136,7 +136,7 @@ def _check_equal(table: Table, equal: np.ndarray, rate: float) -> None:
 def _backwards(table: Table, row: int, cure: str) -> InputError:
     t, name = table.columns["t"], table.names["t"]
     what = f"time goes from {t[row]:g} to {t[row + 1]:g} s"
-    return InputError("E-TIME", f"{table.path}, line {row + 3}, column {name}", what, cure)
+    return InputError("E-TIME", f"{table.path}, line {row + 1 + table.first_line}, column {name}", what, cure)
 
 
 def _advice(t: np.ndarray, row: int) -> str:
@@ -180,7 +180,7 @@ def _check_gaps(t: np.ndarray, missing: np.ndarray, table: Table, name: str) -> 
     if len(wide):
         row = int(wide[0]) + 1
         what = f"{missing[row - 1]} samples are missing between {t[row - 1]:g} and {t[row]:g} s"
-        raise InputError("E-GAP", f"{table.path}, line {row + 2}, column {name}", what, cure)
+        raise InputError("E-GAP", f"{table.path}, line {row + table.first_line}, column {name}", what, cure)
     total = int(missing.sum())
     if total > MAX_FILLED_SHARE * len(t):
         what = f"{total} of {len(t) + total} samples are missing"

@@ -30,7 +30,6 @@ BAD = {
     "time unit unknown": (HEADER.replace("t_s", "t_min") + ROWS, "E-UNIT", "line 1", "t_s or t_ms"),
     "text in numbers": (HEADER + ROWS + "0.002,1,abc,3\n", "E-NUMBER", "line 4, column wy_deg_s", "'abc'"),
     "empty field": (HEADER + "0.000,1,,3\n", "E-NUMBER", "line 2, column wy_deg_s", "empty"),
-    "quoted numbers": (HEADER + '"0.000","1","2","3"\n', "E-NUMBER", "line 2, column t_s", '"0.000"'),
     "underscore": (HEADER + "0.000,1_000,2,3\n", "E-NUMBER", "line 2, column wx_deg_s", "'1_000'"),
     "minus of typography": (HEADER + ROWS + "0.002,−1,2,3\n", "E-NUMBER", "line 4, column wx_deg_s", "−1"),
     "hexadecimal": (HEADER + "0x0,1,2,3\n", "E-NUMBER", "line 2, column t_s", "'0x0'"),
@@ -130,3 +129,48 @@ def test_blanks_and_line_ends_do_not_matter(tmp_path):
     table = read_table(path, NEEDED)
     assert table.rows == 2
     assert table.notices == ()
+
+
+PLAIN = HEADER + "0.000,1,2,3\n0.001,4,5,6\n"
+READ = {
+    "quoted fields": PLAIN.replace("1,2,3", '"1","2","3"').replace("t_s", '"t_s"'),
+    "a line that names the separator": "sep=,\n" + PLAIN,
+    "a row of units": PLAIN.replace(HEADER, HEADER + "s,deg/s,deg/s,deg/s\n"),
+    "units in brackets": PLAIN.replace(HEADER, HEADER + "[s],[°/s],[°/s],[°/s]\n"),
+    "a footer": PLAIN + "# stopped by hand\nSamples: 2\n",
+    "commas at the end of rows": PLAIN.replace("3\n", "3,\n").replace("6\n", "6,\n"),
+    "commas at the end of all lines": PLAIN.replace("\n", ",\n"),
+    "all at once": 'SEP=,\n"t_s",wx_deg_s,wy_deg_s,wz_deg_s,\ns,deg/s,deg/s,deg/s,\n'
+    '"0.000",1,2,3,\n0.001,4,5,6,\nEnd of file,,,,\n',
+}
+
+
+@pytest.mark.parametrize("case", READ)
+def test_dialects_of_commas_are_read(tmp_path, case):
+    path = tmp_path / "a.csv"
+    path.write_text(READ[case], encoding="utf-8")
+    table = read_table(path, NEEDED)
+    assert table.columns["t"].tolist() == [0.0, 0.001]
+    assert np.allclose(np.degrees(table.columns["wz"]), [3.0, 6.0], rtol=1e-15)
+
+
+REFUSED = {
+    "another separator": ("sep=;\n" + PLAIN.replace(",", ";"), "E-DELIMITER", "line 1"),
+    "decimal commas in quotes": (PLAIN.replace("4,5", '"4,1",5'), "E-DECIMAL-COMMA", "line 3, column wx_deg_s"),
+    "units of another kind": (PLAIN.replace(HEADER, HEADER + "s,rad/s,rad/s,rad/s\n"), "E-UNIT", "line 2"),
+    "a word below a row of units": (
+        PLAIN.replace(HEADER, "sep=,\n" + HEADER + "s,deg/s,deg/s,deg/s\n").replace("5", "five"),
+        "E-NUMBER",
+        "line 5, column wy_deg_s",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_other_dialects_are_refused_with_their_line(tmp_path, case):
+    text, code, place = REFUSED[case]
+    path = tmp_path / "a.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_table(path, NEEDED)
+    assert caught.value.code == code and caught.value.where == f"{path}, {place}"
