@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rockref.measure.checks import growth_rate
 from rockref.measure.importing.campaign import Campaign, ImportedRun
+from rockref.measure.signal import growth_rate
 from rockref.report import style
 from rockref.report.figures import new_figure, rendered
 

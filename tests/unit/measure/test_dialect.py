@@ -1,45 +1,38 @@
-"""The dialect of a text table is told from its lines."""
+"""Separator lines, quotes and rows of units are told by their looks."""
 
 import pytest
 
-from rockref.measure.dialect import detect
-
-ROWS = [[f"{0.001 * k:.3f}", f"{1.5 * k:.2f}", f"{-0.25 * k:.3f}"] for k in range(30)]
+from rockref.measure.dialect import are_units, is_number, separator_line, split_line
 
 
-def lines(delimiter=",", decimal=".", *, facts=(), names=("time", "gx", "gy"), units=(), footer=(), end="", quote=""):
-    """A table in a dialect."""
-    body = [[f"{quote}{field.replace('.', decimal)}{quote}" for field in row] for row in ROWS]
-    above = [list(row) for row in (names, units) if row]
-    return [*facts, *(delimiter.join(row) + end for row in (*above, *body)), *footer]
+@pytest.mark.parametrize(
+    ("line", "separator"),
+    [("sep=;", ";"), ("SEP=,", ","), ('"sep=\t"', "\t"), ("t_s,wx_deg_s", None), ("separate=1", None)],
+)
+def test_a_separator_line_names_one_sign(line, separator):
+    assert separator_line(line) == separator
 
 
-CASES = {
-    "plain": ({}, (",", ".", 0, 1)),
-    "spreadsheet of a comma country": ({"delimiter": ";", "decimal": ","}, (";", ",", 0, 1)),
-    "tabs": ({"delimiter": "\t"}, ("\t", ".", 0, 1)),
-    "facts above": ({"facts": ["Device: X", "Rate: 1000 Hz", ""]}, (",", ".", 3, 4)),
-    "units below the names": ({"units": ["s", "deg/s", "deg/s"]}, (",", ".", 0, 2)),
-    "a separator line": ({"delimiter": ";", "facts": ["sep=;"]}, (";", ".", 1, 2)),
-    "no names": ({"names": ()}, (",", ".", None, 0)),
-    "a footer": ({"footer": ["# end", "Samples: 30"]}, (",", ".", 0, 1)),
-    "a delimiter at the end": ({"delimiter": ";", "end": ";"}, (";", ".", 0, 1)),
-    "quotes": ({"quote": '"'}, (",", ".", 0, 1)),
-}
+def test_quotes_keep_delimiters_inside_of_a_field():
+    assert split_line('"a, b", 1 ,"2"', ",") == ["a, b", "1", "2"]
+    assert split_line(" 1 , 2", ",") == ["1", "2"]
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_a_dialect_is_told(case):
-    form, (delimiter, decimal, header, first) = CASES[case]
-    written = lines(**form)
-    found = detect(written)
-    assert (found.delimiter, found.decimal, found.header, found.first) == (delimiter, decimal, header, first)
-    assert found.last == first + len(ROWS) - 1
-    assert found.quoted == ("quote" in form)
-    assert found.names[:3] == tuple(form.get("names", ("time", "gx", "gy")))
-    assert found.units == tuple(form.get("units", ()))
+@pytest.mark.parametrize(
+    ("fields", "expected"),
+    [
+        (["s", "deg/s", "deg/s"], True),
+        (["[ms]", "(rad/s)", "[°/s]"], True),
+        (["s", "", "dps"], True),
+        (["", ""], False),
+        (["0.1", "2"], False),
+        (["time", "gx"], False),
+    ],
+)
+def test_a_row_of_units_has_units_alone(fields, expected):
+    assert are_units(fields) == expected
 
 
-def test_text_without_rows_of_numbers_has_no_dialect():
-    assert detect(["a,b", "c,d"]) is None
-    assert detect([]) is None
+def test_a_number_has_a_point_and_no_comma():
+    assert is_number("-1.5e-3") and is_number(".5")
+    assert not is_number("1,5") and not is_number("nan") and not is_number("")
