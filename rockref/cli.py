@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 
 from rockref import __version__, commands
+from rockref.commands._terminal import show_what_can_be_shown
 from rockref.model.errors import RockrefError
 
 
@@ -34,6 +35,7 @@ def application() -> typer.Typer:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line (`arguments`, or those of the process) and end with :class:`SystemExit`."""
+    show_what_can_be_shown()
     try:
         application()(args=None if arguments is None else list(arguments))
     except RockrefError as error:
@@ -46,6 +48,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except OSError as error:
         where = os.fsdecode(error.filename) if error.filename is not None else "input or output"
         _stop(f"{where}: {error.strerror or error}. Nothing was left half-written. [E-OS]", 2)
+    finally:
+        # Only commands that compute have compiled anything.
+        compiled = sys.modules.get("rockref.engines.on_disk")
+        for remark in getattr(compiled, "not_kept", ())[:1]:
+            print(f"rockref: {remark}", file=sys.stderr)
 
 
 def _stop(message: str, code: int) -> None:

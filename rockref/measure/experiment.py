@@ -14,6 +14,7 @@ import numpy as np
 
 from rockref.measure.checklist import checked
 from rockref.measure.columns import DEGREE, POSE, RATES
+from rockref.measure.copies import note_copies
 from rockref.measure.datasheet import completed
 from rockref.measure.keys import BLOCK, FIT, GYRO, HOLDOUT, RELEASE, USES, check_complete, run_fields, top_fields
 from rockref.measure.notice import Notice
@@ -189,7 +190,7 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
         gyro, found = _gyro(document["gyro"], runs, folder, str(source))
         experiment, notices = replace(experiment, gyro=gyro), notices + found
     loaded = tuple(_load_run(run, experiment, notices) if run.use in uses else run for run in runs)
-    _note_copies(loaded, str(source), notices)
+    notices.extend(note_copies(loaded, str(source)))
     return replace(experiment, runs=loaded, notices=tuple(notices))
 
 
@@ -355,14 +356,3 @@ def _stack(columns: Mapping[str, np.ndarray], names: tuple[str, ...]) -> np.ndar
 def _frozen(array: np.ndarray) -> np.ndarray:
     array.flags.writeable = False
     return array
-
-
-def _note_copies(runs: tuple[Run, ...], source: str, notices: list[Notice]) -> None:
-    seen: dict[str, str] = {}
-    for run in runs:
-        if run.sha256 is None:
-            continue
-        if run.sha256 in seen:
-            what = f"runs {seen[run.sha256]} and {run.id} hold the same bytes"
-            notices.append(Notice("W-SAME-DATA", source, what, "A copy is no second measurement: remove one."))
-        seen.setdefault(run.sha256, run.id)

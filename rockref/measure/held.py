@@ -45,14 +45,14 @@ def chance_of_repeat(signal: Signal, axis: int) -> float:
     size = max(20, len(same) // 60)
     parts = same[: len(same) // size * size].reshape(-1, size).mean(axis=1)
     # decided: where a quarter of the record stands still, it is the record's habit.
-    return min(1.0, max(_stated_chance(signal), float(np.percentile(parts, 75.0)) if len(parts) else 0.0))
+    return min(1.0, max(_stated_chance(signal, axis), float(np.percentile(parts, 75.0)) if len(parts) else 0.0))
 
 
-def _stated_chance(signal: Signal) -> float:
-    """Return the largest chance that a sample of the stated noise and resolution repeats the one before."""
-    gyro = signal.gyro
-    # In the middle of a step of the resolution the noise has to reach half of it.
-    return math.erf(gyro.resolution / (2.0 * math.sqrt(2.0) * gyro.noise)) if gyro.noise > 0.0 else 1.0
+def _stated_chance(signal: Signal, axis: int) -> float:
+    """Return the largest chance that a sample of the stated noise repeats the one before, by the step of its values."""
+    noise, step = signal.gyro.noise, max(signal.gyro.resolution, float(signal.steps[axis]))
+    # In the middle of a step the noise has to reach half of it.
+    return math.erf(step / (2.0 * math.sqrt(2.0) * noise)) if noise > 0.0 else 1.0
 
 
 def check_dropouts(signal: Signal, standing: np.ndarray) -> list[Notice]:
@@ -173,7 +173,7 @@ def _held_channels(signal: Signal) -> list[int]:
     if float(np.median(together)) > TOGETHER:
         return [0, 1, 2]
     shares = np.median(blocks.mean(axis=2), axis=1)
-    chance = _stated_chance(signal)
-    held = [axis for axis in range(3) if shares[axis] > chance + ALONE]
-    others = [shares[axis] for axis in range(3) if axis not in held]
-    return held if held and others and max(others) < chance + 0.5 * ALONE else []
+    more = [shares[axis] - _stated_chance(signal, axis) for axis in range(3)]
+    held = [axis for axis in range(3) if more[axis] > ALONE]
+    others = [more[axis] for axis in range(3) if axis not in held]
+    return held if held and others and max(others) < 0.5 * ALONE else []

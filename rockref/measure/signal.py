@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rockref.measure.columns import RATES
+from rockref.measure.noise import smallest_step
 from rockref.measure.running import sample_step
 from rockref.measure.table import Table
 from rockref.model.problem import GRAVITY
@@ -115,6 +116,11 @@ class Signal:
     def tilts(self) -> np.ndarray:
         """Tilt after each sample, (N,) rad, positive on the side of the release."""
         return tilts(self.t, self.crv[:, 0], self.tilt, self.sign)
+
+    @cached_property
+    def steps(self) -> np.ndarray:
+        """Step between the values of each channel, (3,) rad/s; 0 where there is none."""
+        return smallest_step(self.crv)
 
     @cached_property
     def grain(self) -> float:

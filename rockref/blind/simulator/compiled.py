@@ -33,4 +33,11 @@ def _compile(function: Callable[..., Any], cache: bool) -> Callable[..., Any]:
         return function
     import numba
 
-    return numba.njit(cache=cache, nogil=True, error_model="numpy")(function)
+    options: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
+    try:
+        return numba.njit(cache=cache, **options)(function)
+    except RuntimeError as error:
+        # No folder for compiled code can be written: it is made anew every time.
+        if "no locator" not in str(error):
+            raise
+        return numba.njit(**options)(function)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
+from rockref.engines.on_disk import on_disk
 
-@numba.njit(cache=True, nogil=True)
+
+@on_disk(nogil=True)
 def attitudes(Lambda_0, W, dt):
     """Rotation at every sample, (N, 3, 3), by integrating the rates W (N, 3) [rad/s] from Lambda_0 at the first one.
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 
 from rockref.discover.listening.attitude import attitudes as attitudes
+from rockref.engines.on_disk import on_disk
 
 #: Half width of the quadratic through the rates at a window's start [s]; decided: 17 ms of noise are averaged, and the
 #: clatter between two corner impacts (20 to 40 ms) is still a parabola.
@@ -34,7 +34,7 @@ def roughness(crv: np.ndarray, rate: float) -> np.ndarray:
     return np.sqrt(uniform_filter1d(rest, smoothed_over(rate), mode="nearest"))
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def yaw_since_touch(Lambda, W, P, starts, dt, most):
     """Turn about the vertical on the carrying point since it touched, (w,) [rad], at the samples `starts` (w,).
 
@@ -59,7 +59,7 @@ def yaw_since_touch(Lambda, W, P, starts, dt, most):
     return out
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def plate_motion(Lambda, W, P, feet, dt, mass, g, bounce, pitch):
     """Motion of a plate on a spring under the block at every sample of a record, (N, 4): sinking q [m] and its rate,
     pitch phi [rad] and its rate.

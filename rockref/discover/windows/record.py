@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-import numba
 import numpy as np
 
 from rockref.effects.sensor.gyro_bandwidth import DAMPING, natural_frequency
+from rockref.engines.on_disk import on_disk
 
 #: What stands for a rate that is no number [rad/s]: far outside every record, so that the window counts as lost.
 LOST = 1e3
@@ -26,7 +26,7 @@ def filter_coefficients(
     return float(b[0]), float(b[1]), float(b[2]), float(a[1]), float(a[2])
 
 
-@numba.njit(cache=True, error_model="numpy")
+@on_disk(error_model="numpy")
 def _filter(x, n, b0, b1, b2, a1, a2, x1, x2, y1, y2):
     for k in range(n):
         x0 = x[k]
@@ -36,7 +36,7 @@ def _filter(x, n, b0, b1, b2, a1, a2, x1, x2, y1, y2):
     return x1, x2, y1, y2
 
 
-@numba.njit(cache=True, error_model="numpy", nogil=True)
+@on_disk(error_model="numpy", nogil=True)
 def _records(states, A, fast, slow, has_slow, follows, length, per, start, dt, bias, drift, limit, softness, out):
     R, soft = states.shape[1], softness > 0 and limit < np.inf
     x = np.empty(R)

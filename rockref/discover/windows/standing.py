@@ -10,18 +10,18 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled.contact import altered
 from rockref.engines.compiled.kernel import switches
+from rockref.engines.on_disk import on_disk
 
 #: Halvings by which the depth is found under which the feet carry the block: to 1e-10 of it.
 HALVINGS = 34
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def _solve3(A, b):
     d = (
         A[0, 0] * (A[1, 1] * A[2, 2] - A[1, 2] * A[2, 1])
@@ -40,12 +40,12 @@ def _solve3(A, b):
     return out
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def _skew(r):
     return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def held(r, omega, inertia, mass, g, moment):
     """Force (3,) [N] of the plate on a block that turns about a resting point, and its angular acceleration (3,).
 
@@ -63,7 +63,7 @@ def held(r, omega, inertia, mass, g, moment):
     return mass * (R @ domega - Orr + gravity), domega
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def carried(depth, heights, props, memory, pressed, e, loads):
     """Force [N] on all feet at this depth [m] of the lowest; fills loads (n,). Their memory is spoilt.
 
@@ -81,7 +81,7 @@ def carried(depth, heights, props, memory, pressed, e, loads):
     return total
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def depth_under(weight, heights, props, memory, pressed, e, loads):
     """Depth [m] of the lowest foot at which the feet carry this force [N]; fills loads (n,), what each carries."""
     pivot = np.argmin(heights)
@@ -98,7 +98,7 @@ def depth_under(weight, heights, props, memory, pressed, e, loads):
     return high
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def held_share(F, turn, feet, loads, props):
     """Share of a turning moment that friction holds: no foot is pulled out of its cone.
 
@@ -119,7 +119,7 @@ def held_share(F, turn, feet, loads, props):
     return share
 
 
-@numba.njit(cache=True, nogil=True)
+@on_disk(nogil=True)
 def standing_starts(Lambda, W, corrections, body, P, props, effects, pressed, upright, place, plate, state, memory):
     """Start states of B windows on the feet that carry the block, quasi-statically.
 

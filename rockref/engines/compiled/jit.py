@@ -14,6 +14,7 @@ import numba
 from numba.core import event
 
 from rockref.engines import compile_watchers
+from rockref.engines.on_disk import on_disk
 
 _options: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
 
@@ -48,7 +49,7 @@ def entered(function: Callable, **variant: Any) -> Any:
     """
     text: Any = FunctionType(function.__code__, {**function.__globals__, **variant}, closure=function.__closure__)
     held = [cell.cell_contents for cell in function.__closure__ or ()]
-    return numba.njit(nogil=True, cache=True, **_options)(marked(text, *held))
+    return on_disk(nogil=True, **_options)(marked(text, *held))
 
 
 class _Told(event.Listener):
