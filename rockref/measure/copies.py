@@ -51,7 +51,7 @@ def are_copies(a: np.ndarray, b: np.ndarray, step_a: float, step_b: float) -> bo
         a, b = b, a
     size = np.maximum(np.abs(a).max(axis=0), np.abs(b).max(axis=0))
     coarse = max(step_a, step_b)
-    near = 1e-7 * size + (0.0 if abs(step_a - step_b) <= 1e-3 * coarse else HALF_STEP * coarse)
+    near = 1e-7 * size + (0.0 if abs(step_a - step_b) <= 1e-6 * coarse else HALF_STEP * coarse)
     for start in _places(a[:, 0], b[:, 0], float(near[0])):
         first, last = max(0, start), min(len(a), start + len(b))
         if last - first < max(LEAST_COMMON, COMMON_SHARE * len(b)):
