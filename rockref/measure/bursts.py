@@ -66,9 +66,12 @@ def check_bursts(signal: Signal) -> tuple[np.ndarray, np.ndarray, list[Notice]]:
     least = (LEAP_SLOW if slow else LEAP) * size
     least += STEPS * signal.gyro.resolution
     noise = np.maximum(signal.gyro.noise, sample_noise(signal.crv))
-    wild = np.stack([burst_samples(signal.crv[:, axis], least + SIGMAS * noise[axis]) for axis in range(3)], axis=-1)
-    if not wild.any():
-        return signal.crv, wild.any(axis=1), []
+    wild: np.ndarray = np.stack(
+        [burst_samples(signal.crv[:, axis], least + SIGMAS * noise[axis]) for axis in range(3)], axis=-1
+    )
+    rows = np.asarray(wild.any(axis=1))
+    if not rows.any():
+        return signal.crv, rows, []
     places = [(axis, first, last) for axis in range(3) for first, last in stretches(wild[:, axis])]
     longest = max(last - first for _, first, last in places)
     largest = float(np.abs(signal.crv[wild]).max())
@@ -81,7 +84,7 @@ def check_bursts(signal: Signal) -> tuple[np.ndarray, np.ndarray, list[Notice]]:
         drawn[out, axis] = np.interp(row[out], row[~out], drawn[~out, axis])
     cure = "No impact does that: look for a fault of the logger. They were drawn straight."
     notices = [Notice("W-SPIKE", signal.column(axis), _words(signal, axis, [(a, b)]), cure) for axis, a, b in places]
-    return drawn, wild.any(axis=1), notices
+    return drawn, rows, notices
 
 
 def _refusal(signal: Signal, places: list[tuple[int, int, int]]) -> InputError:

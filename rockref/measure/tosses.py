@@ -16,6 +16,7 @@ from rockref.measure.experiment import FIT, HOLDOUT, load_experiment
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import read_text
 from rockref.measure.schema import read_toml
+from rockref.measure.toss_axes import check_axes
 from rockref.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -123,6 +124,7 @@ def load_tosses(path: Path | str, split: str = "rule") -> Tosses:
     Raises
     ------
     InputError
+        E-UNIT, E-AXES, E-POSE, E-BOARD (see `check_axes`),
         E-HEADER, E-COLUMN-MISSING, E-COLUMN-TWICE, E-FIELDS, E-NUMBER, E-POSE, E-RATE, E-GAP, E-SHORT, E-SIZE,
         E-CHOICE; those of `read_text` and of `load_experiment`.
     """
@@ -154,6 +156,7 @@ def _from_experiment(path: Path) -> Tosses:
     _check_rate(rate, f"{path}, times of the runs")
     for run, toss in zip(experiment.runs, tosses, strict=True):
         _check_frames(toss.t, rate, path / run.file)
+    check_axes(tosses, (experiment.width, experiment.width, experiment.height), str(path))
     return Tosses(
         path=path, name=experiment.name, rate=rate, mass=experiment.mass,
         width=experiment.width, height=experiment.height, tosses=tuple(tosses), notices=experiment.notices,
@@ -187,7 +190,7 @@ def _from_table(table: Path) -> Tosses:
         if len(span) and (span.t > 0).all():
             rate = round(float(np.median((span.frames - span["first"]) / span.t)), 3)
     _check_rate(rate, f"{table}, column t_s")
-    tosses, notices = [], list(raw.notices)
+    tosses, notices, every = [], list(raw.notices), []
     for number, rows in data.groupby("toss", sort=True):
         rows = rows.sort_values("frame")
         id, group = _label(number), _label(rows["group"].iloc[0]) if "group" in rows else _label(number)
@@ -198,6 +201,7 @@ def _from_table(table: Path) -> Tosses:
         use = HOLDOUT if held_out(group) else FIT
         t = (rows["frame"].to_numpy() - rows["frame"].iloc[0]) / rate
         toss = _toss(id, group, use, t, rows[list(POSE)].to_numpy(float), where)
+        every.append(toss)
         lost = tracking_lost(toss)
         if lost:
             notices.append(Notice("W-TOSS-LEFT-OUT", where, f"jumps at frame {lost}", "It was left out."))
@@ -205,6 +209,7 @@ def _from_table(table: Path) -> Tosses:
         if all(name in rows for name in (*VELOCITY, *RATE)):
             toss = replace(toss, v=rows[list(VELOCITY)].to_numpy(float), W=rows[list(RATE)].to_numpy(float))
         tosses.append(toss)
+    check_axes(every, (CUBE_WIDTH, CUBE_WIDTH, CUBE_WIDTH), str(table))
     if not tosses:
         raise InputError("E-SIZE", str(table), "holds no toss that can be used", f"Give {LEAST_FRAMES} frames or more.")
     originals, copies = without_copies(tosses)
