@@ -27,9 +27,9 @@ LEAST_FLIGHTS = 3
 ALONG = 0.9
 # decided: of many tosses some forty show the axes of all.
 MOST = 40
-# decided: corners dip into the board by a thirtieth of the width at an impact, by noise and by what gives way; a tenth
+# decided: corners dip into the board by a fiftieth of the width at impacts, by noise and by what gives way; a tenth
 # of it at rest is another place of the board.
-UNDER, OFF = 0.05, 0.1
+UNDER, OFF = 0.03, 0.1
 # decided: poses that move by less than a hundredth of the width over eight frames are at rest.
 STILL = 0.01
 # decided: another order of the quaternion is named where it lessens the misfit to a half.
