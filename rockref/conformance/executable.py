@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import queue
+import re
 import shlex
 import signal
 import subprocess
@@ -32,6 +33,8 @@ MUCH_RUBBISH = 100
 #: Longer lines are rubbish: the longest honest answer, a run of 351 rows, has 0.3 MB. JSON takes thirty times its size
 #: in memory at worst.
 LONGEST_LINE = 16_000_000
+#: Seconds in which a program whose input has ended hands out what it kept in a buffer; decided.
+AFTER_END = 1.0
 #: Lines that wait to be looked at, so that a program that prints without end is stopped by its own full pipe; decided.
 WAITING = 3
 
@@ -155,25 +158,45 @@ class Executable:
             try:
                 text = self.lines.get(timeout=max(end - time.monotonic(), 0.0))
             except queue.Empty:
+                kept = "" if rubbish else self._kept_back()
                 self.close()
-                raise Misbehaved(f"no answer within {patience:g} s{_and(rubbish)}") from None
+                raise Misbehaved(f"no answer within {patience:g} s{kept}{_and(rubbish)}") from None
             if text is None:
                 raise Misbehaved(self._end() + _and(rubbish))
             if len(text) >= LONGEST_LINE:
                 raise Misbehaved(f"printed {len(text)} characters without an end of line")
-            try:
-                reply = json.loads(text)
-            except (ValueError, RecursionError):
-                reply = None
-            if isinstance(reply, dict):
+            reply = self._heard(text)
+            # A line of a log may be JSON, too.
+            if reply is not None and _is_answer(reply, request):
                 self._remark(rubbish)
                 return reply
             rubbish.append(text[:KEPT])
         raise Misbehaved(f"no answer in {MUCH_RUBBISH} lines{_and(rubbish)}")
 
+    def _heard(self, text: str) -> dict[str, Any] | None:
+        """Return the object that a line holds, or None; a byte order mark is dropped, and said once."""
+        if text.startswith("\ufeff"):
+            text = text[1:]
+            self.remarks.append("It begins with a byte order mark, which was dropped.")
+        try:
+            reply = json.loads(text)
+        except (ValueError, RecursionError):
+            return None
+        return reply if isinstance(reply, dict) else None
+
+    def _kept_back(self) -> str:
+        """Say whether the answer comes once the input ends: then the program keeps it in a buffer."""
+        assert self.process is not None
+        threading.Thread(target=_close, args=(self.process.stdin,), daemon=True).start()
+        try:
+            text = self.lines.get(timeout=AFTER_END)
+        except queue.Empty:
+            return ""
+        return "" if text is None else ", and then, when its input had ended: flush standard output after every line"
+
     def _remark(self, rubbish: list[str]) -> None:
         """Say once that there were lines that are no answers."""
-        if rubbish and not self.remarks:
+        if rubbish and not any("passed over" in remark for remark in self.remarks):
             self.remarks.append(f"Lines that are no JSON object were passed over, first {rubbish[0][:80]!r}.")
 
     def _end(self) -> str:
@@ -184,7 +207,9 @@ class Executable:
             code = "closed its output"
         self.close()
         said = " ".join(self.complaints[-3:]).strip()[-200:]
-        return f"ended (exit code {code})" + (f", saying {said!r}" if said else "")
+        place = _frame(self.complaints)
+        at = f" at {place}" if place else ""
+        return f"ended (exit code {code}){at}" + (f", saying {said!r}" if said else "")
 
     def close(self) -> None:
         """End the program and what it has started, if it runs.
@@ -201,6 +226,30 @@ class Executable:
         except subprocess.TimeoutExpired:
             pass
         threading.Thread(target=_close, args=(process.stdin,), daemon=True).start()
+
+
+def _is_answer(reply: dict[str, Any], request: dict[str, Any]) -> bool:
+    """Whether an object is an answer, right or wrong, and not a line of a log.
+
+    To a start it says who it is; to a question it has its id, or a result, or an error and nothing else.
+    """
+    if request["cmd"] == "start":
+        return bool(reply.keys() & {"protocol", "capabilities", "name", "version", "language", "precision"})
+    return reply.get("id") == request["id"] or "out" in reply or ("error" in reply and reply.keys() <= {"id", "error"})
+
+
+#: Where a complaint says it was: a frame of Python, or file and line as compilers and most runtimes write them.
+_FRAMES = (re.compile(r'File "([^"]+)", line (\d+)'), re.compile(r"([\w./\\-]+\.\w{1,4}):(\d+)"))
+
+
+def _frame(complaints: list[str]) -> str:
+    """Return the last place, file and line, that complaints name; empty where they name none."""
+    for said in reversed(complaints):
+        for pattern in _FRAMES:
+            if places := pattern.findall(said):
+                name, line = places[-1]
+                return f"{os.path.basename(name)}, line {line}"
+    return ""
 
 
 def _end_group(process: subprocess.Popen[str]) -> None:

@@ -14,7 +14,7 @@ from rockref.conformance.judge import asked_in
 from rockref.conformance.rules import PIECES
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
-from rockref.model.storage import read_bytes
+from rockref.model.storage import read_bytes, unpacked
 
 #: Decided: all questions have 0.9 MB and the law's answers 6 MB; JSON takes thirty times its size in memory at worst.
 LARGEST_REQUESTS, LARGEST_RESPONSES = 24_000_000, 24_000_000
@@ -73,6 +73,8 @@ class Recorded:
         for piece in self._shown(facts):
             setattr(self, piece, self._piece(piece))
         self.remarks = self._left_out()
+        if has_mark(path):
+            self.remarks.append("The file begins with a byte order mark, which was dropped.")
 
     def _shown(self, facts: dict[str, Any]) -> list[str]:
         """The pieces that it says it has; where it does not say, those that are answered by more than an error."""
@@ -158,9 +160,25 @@ def _replies(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
             raise InputError("E-RESPONSE", f"{path}, line {number}", str(e), "Write one JSON object a line.") from e
 
 
+def has_mark(path: Path) -> bool:
+    """Whether a file, packed or not, begins with a byte order mark of UTF-8."""
+    data = read_bytes(path, LARGEST_RESPONSES)
+    if data[:2] == b"\x1f\x8b":
+        data = unpacked(data, path, LARGEST_RESPONSES)
+    return data.startswith(b"\xef\xbb\xbf")
+
+
 def _rows(path: Path, limit: int) -> Iterator[tuple[int, str]]:
-    """The lines of a file with their numbers, blank ones left out. Raises InputError (E-FILE, E-SIZE)."""
-    content = read_bytes(path, limit).decode("utf-8", errors="replace")
+    """The lines of a file, packed or not, with their numbers, blank ones left out.
+
+    A byte order mark is dropped. Raises InputError (E-FILE, E-SIZE, E-GZIP, E-ENCODING).
+    """
+    data = read_bytes(path, limit)
+    if data[:2] == b"\x1f\x8b":
+        data = unpacked(data, path, limit)
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        raise InputError("E-ENCODING", str(path), "is UTF-16 text", "Save it as UTF-8 text.")
+    content = data.decode("utf-8-sig", errors="replace")
     for number, row in enumerate(content.split("\n"), 1):
         if row.strip():
             yield number, row
