@@ -79,7 +79,7 @@ def program(tmp_path, body):
         ("print('Segmentation fault', flush=True)", "printed rubbish"),
         ("print('[1, 2]', flush=True)", "printed rubbish"),
         ("[print('still computing', flush=True) for _ in range(200)]", "no answer in 100 lines"),
-        ("print('{}', flush=True)", "answered to id None"),
+        ("print('{}', flush=True)", "printed rubbish: '{}"),
         ("print(json.dumps({'id': json.loads(line)['id'], 'out': 5}), flush=True)", "not an object"),
         ("print(json.dumps({'id': json.loads(line)['id'], 'error': 'no idea'}), flush=True)", "no idea"),
         ("print(json.dumps({'id': json.loads(line)['id'], 'out': {'F_N': float('nan')}}), flush=True)", "not a finite"),
