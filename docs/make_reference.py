@@ -50,7 +50,7 @@ def section(name: str, command: Any) -> list[str]:
         lines += ["```text", inspect.cleandoc(examples), "```", ""]
     lines += ["| argument, option | meaning | if left out |", "| --- | --- | --- |"]
     for given in command.params:
-        if given.name != "help":
+        if given.name != "help" and not getattr(given, "hidden", False):
             own = ", ".join(f"`{o}`" for o in (*given.opts, *given.secondary_opts))
             lines.append(f"| {own} | {cell(given.help or '')} | {default(given)} |")
     return [*lines, ""]

@@ -7,13 +7,37 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from rockref import __version__, commands
 from rockref.commands._terminal import show_what_can_be_shown
 from rockref.model.errors import RockrefError
+
+# What is kept of a command that was interrupted, and what goes on from it; of the others nothing is.
+KEPT = {
+    "identify": "Checkpoints are kept in the output folder: the same command with --resume goes on from them.",
+    "blind make": "Finished cases are kept: the same command goes on with the next one.",
+    "blind score": "Verdicts that were reached are kept: the same command goes on with the next case.",
+}
+
+
+class FullHelp(TyperGroup):
+    """A group whose help says the whole first sentence of every command."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the list of commands."""
+        shown = [(name, self.get_command(ctx, name)) for name in self.list_commands(ctx)]
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, first_sentence(c.help or "")) for name, c in shown if c and not c.hidden])
+
+
+def first_sentence(text: str) -> str:
+    """Return the first sentence of a help text."""
+    paragraph = " ".join(text.strip().split("\n\n")[0].split())
+    return paragraph.split(". ")[0].rstrip(".") + "."
 
 
 def application() -> typer.Typer:
@@ -21,6 +45,7 @@ def application() -> typer.Typer:
     # Plain help (no rich markup): half the start-up time, and examples keep their line breaks.
     app = typer.Typer(
         name="rockref",
+        cls=FullHelp,
         no_args_is_help=True,
         add_completion=False,
         rich_markup_mode=None,
@@ -44,7 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         # Typer makes a silent exit of an interruption.
         if isinstance(end, SystemExit) and end.code != 130:
             raise
-        _stop("interrupted. No file is half-written; what has --resume goes on from where it was.", 130)
+        _stop(f"interrupted. {kept_of(sys.argv[1:] if arguments is None else arguments)}", 130)
     except OSError as error:
         where = os.fsdecode(error.filename) if error.filename is not None else "input or output"
         _stop(f"{where}: {error.strerror or error}. Nothing was left half-written. [E-OS]", 2)
@@ -53,6 +78,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
         compiled = sys.modules.get("rockref.engines.on_disk")
         for remark in getattr(compiled, "not_kept", ())[:1]:
             print(f"rockref: {remark}", file=sys.stderr)
+
+
+def kept_of(arguments: Sequence[str]) -> str:
+    """Return what an interrupted command has kept, and what goes on from it."""
+    words = [word for word in arguments if not word.startswith("-")][:2]
+    kept = KEPT.get(" ".join(words)) or KEPT.get(words[0] if words else "")
+    return kept or "No file is half-written, and nothing is kept of what was being computed: start it again."
 
 
 def _stop(message: str, code: int) -> None:

@@ -29,11 +29,12 @@ def compare(
     experiment: str | Path | Experiment,
     models: Model | str | Path | Sequence[Model | str | Path] = (),
     *,
+    names: Sequence[str] | None = None,
     engine: str = "auto",
 ) -> Result:
     """Compare models with the measured runs of an experiment; without models its baseline.
 
-    Models are models, files, ``"table_3_1"`` or ``"four_points"``. Raises InputError, NumericalError.
+    Models are models, files, ``"table_3_1"`` or ``"four_points"``; `names` are said in their place. Raises InputError, NumericalError.
     """
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
@@ -44,7 +45,7 @@ def compare(
     loaded = _experiment(experiment)
     listed = [models] if isinstance(models, str | Path) or not isinstance(models, Sequence) else list(models)
     chosen = [_model(one) for one in listed] or [baseline_model(loaded)]
-    names = _names(listed) if listed else [f"baseline ({loaded.baseline})"]
+    names = list(names or _names(listed)) if listed else [f"baseline ({loaded.baseline})"]
     found = run_comparison(loaded, chosen, names, engine=engine)
     said = findings(found)
     title = f"comparison of {loaded.name} with {' and '.join(names)}"
@@ -195,7 +196,7 @@ def _of_model(
         from rockref.discover.compare.models import baseline_model
 
         before = start if start is not None else baseline_model(found.experiment)
-        return compare(found.experiment.path, [before, found.model])
+        return compare(found.experiment.path, [before, found.model], names=["before", "after"])
 
     return Result(title, found, words, draw=lambda: beside().plot(), page=page or (lambda f: beside().save_page(f)))
 

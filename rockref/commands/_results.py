@@ -110,6 +110,15 @@ def say_written(paths: Iterable[Path]) -> None:
         typer.echo(f"wrote {path}")
 
 
+def say_old_spelling(old: str, new: str) -> None:
+    """A remark on a spelling that still works, on standard error."""
+    from rockref.measure.notice import Notice
+
+    say_remarks(
+        [Notice("W-SPELLING", f"rockref {old}", "is an old spelling, which still works", f"Write rockref {new}.")]
+    )
+
+
 def say_remarks(notices: "Iterable[Notice]") -> None:
     """What the reader of the experiment remarked on, on standard error: it went on, and the result may hang on it."""
     for notice in notices:

@@ -15,8 +15,8 @@ def register(app: typer.Typer) -> None:
 
 
 def add(
-    effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`, or file.py:Class.")],
     experiment: ExperimentFolder,
+    effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`, or file.py:Class.")],
     model: Annotated[
         str | None, typer.Option("--model", "-m", help="What it is added to, a model.toml. Default: the baseline.")
     ] = None,
@@ -38,15 +38,19 @@ def add(
 
     \b
     Example:
-      rockref add rolling_resistance data/experiments/mystery-05 -o with_rolling.toml
-      rockref add cable_restraint data/experiments/mystery-10 -o with_cable.toml
-      rockref add gyro_scale data/experiments/mystery-10 --model with_cable.toml -o with_both.toml --report report
+      rockref add data/experiments/mystery-05 rolling_resistance -o with_rolling.toml
+      rockref add data/experiments/mystery-10 cable_restraint -o with_cable.toml
+      rockref add data/experiments/mystery-10 gyro_scale --model with_cable.toml -o with_both.toml --report report
       rockref compare data/experiments/mystery-05 --model table_3_1 --model with_rolling.toml
 
     An effect is added to a model of tosses too, with --model, -o, -v and --json; the page is that of `rockref compare`.
     """
+    from rockref.commands._results import say_old_spelling
     from rockref.measure.tosses import is_toss_folder
 
+    if not experiment.exists() and Path(effect).is_dir():
+        experiment, effect = Path(effect), str(experiment)
+        say_old_spelling("add EFFECT EXPERIMENT", "add EXPERIMENT EFFECT")
     if is_toss_folder(experiment):
         from rockref.commands._tosses import add_to_model_of_tosses, of_releases_only
 

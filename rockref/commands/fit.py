@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import ExperimentFolder
+from rockref.commands._results import ExperimentFolder, folder_option
 
 
 def register(app: typer.Typer) -> None:
@@ -22,6 +22,9 @@ def fit(
     ] = None,
     model: Annotated[
         str | None, typer.Option("--model", "-m", help="Start from this model.toml, effects and all.")
+    ] = None,
+    report: Annotated[
+        Path | None, folder_option("--report", help="Folder for the page: the runs before and after the fit.")
     ] = None,
     gates: Annotated[bool, typer.Option("--gates/--no-gates", help="Check the fit; costs as much again.")] = True,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
@@ -49,15 +52,19 @@ def fit(
     if is_toss_folder(experiment):
         from rockref.commands._tosses import fit_to_tosses, of_releases_only
 
-        of_releases_only(seed=seed != 0, workers=workers is not None, **{"no-gates": not gates})
+        of_releases_only(
+            seed=seed != 0, workers=workers is not None, report=report is not None, **{"no-gates": not gates}
+        )
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
     from rockref.commands._models import check_step, known_files, named_model, say_idle
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.commands._stages import stages
     from rockref.discover.fitting import fit_experiment
     from rockref.report.fit_text import print_fit
+    from rockref.report.output import usable_folder
 
     usable_files(output)
+    folder = usable_folder(report) if report is not None else None
     known_files(effect)
     given = named_model(model) if model is not None else None
     check_step(given, model)
@@ -70,5 +77,11 @@ def fit(
     with told(as_json, with_files(found), lambda console: print_fit(console, found)) as written:
         found.model.save(output)
         written.append(output)
+        if folder is not None:
+            from rockref.discover.compare.models import baseline_model
+            from rockref.verbs import compare
+
+            before = given if given is not None else baseline_model(found.experiment)
+            written.append(compare(experiment, [before, found.model], names=["before", "after"]).save_page(folder))
     if not found.passed:
         raise typer.Exit(1)

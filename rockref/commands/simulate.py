@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from rockref.commands._results import in_json
+from rockref.commands._results import folder_option, in_json
 
 # decided: with 50 rows a second the main impacts of the block of Table 3.1 are off by 1e-4 s, with 20 by 7e-4 s, and
 # with one they are others.
@@ -18,9 +18,15 @@ def register(app: typer.Typer) -> None:
 
 
 def simulate(
-    model: Annotated[str, typer.Argument(help="table_3_1, four_points, or a model.toml.")] = "table_3_1",
-    out: Annotated[
-        Path | None, typer.Option("--out", "-o", help="Table to write, .csv or .csv.gz; without it only the summary.")
+    given: Annotated[str | None, typer.Argument(metavar="MODEL", hidden=True)] = None,
+    model: Annotated[str, typer.Option("--model", "-m", help="table_3_1, four_points, or a model.toml.")] = "table_3_1",
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Table to write, .csv or .csv.gz; without it only the summary."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option("--out", hidden=True)] = None,
+    report: Annotated[
+        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
     ] = None,
     duration: Annotated[float, typer.Option(help="Seconds from the release.")] = 1.5,
     step: Annotated[float, typer.Option(help="Time step in seconds; the source's is 1e-5.")] = 1e-5,
@@ -40,26 +46,31 @@ def simulate(
     \b
     Example:
       rockref simulate -o response.csv
-      rockref simulate table_3_1 --duration 5 --effect quadratic_drag:c=0.4 -o dragged.csv.gz
-      rockref simulate model.toml --turned --json
+      rockref simulate --duration 5 --effect quadratic_drag:c=0.4 -o dragged.csv.gz --report dragged
+      rockref simulate --model model.toml --turned --json
     """
     from rockref import api
     from rockref.commands._models import known_files, named_model, of_file, with_effects
     from rockref.commands._progress import progress
+    from rockref.report.output import usable_folder
+    from rockref.report.response_page import write_response_page
     from rockref.report.response_table import as_measured, check_name, overturned_at, write_response
 
-    if out is not None:
-        check_name(out)
+    model, output = _old_spellings(given, model, out, output)
+    if output is not None:
+        check_name(output)
+    folder = usable_folder(report) if report is not None else None
     known_files(effect)
     chosen = with_effects(named_model(model), effect or [])
-    with progress("simulating") as report, of_file(model):
+    with progress("simulating") as ahead, of_file(model):
         response = api.simulate(
-            chosen, duration=duration, step=step, output_rate=rate, engine=engine, progress=report, turned=turned
+            chosen, duration=duration, step=step, output_rate=rate, engine=engine, progress=ahead, turned=turned
         )
     if rate < LEAST_RATE:
         say_sparse(rate)
     fell = overturned_at(response)
-    written = write_response(response, out) if out is not None else None
+    written = write_response(response, output) if output is not None else None
+    page = write_response_page(response, chosen, folder) if folder is not None else None
     facts: dict[str, Any] = {
         "model": model,
         "effects": {e.id: e.values() for e in chosen.active_effects()},
@@ -73,6 +84,7 @@ def simulate(
         "overturned": response.overturned,
         "overturned_at_s": fell,
         "output": written,
+        "report": None if page is None else str(page),
     }
     if as_json:
         typer.echo(in_json(facts))
@@ -85,6 +97,21 @@ def simulate(
         typer.echo(f"The block overturned: beyond 45 degrees at {fell:.4f} s.")
     if written is not None:
         typer.echo(f"wrote {written['path']}: {written['rows']} rows, {written['columns']} columns")
+    if page is not None:
+        typer.echo(f"wrote {page}")
+
+
+def _old_spellings(given: str | None, model: str, out: Path | None, output: Path | None) -> tuple[str, Path | None]:
+    """Return model and output, as stated in today's spelling or in the old one, which gets a remark."""
+    from rockref.commands._results import say_old_spelling
+
+    if given is not None:
+        say_old_spelling("simulate MODEL", "simulate --model MODEL")
+        model = given
+    if out is not None:
+        say_old_spelling("simulate --out", "simulate --output")
+        output = out
+    return model, output
 
 
 def say_sparse(rate: float) -> None:

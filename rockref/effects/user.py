@@ -61,10 +61,21 @@ def file_and_class(spec: str) -> tuple[str, str]:
     """The two parts of "path/to/file.py:Class"; nothing is looked for. Raises InputError (E-EFFECT)."""
     path, _, name = spec.rpartition(":")
     if spec.endswith(".py"):
-        raise InputError("E-EFFECT", spec, "names a file, but no class in it", f"Write {spec}:Class.")
+        names = classes_in(Path(spec)) or ["Class"]
+        cure = f"Write {' or '.join(f'{spec}:{name}' for name in names)}."
+        raise InputError("E-EFFECT", spec, "names a file, but no class in it", cure)
     if not path.endswith(".py") or not name.isidentifier():
         raise InputError("E-EFFECT", spec, "names no class in a file", "Write path/to/file.py:Class.")
     return path, name
+
+
+def classes_in(path: Path) -> list[str]:
+    """Return the classes that a Python file states as effects of its own, in its order; the file is not run."""
+    try:
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, SyntaxError, RecursionError):
+        return []
+    return [n.name for n in tree.body if isinstance(n, ast.ClassDef) and any("Effect" in ast.dump(b) for b in n.bases)]
 
 
 def file_beside(file: str, beside: Path | None) -> str:

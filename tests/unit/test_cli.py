@@ -58,7 +58,26 @@ def test_our_errors_end_with_2_and_one_line(capsys, command_that, kind):
 def test_interrupt_ends_with_130(capsys, command_that):
     command_that(KeyboardInterrupt())
     code, out, err = run(capsys, "act")
-    assert (code, out) == (130, "") and err.startswith("rockref: interrupted") and "--resume" in err
+    assert (code, out) == (130, "") and err.startswith("rockref: interrupted") and "start it again" in err
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (["identify", "folder", "-o", "x"], "--resume"),
+        (["blind", "make", "folder"], "Finished cases"),
+        (["--version"], "start it again"),
+        (["diagnose", "folder"], "start it again"),
+    ],
+)
+def test_an_interrupt_says_what_goes_on_from_where(arguments, words):
+    assert words in cli.kept_of(arguments)
+
+
+def test_the_help_says_whole_sentences(capsys):
+    code, out, _ = run(capsys, "--help")
+    assert code == 0 and "..." not in out.split("Commands:")[1]
+    assert "what it could not tell." in " ".join(out.split())
 
 
 def test_errors_of_the_system_name_the_file(capsys, command_that):
@@ -185,7 +204,7 @@ def test_counts_that_fill_the_memory_are_refused(capsys, tmp_path, monkeypatch, 
         ("compare", ""),
         ("fit", ""),
         ("diagnose", " "),
-        ("add", "gyro_scale", ""),
+        ("add", "", "gyro_scale"),
         ("identify", ""),
         ("identify", "experiment", "-o", ""),
         ("sensitivity", "-o", ""),
@@ -214,7 +233,7 @@ def test_an_empty_name_is_not_the_current_folder(capsys, tmp_path, monkeypatch, 
         (("simulate", "--effect", "plate_pose"), "poses of tosses"),
         (("plan", "--effect", "tag_frame"), "poses of tosses"),
         (("plan", "--effect", "gyro_scale", "--effect", "gyro_scale"), "given twice"),
-        (("add", "plate_pose", "data/experiments/mystery-08"), "poses of tosses"),
+        (("add", "data/experiments/mystery-08", "plate_pose"), "poses of tosses"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else value,
 )

@@ -70,3 +70,16 @@ def test_a_model_that_could_not_be_written_is_refused_before_the_work(capsys, mo
     monkeypatch.setattr(adding, "add", lambda *a, **k: pytest.fail("the work was begun"))
     code, _, err = run(capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "nowhere" / "m.toml")
     assert code == 2 and "[E-WRITE]" in err
+
+
+def test_the_old_order_works_with_a_remark(capsys, monkeypatch, tmp_path):
+    """`rockref add EFFECT EXPERIMENT`, as it was spelt before."""
+    asked = []
+    monkeypatch.setattr(adding, "add", lambda *a, **k: asked.append(a[:2]) or pytest.fail("far enough"))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    for order, remark in ((("quadratic_drag", "folder"), True), (("folder", "quadratic_drag"), False)):
+        with pytest.raises(pytest.fail.Exception):
+            cli.main(["add", *order])
+        assert ("W-SPELLING" in capsys.readouterr().err) == remark
+    assert [(effect, str(where)) for effect, where in asked] == [("quadratic_drag", "folder")] * 2

@@ -8,6 +8,7 @@ import pytest
 
 from rockref import Model, api, cli
 from rockref.model.rotation import exponential
+from tests.unit.report.page_checks import faults_of
 
 
 def run(capsys, *arguments):
@@ -126,3 +127,18 @@ def test_few_rows_are_remarked_on(capsys):
     assert "--rate: 10 rows a second" in err and "[W-ROWS]" in err
     code, out, err = run(capsys, "simulate", "--duration", 0.6, "--rate", 100)
     assert "0.5104" in out and err == ""
+
+
+def test_old_spellings_work_with_a_remark(capsys, tmp_path):
+    path = tmp_path / "r.csv"
+    code, out, err = run(capsys, "simulate", "four_points", "--duration", 0.05, "--out", path)
+    assert code == 0 and path.is_file() and err.count("W-SPELLING") == 2
+    code, _, err = run(capsys, "simulate", "-m", "four_points", "--duration", 0.05, "--output", path)
+    assert code == 0 and "W-SPELLING" not in err
+
+
+def test_a_page_of_a_release(capsys, tmp_path):
+    code, out, _ = run(capsys, "simulate", "--duration", 0.6, "--report", tmp_path / "page")
+    text = (tmp_path / "page/index.html").read_text()
+    assert code == 0 and f"wrote {tmp_path / 'page/index.html'}" in out
+    assert faults_of(text) == [] and "1 main impacts" in text
