@@ -34,7 +34,8 @@ def compare(
 ) -> Result:
     """Compare models with the measured runs of an experiment; without models its baseline.
 
-    Models are models, files, ``"table_3_1"`` or ``"four_points"``; `names` are said in their place. Raises InputError, NumericalError.
+    Models are models, files, ``"table_3_1"`` or ``"four_points"``; `names` are said in their place. Raises InputError,
+    NumericalError.
     """
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison

@@ -55,12 +55,12 @@ def test_page_and_json(capsys, monkeypatch, tmp_path, made):
 
 
 def test_unknown_effect_ends_with_2(capsys, tmp_path):
-    code, out, err = run(capsys, "quadratic_dra", "anywhere", "-o", tmp_path / "m.toml")
+    code, out, err = run(capsys, "anywhere", "quadratic_dra", "-o", tmp_path / "m.toml")
     assert (code, out) == (2, "") and "quadratic_drag" in err and "[E-EFFECT]" in err
 
 
 def test_what_is_refused_leaves_no_folder(capsys, tmp_path):
-    code, _, _ = run(capsys, "quadratic_dra", "anywhere", "--report", tmp_path / "page")
+    code, _, _ = run(capsys, "anywhere", "quadratic_dra", "--report", tmp_path / "page")
     assert code == 2 and not (tmp_path / "page").exists()
     code, _, err = run(capsys, "quadratic_drag", "anywhere", "--report", "")
     assert code == 2 and "is empty" in err

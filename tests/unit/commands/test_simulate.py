@@ -90,7 +90,7 @@ def test_overturned_block_is_a_result_and_is_said(capsys, monkeypatch):
 @pytest.mark.parametrize(
     "arguments, said",
     [
-        (("simulate", "no_such.toml"), "no_such.toml"),
+        (("simulate", "--model", "no_such.toml"), "no_such.toml"),
         (("simulate", "--effect", "gyro_scal"), "gyro_scale"),
         (("simulate", "--effect", "gyro_scale:q=1"), "E-KEY"),
         (("simulate", "--duration", "-1"), "E-RANGE"),
