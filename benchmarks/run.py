@@ -41,7 +41,7 @@ def main() -> None:
     given = parser.parse_args()
     found = {"machine": machine(), **numpy_alone(), **numpy_in_batch(), **peers(given.peers)}
     if has_numba():
-        found |= {**first_call(), **memory(), **compiled(), **cores(), **growth(), **effects()}
+        found |= {**first_call(), **memory(), **compiled(), **cores(), **growth(), **effects(), **abreast()}
     else:
         say("numba is not installed (pip install 'rockref[fast]'): the compiled engine is left out")
     if not given.dry:
@@ -196,6 +196,15 @@ def effects() -> dict:
     return {"effects": rows}
 
 
+def abreast() -> dict:
+    """Runs in lanes against single runs, and the roof over them."""
+    import lanes
+
+    found = {"roof": lanes.roof(), **lanes.measured()}
+    say(f"lanes make {found['lanes_by_effect'][0]['ratio']:.2f} times the block-steps of single runs")
+    return {"abreast": found}
+
+
 def with_points(n: int, duration: float = 0.3) -> Problem:
     """The released block with n points: the first four of the eight, all, or further ones inside the base."""
     from dataclasses import replace
@@ -220,7 +229,7 @@ def peers(python: str) -> dict:
     try:
         found = json.loads(done.stdout.strip().splitlines()[-1])
     except (IndexError, ValueError):
-        found = {name: {"skipped": done.stderr.strip()[-200:]} for name in ("lammps", "mujoco")}
+        found = {name: {"skipped": done.stderr.strip()[-200:]} for name in ("lammps", "mujoco", "mujoco_rollout")}
     for name, result in found.items():
         if "skipped" in result:
             say(f"{name}: {result['skipped']}. pip install 'rockref[peers]'")

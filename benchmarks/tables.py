@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import effects
+import lanes
 
 from rockref.model.storage import write_bytes, write_text
 
@@ -15,6 +16,7 @@ NAMES = {
     "lammps": "LAMMPS",
     "numpy_batch_1024": "rockref, the law in NumPy, 1024 blocks at once",
     "mujoco": "MuJoCo (another contact law)",
+    "mujoco_rollout": "MuJoCo, 16 blocks on all cores (`mujoco.rollout`)",
     "numpy_one_block": "rockref, the law in NumPy, one block",
 }
 
@@ -44,7 +46,7 @@ def table(found: dict) -> str:
     for name, result in found["peers"].items():
         if "skipped" in result:
             lines.append(f"{name} was not measured: {result['skipped'].splitlines()[-1][:120]}.")
-        else:
+        elif "first_main_impact_s" in result:
             lines.append(
                 f"{name} {result['version']} puts the first main impact at {result['first_main_impact_s']:.4f} s."
             )
@@ -83,6 +85,8 @@ def table(found: dict) -> str:
         ]
     if "effects" in found:
         lines += ["", *effects.table(found["effects"])]
+    if "abreast" in found:
+        lines += ["", *lanes.tables(found["abreast"])]
     return "\n".join(lines)
 
 

@@ -67,10 +67,9 @@ def run_listening(
     listening = checked(listening, runs)
     if compiles(problems, engine):
         from rockref.engines.compiled import batch as compiled
-        from rockref.engines.compiled.listening import run
 
         arrays: Any = batch if problems is None else compiled.from_problems(problems)
-        return run(arrays, listening, workers)
+        return compiled.run_listening(arrays, listening, workers)
     return side_by_side(problems or [], listening)
 
 

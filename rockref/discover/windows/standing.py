@@ -76,7 +76,7 @@ def carried(depth, heights, props, memory, pressed, e, loads):
         loads[i] = 0.0
         if xi > 0.0:
             memory[i, col.XI_LARGEST] = pressed[i]
-            loads[i] = max(altered(on, e, props[i, col.K_N] * xi, xi, 0.0, props, i, memory), 0.0)
+            loads[i] = max(altered(on, e, props[i, col.K_N] * xi, xi, 0.0, props, i, memory, False), 0.0)
             total += loads[i]
     return total
 

@@ -5,18 +5,24 @@ For searches and for short windows, where building a `Problem` per run would cos
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rockref.engines.compiled import abreast, kernel, pack, slots
 from rockref.engines.compiled import columns as col
-from rockref.engines.compiled import kernel, pack, slots
+from rockref.engines.compiled.lanes import LANES
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
 from rockref.model.simulate import output_steps
+
+if TYPE_CHECKING:
+    from rockref.engines.listening import Listening
 
 #: Pieces per thread: enough that a piece of long runs does not leave the other cores idle at the end, few enough that
 #: handing them out costs nothing (decided).
@@ -61,6 +67,11 @@ def from_problems(problems: Sequence[Problem]) -> Batch:
                 raise InputError("E-STACK", key, "differs between the problems of a batch", "Run them one by one.")
         if p.points.n != first.points.n:
             raise InputError("E-STACK", "points", "differ in number between the problems", "Run them one by one.")
+    return batch_of(problems, output_steps(first))
+
+
+def batch_of(problems: Sequence[Problem], wanted: np.ndarray) -> Batch:
+    """The arrays of problems of one step and number of points, their memories begun, that want these rows."""
     given = [np.zeros((p.points.n, 3)) if p.start.F is None else np.asarray(p.start.F, float) for p in problems]
     return Batch(
         body=np.stack([pack.body_row(p) for p in problems]),
@@ -69,8 +80,8 @@ def from_problems(problems: Sequence[Problem]) -> Batch:
         memory=np.stack([pack.memory_rows(p.start) for p in problems]),
         effects=np.stack([pack.effects_row(p) for p in problems]),
         state=np.stack([pack.state_row(p) for p in problems]),
-        h=float(first.step),
-        wanted=output_steps(first),
+        h=float(problems[0].step),
+        wanted=wanted,
         forces=np.stack(given),
     )
 
@@ -96,17 +107,16 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
     states = np.empty((B, R, col.STATE)) if out is None else out
     kept = B if full else 1
     forces, memories = np.empty((kept, R, n, 3)), np.empty((kept, R, n, col.MEMORY))
-    loop = kernel.loop_for(batch.effects)
     written = np.zeros(B, np.int64)
-    centres = pack.centres(batch.P, batch.props)
-
-    def piece(bounds) -> None:
-        loop(
-            *bounds, batch.body, centres, batch.props, batch.memory, batch.forces, batch.effects, batch.state, batch.h,
-            batch.wanted, full, states, forces, memories, written,
+    rows = (batch.wanted, full, states, forces, memories, written)
+    if B == 1:
+        centres = pack.centres(batch.P, batch.props)
+        kernel.loop_for(batch.effects)(
+            0, 1, batch.body, centres, batch.props, batch.memory, batch.forces, batch.effects, batch.state, batch.h,
+            *rows,
         )  # fmt: skip
-
-    in_pieces(piece, B, workers)
+    else:
+        run_abreast(batch, rows, abreast.no_target(B), workers)
     asked = np.sum(batch.wanted >= 0, axis=1) if out is not None else np.full(B, R)
     for b in np.flatnonzero(written < asked):  # lost, or not asked for
         rest = slice(written[b], asked[b])
@@ -116,17 +126,92 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
     return (states, forces, memories) if full else states
 
 
-def in_pieces(piece: Callable[[tuple[int, int]], None], runs: int, workers: int | None) -> None:
-    """Call `piece` with the bounds of pieces of the runs, on threads (None: as many as there are cores)."""
+#: Rows of one piece of a reduced batch, over all its runs. Decided: 64 MB of states.
+ROWS_A_PIECE = 250_000
+
+
+def run_reduced(batch: Batch, reduce: Callable[[np.ndarray], np.ndarray], workers: int | None = None) -> np.ndarray:
+    """Run a batch of which only a summary is wanted, in memory that does not grow with the number of runs.
+
+    reduce : makes (b, ...) of the states (b, R, STATE) of some runs, for example their largest rates.
+
+    Returns
+    -------
+    (B, ...) the summaries, in the order of the runs.
+    """
+    B, R = len(batch.props), np.shape(batch.wanted)[-1]
+    size = max(PIECES * LANES * (workers or os.cpu_count() or 1), ROWS_A_PIECE // R)
+    wanted = np.broadcast_to(batch.wanted, (B, R))
+    found = []
+    for first in range(0, B, size):
+        some = slice(first, first + size)
+        runs = ("body", "P", "props", "memory", "effects", "state")
+        own = {key: getattr(batch, key)[some] for key in runs}
+        forces = None if batch.forces is None else batch.forces[some]
+        found.append(np.array(reduce(run_batch(replace(batch, **own, wanted=wanted[some], forces=forces), workers))))
+    return np.concatenate(found)
+
+
+def packs_of(batch: Batch) -> list[tuple[int, np.ndarray]]:
+    """Which runs go abreast: for each variant of the loop the packs (packs, LANES); short ones repeat their last run.
+
+    The runs of a pack have the same effects, inertia of the same form, and both or neither given accelerations; those
+    with as many steps go together.
+    """
+    kind = np.concatenate(
+        [
+            batch.effects[:, slots.SWITCHED_BY] != 0,
+            batch.body[:, [col.PRINCIPAL]] != 0,
+            batch.state[:, [col.GIVEN]] != 0,
+        ],
+        axis=1,
+    )
+    _, kinds = np.unique(kind, axis=0, return_inverse=True)
+    order = np.lexsort((batch.wanted.max(axis=1), kinds))
+    by_variant: dict[int, list[np.ndarray]] = {}
+    for same in np.split(order, np.flatnonzero(np.diff(kinds[order])) + 1):
+        short = -len(same) % LANES
+        filled = np.concatenate([same, np.repeat(same[-1], short)])
+        by_variant.setdefault(kernel.variant_for(batch.effects[same[0]]), []).append(filled.reshape(-1, LANES))
+    return [(groups, np.concatenate(packs)) for groups, packs in by_variant.items()]
+
+
+def run_abreast(batch: Batch, rows: tuple, target: tuple, workers: int | None) -> None:
+    """Run a checked batch in packs, on threads (None: as many as there are cores).
+
+    rows : from `all_wanted` to `written`, target : from `which` to `ticks`, as in the compiled loop.
+    """
     workers = workers or os.cpu_count() or 1
-    edges = np.linspace(0, runs, min(runs, workers * PIECES) + 1).astype(int)
-    pieces = list(zip(edges[:-1], edges[1:], strict=True))
+    centres, packs = pack.centres(batch.P, batch.props), packs_of(batch)
+    total = sum(len(p) for _, p in packs)
+    size = max(1, math.ceil(total / (workers * PIECES)))
+    pieces = [(groups, p[k : k + size]) for groups, p in packs for k in range(0, len(p), size)]
+
+    def piece(given: tuple[int, np.ndarray]) -> None:
+        groups, own = given
+        abreast.LOOPS[groups](
+            0, len(own), own, batch.body, centres, batch.props, batch.memory, batch.forces, batch.effects, batch.state,
+            batch.h, *rows, *target, *abreast.workspace(batch.P.shape[1]), np.zeros(LANES, np.int64),
+        )  # fmt: skip
+
     if workers == 1 or len(pieces) == 1:
-        for bounds in pieces:
-            piece(bounds)
+        for given in pieces:
+            piece(given)
     else:
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(piece, pieces))
+
+
+def run_listening(batch: Batch, listening: Listening, workers: int | None = None) -> np.ndarray:
+    """Run a batch that listens; as `rockref.engines.listening.run_listening`, which checks what is heard."""
+    batch = checked(replace(batch, wanted=np.array([-1])))
+    ticks = np.full((len(batch.props), listening.rates.shape[1], 3), np.nan)
+    gains = np.stack([listening.gain_rate, listening.gain_attitude], axis=-1)
+    target = (
+        listening.which, listening.rates, listening.turns, listening.heard, gains, listening.every, ticks,
+    )  # fmt: skip
+    run_abreast(batch, abreast.no_rows(batch.wanted), target, workers)
+    return ticks
 
 
 def checked(batch: Batch) -> Batch:
@@ -145,6 +230,6 @@ def checked(batch: Batch) -> Batch:
     for key, shape in shapes.items():
         if np.shape(given[key]) != shape:
             raise InputError("E-SHAPE", f"batch.{key}", f"has shape {np.shape(given[key])}", f"Give {shape}.")
-    written = {k: np.array(given[k], np.float64, order="C") for k in ("memory", "forces")}
+    written = {k: np.array(given[k], np.float64, order="C") for k in ("memory", "forces", "state")}
     read = {k: np.require(given[k], np.float64, ["C", "W"]) for k in shapes if k not in written}
     return replace(batch, wanted=wanted, h=float(batch.h), **written, **read)

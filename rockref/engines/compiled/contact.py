@@ -1,4 +1,7 @@
-"""Normal force and friction of one contact point, compiled; the text of `rockref.model.contact` for one point."""
+"""Normal force and friction of one contact point, compiled; the text of `rockref.model.contact` for one point.
+
+For one run or for lanes of several (`rockref.engines.compiled.lanes`): `above` says in which the point does not touch.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ import math
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.jit import inlined
+from rockref.engines.compiled.lanes import anyof, both, choose, negated
 
 #: Squares below this (tiny / eps of float64, as in `rockref.model.contact.norm`) are taken by the longer way.
 SMALL = 2.2250738585072014e-308 / 2.220446049250313e-16
@@ -20,33 +24,37 @@ SURELY = 1 - 1e-12
 def length(x, y):
     """Length of a plane vector, small ones with care."""
     squares = x * x + y * y
-    if squares < SMALL:
+    size = math.sqrt(squares)
+    small = squares < SMALL
+    if anyof(small):
         largest = max(abs(x), abs(y))
-        if largest > 0:
-            return largest * math.sqrt((x / largest) * (x / largest) + (y / largest) * (y / largest))
-        return 0.0
-    return math.sqrt(squares)
+        unit = choose(largest > 0, largest, 1.0)
+        size = choose(small, largest * math.sqrt((x / unit) * (x / unit) + (y / unit) * (y / unit)), size)
+    return size
 
 
 @inlined
-def altered(on, e, force, xi, xi_rate, props, i, memory):
+def altered(on, e, force, xi, xi_rate, props, i, memory, above):
     """Spring and damper with the effects on the normal force, in the order of the step."""
     K, C = props[i, col.K_N], props[i, col.C_N]
     if on.hertz:
         reference = e[slots.HERTZ + 2]
         depth, exponent = xi / reference, e[slots.HERTZ + 1]
-        power = depth * math.sqrt(depth) if exponent == 1.5 else depth**exponent
+        power = depth * math.sqrt(depth)
+        if anyof(exponent != 1.5):
+            power = choose(exponent == 1.5, power, depth**exponent)
         force = force + K * (reference * power - xi)
     if on.hysteresis:
         kappa, share = e[slots.HYSTERESIS + 1], e[slots.HYSTERESIS + 2]
-        memory[i, col.XI_LARGEST] = max(memory[i, col.XI_LARGEST], xi)
+        largest = max(memory[i, col.XI_LARGEST], xi)
+        memory[i, col.XI_LARGEST] = choose(above, 0.0, largest)
         damper = C * xi_rate
-        dent = kappa / (1 + kappa) * memory[i, col.XI_LARGEST]
+        dent = kappa / (1 + kappa) * largest
         unloading = K * (1 + kappa) * (xi - dent)
-        if share != 0.0:
-            way = memory[i, col.XI_LARGEST] - dent
-            left = max(xi - dent, 0.0) / (way if way > 0.0 else 1.0)
-            unloading = unloading * (1 + share * (math.sqrt(left) - 1))
+        if anyof(share != 0.0):
+            way = largest - dent
+            left = max(xi - dent, 0.0) / choose(way > 0.0, way, 1.0)
+            unloading = choose(share != 0.0, unloading * (1 + share * (math.sqrt(left) - 1)), unloading)
         force = max(min(force - damper, unloading), 0.0) + damper
     if on.hunt:
         force = force + e[slots.HUNT + 1] * K * xi * xi_rate
@@ -58,7 +66,7 @@ def oriented(e, force, xi_rate, props, i, rx, ry, rz):
     """The force with the damper that depends on how its corner is turned, which comes after all of `altered`."""
     z = rz + props[i, col.RADIUS]
     squares = rx * rx + ry * ry + z * z
-    tip = max(1.5 * (z * z / (squares if squares > 0.0 else 1.0)) - 0.5, 0.0)
+    tip = max(1.5 * (z * z / choose(squares > 0.0, squares, 1.0)) - 0.5, 0.0)
     return force + e[slots.ORIENTATION + 1] * tip * props[i, col.C_N] * xi_rate
 
 
@@ -89,7 +97,7 @@ def surely_held(on, e, mu, F_N):
         held = held * min(e[slots.STRIBECK + 1], 1.0)
     if on.load:
         reference = e[slots.LOAD + 2]
-        relative = F_N / reference if e[slots.LOAD + 1] < 0.0 else reference / F_N
+        relative = choose(e[slots.LOAD + 1] < 0.0, F_N / reference, reference / F_N)
         held = held * min(relative, 1.0)
     return held
 
@@ -97,28 +105,30 @@ def surely_held(on, e, mu, F_N):
 @inlined
 def trial(ux, uy, vx, vy, props, memory, i, turn0, turn1):
     """Rules T1 and T5: anchor (2), trial force (2) and its size."""
-    K, C = props[i, col.K_T], props[i, col.C_T]
-    sx, sy = ux, uy  # T5
-    if memory[i, col.ANCHORED] != 0.0:
-        radius = props[i, col.RADIUS]
-        sx, sy = memory[i, col.S_X], memory[i, col.S_Y]
-        if radius != 0.0:
-            sx, sy = sx + radius * turn1, sy - radius * turn0
+    K, C, radius = props[i, col.K_T], props[i, col.C_T], props[i, col.RADIUS]
+    anchored = memory[i, col.ANCHORED] != 0.0
+    sx, sy = memory[i, col.S_X], memory[i, col.S_Y]
+    if anyof(radius != 0.0):
+        sx, sy = choose(radius != 0.0, sx + radius * turn1, sx), choose(radius != 0.0, sy - radius * turn0, sy)
+    sx, sy = choose(anchored, sx, ux), choose(anchored, sy, uy)  # T5
     tx, ty = K * (sx - ux) - C * vx, K * (sy - uy) - C * vy  # T1
     return sx, sy, tx, ty, length(tx, ty)
 
 
 @inlined
-def returned(ux, uy, vx, vy, sx, sy, tx, ty, size, F_N, mu_0, mu, props, memory, i):
+def returned(ux, uy, vx, vy, sx, sy, tx, ty, size, F_N, mu_0, mu, props, memory, i, above):
     """Rules T2 to T4 and T6: the friction force; moves the anchor and notes whether the point slides."""
-    limit = (mu if memory[i, col.SLIDING] != 0.0 else mu_0) * F_N  # T6
-    memory[i, col.ANCHORED] = 1.0
-    if size <= limit:  # T2
-        memory[i, col.S_X], memory[i, col.S_Y], memory[i, col.SLIDING] = sx, sy, 0.0
-        return tx, ty
-    K, C = props[i, col.K_T], props[i, col.C_T]
-    scale = mu * F_N / size
-    fx, fy = scale * tx, scale * ty  # T3
-    memory[i, col.S_X], memory[i, col.S_Y] = ux + (fx + C * vx) / K, uy + (fy + C * vy) / K  # T4
-    memory[i, col.SLIDING] = 1.0
+    limit = choose(memory[i, col.SLIDING] != 0.0, mu, mu_0) * F_N  # T6
+    slides = negated(size <= limit)  # T2
+    fx, fy, sliding = tx, ty, 0.0
+    if anyof(both(slides, negated(above))):
+        K, C = props[i, col.K_T], props[i, col.C_T]
+        scale = mu * F_N / size
+        fx, fy = choose(slides, scale * tx, tx), choose(slides, scale * ty, ty)  # T3
+        sx, sy = choose(slides, ux + (fx + C * vx) / K, sx), choose(slides, uy + (fy + C * vy) / K, sy)  # T4
+        sliding = choose(slides, 1.0, 0.0)
+    memory[i, col.S_X] = choose(above, memory[i, col.S_X], sx)
+    memory[i, col.S_Y] = choose(above, memory[i, col.S_Y], sy)
+    memory[i, col.ANCHORED] = choose(above, 0.0, 1.0)
+    memory[i, col.SLIDING] = choose(above, 0.0, sliding)
     return fx, fy

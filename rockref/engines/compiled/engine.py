@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import kernel, pack
+from rockref.engines.compiled.batch import batch_of, run_batch
 from rockref.model.errors import NumericalError
 from rockref.model.integrator import first_evaluation, prepared_inertia
 from rockref.model.problem import Problem, State, as_arrays, stack
@@ -23,6 +23,9 @@ Progress = Callable[[float], None] | None
 
 #: Steps between two reports of a run. Decided: a tenth of a second at most; the call itself takes some 1e-5 s.
 STEPS_A_REPORT = 100_000
+
+#: Runs between two reports of many, for each thread. Decided: a few packs, so that short ones cost little.
+RUNS_A_REPORT = 32
 
 
 def simulate(problem: Problem, progress: Progress = None, keep_going: bool = False) -> Response:
@@ -42,18 +45,49 @@ def simulate(problem: Problem, progress: Progress = None, keep_going: bool = Fal
 def simulate_many(
     problems: Sequence[Problem], workers: int | None = None, keep_going: bool = False, progress: Progress = None
 ) -> list[Response]:
-    """Solve many problems on `workers` threads (default: all cores). Each run is by itself, so the results do not
-    depend on the number of workers, bit for bit. `progress` is called with the fraction of the runs that are done."""
+    """Solve many problems on `workers` threads (default: all cores), those of one step and number of points abreast.
+
+    Each run is by itself, so the results do not depend on the number of workers or on what stands beside a run, bit for
+    bit. `progress` is called with the fraction of the runs that are done.
+    """
     ready = [as_arrays(p, np.float64) for p in problems]
     for p in ready:
         check(p)
-    responses = []
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        for response in pool.map(lambda p: _one(p, keep_going), ready):
-            responses.append(response)
+    ready = [pack.with_memory(p) for p in ready]
+    alike: dict[tuple[float, int], list[int]] = {}
+    for i, p in enumerate(ready):
+        alike.setdefault((float(p.step), p.points.n), []).append(i)
+    responses: dict[int, Response] = {}
+    size = len(ready) if progress is None else RUNS_A_REPORT * (workers or os.cpu_count() or 1)
+    for members in alike.values():
+        for first in range(0, len(members), size):
+            some = members[first : first + size]
+            for i, response in zip(some, _abreast([ready[i] for i in some], workers, keep_going), strict=True):
+                responses[i] = response
             if progress is not None:
                 progress(len(responses) / len(ready))
+    return [responses[i] for i in range(len(ready))]
+
+
+def _abreast(problems: list[Problem], workers: int | None, keep_going: bool) -> list[Response]:
+    """Solve problems of one step and number of points, with their memories begun, in one batch."""
+    steps = [output_steps(p) for p in problems]
+    wanted = np.full((len(problems), max(map(len, steps))), -1)
+    for b, own in enumerate(steps):
+        wanted[b, : len(own)] = own
+    rows = run_batch(batch_of(problems, wanted), workers, full=True)
+    responses = []
+    for b, own in enumerate(steps):
+        states, forces, memories = (a[b, : len(own)] for a in rows)
+        written = _rows_with_numbers(states)
+        responses.append(_response(problems[b], own, states, forces, memories, written, keep_going))
     return responses
+
+
+def _rows_with_numbers(states: np.ndarray) -> int:
+    """How many rows (R, STATE) the loop has written: to the first one without numbers, which counts."""
+    lost = ~np.isfinite(states[:, 0:3].sum(1) + states[:, 3:6].sum(1) + states[:, 15:18].sum(1))
+    return int(np.argmax(lost)) + 1 if lost.any() else len(states)
 
 
 def _in_pieces(loop, read: list, h: float, wanted: np.ndarray, written_to: tuple, progress: Progress) -> int:
@@ -98,6 +132,12 @@ def _one(problem: Problem, keep_going: bool, progress: Progress = None) -> Respo
     batch_of_one = [a[None] for a in read]
     written_to = (states[None], forces[None], memories[None])
     written = _in_pieces(kernel.loop_for(effects), batch_of_one, float(problem.step), wanted, written_to, progress)
+    return _response(problem, wanted, states, forces, memories, written, keep_going)
+
+
+def _response(problem: Problem, wanted, states, forces, memories, written: int, keep_going: bool) -> Response:
+    """The rows of a run as a Response, or the error where it has lost its numbers; `written` of them hold some."""
+    rows = len(wanted)
     if not np.isfinite(states[written - 1, :18]).all() and not keep_going:
         good = problem.start
         # What the start's forces have lost, its row does not show otherwise: the law evaluates them anew.

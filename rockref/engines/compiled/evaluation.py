@@ -5,20 +5,20 @@ from __future__ import annotations
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.contact import altered, altered_friction, oriented, returned, surely_held, trial
-from rockref.engines.compiled.jit import inlined
+from rockref.engines.compiled.jit import inlined, marked
+from rockref.engines.compiled.lanes import anyof, both, choose, negated
 from rockref.engines.compiled.loads import add_loads, resistance
-from rockref.engines.compiled.points import pulled, pushed, roll_moment, spin_moment
+from rockref.engines.compiled.points import of_foot, pulled, pushed, roll_moment, spin_moment
 
 
-def make_evaluation(groups: int, listening: int = 0):
+def make_evaluation(groups: int, bearing: int):
     """The evaluation with these groups of effects; what belongs to the others is not compiled.
 
-    listening : whether it also sums normal forces and their lever arms, which the correction of a listening run needs.
+    bearing : whether it also sums normal forces and their lever arms, which the correction of a listening run needs.
     """
     contact, forces_too, moments_too = groups & slots.CONTACT, groups & slots.FORCES, groups & slots.MOMENTS
     loads, plate = groups & slots.LOADS, groups & slots.PLATE
 
-    @inlined
     def evaluate(
         body, centres, props, memory, forces, e, on, timed, sunk,
         x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn,
@@ -48,18 +48,24 @@ def make_evaluation(groups: int, listening: int = 0):
             height = x2 + rz
             if plate:
                 height = height - q - pitch * (x1 + (L3 * Px + L4 * Py + L5 * Pz))
-            if height > 0.0:  # not touching; lost numbers count as touching, so that they show
-                if memory[i, col.ANCHORED] != 0.0:
-                    memory[i, col.ANCHORED] = memory[i, col.SLIDING] = 0.0  # T5
-                    forces[i, 0] = forces[i, 1] = forces[i, 2] = 0.0  # N2
-                    if contact:
-                        memory[i, col.XI_LARGEST] = 0.0
-                    if moments_too:
-                        memory[i, col.YAW] = memory[i, col.ROLL_X] = memory[i, col.ROLL_Y] = 0.0
+            above = height > 0.0  # not touching; lost numbers count as touching, so that they show
+            anchored = memory[i, col.ANCHORED] != 0.0
+            if anyof(both(above, anchored)):
+                memory[i, col.ANCHORED] = choose(above, 0.0, memory[i, col.ANCHORED])  # T5
+                memory[i, col.SLIDING] = choose(above, 0.0, memory[i, col.SLIDING])
+                for j in range(3):
+                    forces[i, j] = choose(above, 0.0, forces[i, j])  # N2
+                if contact:
+                    memory[i, col.XI_LARGEST] = choose(above, 0.0, memory[i, col.XI_LARGEST])
+                if moments_too:
+                    for j in (col.YAW, col.ROLL_X, col.ROLL_Y):
+                        memory[i, j] = choose(above, 0.0, memory[i, j])
+            if not anyof(negated(above)):
                 if forces_too:
-                    if on.adhesion and height < e[slots.ADHESION + 2]:
-                        rx, ry = L0 * Px + L1 * Py + L2 * Pz, L3 * Px + L4 * Py + L5 * Pz
-                        pull = pulled(pull, e, height, rx, ry)
+                    if on.adhesion:
+                        if anyof(height < e[slots.ADHESION + 2]):
+                            rx, ry = L0 * Px + L1 * Py + L2 * Pz, L3 * Px + L4 * Py + L5 * Pz
+                            pull = pulled(pull, e, height, rx, ry)
                 continue
             rx = L0 * Px + L1 * Py + L2 * Pz
             ry = L3 * Px + L4 * Py + L5 * Pz
@@ -71,21 +77,24 @@ def make_evaluation(groups: int, listening: int = 0):
             mu_0, mu = props[i, col.MU_0], props[i, col.MU]
             fz = props[i, col.K_N] * -height + props[i, col.C_N] * -vz  # (3.5a)
             if contact:
-                fz = altered(on, e, fz, -height, -vz, props, i, memory)
+                fz = altered(on, e, fz, -height, -vz, props, i, memory, above)
                 if on.orientation:
                     fz = oriented(e, fz, -vz, props, i, rx, ry, rz)
-            fz = 0.0 if fz <= 0.0 else fz  # N1
+            fz = choose(fz <= 0.0, 0.0, fz)  # N1
             ux, uy = x0 + rx, x1 + ry
             sx, sy, tx, ty, size = trial(ux, uy, vx, vy, props, memory, i, turn0, turn1)
             if contact:
-                if not size <= surely_held(on, e, mu, fz):
-                    mu_0, mu = altered_friction(on, e, mu_0, mu, vx, vy, fz)
-            fx, fy = returned(ux, uy, vx, vy, sx, sy, tx, ty, size, fz, mu_0, mu, props, memory, i)
+                loose = negated(size <= surely_held(on, e, mu, fz))
+                if anyof(both(loose, negated(above))):
+                    other_0, other = altered_friction(on, e, mu_0, mu, vx, vy, fz)
+                    mu_0, mu = choose(loose, other_0, mu_0), choose(loose, other, mu)
+            fx, fy = returned(ux, uy, vx, vy, sx, sy, tx, ty, size, fz, mu_0, mu, props, memory, i, above)
+            fx, fy, fz = choose(above, 0.0, fx), choose(above, 0.0, fy), choose(above, 0.0, fz)  # N2
             forces[i, 0], forces[i, 1], forces[i, 2] = fx, fy, fz
             Fx += fx
             Fy += fy
             Fz += fz
-            if listening:
+            if bearing:
                 place0 += fz * rx
                 place1 += fz * ry
                 place2 += fz * rz
@@ -99,21 +108,22 @@ def make_evaluation(groups: int, listening: int = 0):
                     pull = pulled(pull, e, height, rx, ry)
                 if on.viscous:
                     c = -e[slots.VISCOUS + 1]
-                    viscous = pushed(viscous, c * vx, c * vy, rx, ry, rz)
+                    px, py = choose(above, 0.0, c * vx), choose(above, 0.0, c * vy)
+                    viscous = pushed(viscous, px, py, rx, ry, rz)
                 if on.normals:
-                    at = slots.NORMALS + 2 * int(props[i, col.FOOT])
-                    a, b, share = e[at - 1], e[at], e[slots.NORMALS + 9]
+                    foot, share = props[i, col.FOOT], e[slots.NORMALS + 9]
+                    a, b = of_foot(e, slots.NORMALS + 1, foot), of_foot(e, slots.NORMALS + 2, foot)
                     a, b = a + share * ((L0 * a + L1 * b) - a), b + share * ((L3 * a + L4 * b) - b)
                     slope = pushed(slope, fz * a, fz * b, rx, ry, rz)
             if moments_too:
                 if on.spin:
-                    spin += spin_moment(e, props, memory, i, fz, vx, vy, oz, turn2)
+                    spin += choose(above, 0.0, spin_moment(e, props, memory, i, fz, vx, vy, oz, turn2, above))
                 if on.rolling:
-                    mx, my = roll_moment(e, props, memory, i, fz, ox, oy, turn0, turn1)
-                    roll_x += mx
-                    roll_y += my
+                    mx, my = roll_moment(e, props, memory, i, fz, ox, oy, turn0, turn1, above)
+                    roll_x += choose(above, 0.0, mx)
+                    roll_y += choose(above, 0.0, my)
         mass, g, carried = body[col.MASS], body[col.GRAVITY], Fz
-        bearing = (Fz, place0, place1, place2)
+        place = (Fz, place0, place1, place2)
         Fz -= mass * g  # A1
         if forces_too:
             if on.adhesion:
@@ -147,6 +157,6 @@ def make_evaluation(groups: int, listening: int = 0):
         Tx = L0 * Mx + L3 * My + L6 * Mz  # A3
         Ty = L1 * Mx + L4 * My + L7 * Mz
         Tz = L2 * Mx + L5 * My + L8 * Mz
-        return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz, carried, turning, bearing
+        return Fx / mass, Fy / mass, Fz / mass, Tx, Ty, Tz, carried, turning, place
 
-    return evaluate
+    return inlined(marked(evaluate, groups, bearing))

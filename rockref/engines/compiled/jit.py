@@ -18,9 +18,9 @@ from rockref.engines.on_disk import on_disk
 
 _options: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
 
-#: A function whose text is put in place of its call.
-inlined = numba.njit(inline="always", error_model="numpy")
-#: A function that compiled code calls. Where each variant has its own, it is `marked` by the variant first.
+#: A function whose machine code is put in place of its call. Where each variant has its own, it is `marked` first.
+inlined = numba.njit(forceinline=True, **_options)
+#: A function that compiled code calls; marked in the same way.
 called = numba.njit(**_options)
 
 

@@ -24,21 +24,10 @@ steps: Any = None
 
 
 @inlined
-def posed(state):
-    """x, v, Lambda, W, a and T of a row of states."""
-    return (
-        state[0], state[1], state[2], state[3], state[4], state[5], state[6], state[7], state[8], state[9], state[10],
-        state[11], state[12], state[13], state[14], state[15], state[16], state[17], state[18], state[19], state[20],
-        state[21], state[22], state[23],
-    )  # fmt: skip
-
-
-@inlined
-def has_numbers(pose):
+def has_numbers(state):
     """Whether position, velocity and rates are still finite."""
-    return math.isfinite(
-        (pose[0] + pose[1] + pose[2]) + (pose[3] + pose[4] + pose[5]) + (pose[15] + pose[16] + pose[17])
-    )
+    x, v, W = state[0] + state[1] + state[2], state[3] + state[4] + state[5], state[15] + state[16] + state[17]
+    return math.isfinite(x + v + W)
 
 
 def _make_loop(groups: int, source: int):
@@ -60,25 +49,17 @@ def _make_loop(groups: int, source: int):
             body, centres, props, memory, forces = bodies[b], all_centres[b], all_props[b], memories[b], all_forces[b]
             e, on, state, wanted = effects[b], switches(effects[b]), states[b], all_wanted[b]
             rows_state, rows_F, rows_memory = all_rows_state[b], all_rows_F[k], all_rows_memory[k]
-            pose = posed(state)
-            origin, count = state[col.ORIGIN], state[col.COUNT]
-            sunk = (state[col.Q], state[col.Q_RATE], state[col.PITCH], state[col.PITCH_RATE])
-            done, t = 0, state[col.TIME]
             if state[col.GIVEN] == 0.0:
-                pose = pose[:18] + begin(body, centres, props, memory, forces, e, state)
+                begin(body, centres, props, memory, forces, e, on, state)
+                state[col.GIVEN] = 1.0
+            done = 0
             for row in range(wanted.shape[0]):
                 if wanted[row] < 0:
                     break
-                count, t, pose, sunk, _place = steps(
-                    wanted[row] - done, body, centres, props, memory, forces, e, on, h, origin, count, t, pose, sunk
-                )
+                steps(wanted[row] - done, body, centres, props, memory, forces, e, on, h, state)
                 done = wanted[row]
-                for j in range(24):
-                    rows_state[row, j] = pose[j]
-                rows_state[row, col.GIVEN], rows_state[row, col.TIME], rows_state[row, col.ORIGIN] = 1.0, t, origin
-                rows_state[row, col.COUNT] = count
-                for j in range(4):
-                    rows_state[row, col.Q + j] = sunk[j]
+                for j in range(col.STATE):
+                    rows_state[row, j] = state[j]
                 if full:
                     for i in range(centres.shape[0]):
                         for j in range(3):
@@ -86,15 +67,15 @@ def _make_loop(groups: int, source: int):
                         for j in range(col.MEMORY):
                             rows_memory[row, i, j] = memory[i, j]
                 written[b] = row + 1
-                if not has_numbers(pose):
+                if not has_numbers(state):
                     break
 
     return loop
 
 
 def _make_variant(groups: int):
-    evaluate = make_evaluation(groups)
-    own = {"begin": make_begin(groups, evaluate), "steps": make_steps(groups, evaluate)}
+    evaluate = make_evaluation(groups, bearing=0)
+    own = {"begin": make_begin(groups, evaluate), "steps": make_steps(groups, evaluate, bearing=0)}
     return entered(_make_loop(groups, FINGERPRINT), **own)
 
 

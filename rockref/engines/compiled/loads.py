@@ -7,6 +7,7 @@ import math
 from rockref.effects.loads.lingering_wire_pull import LEAST_EVENNESS
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.jit import inlined
+from rockref.engines.compiled.lanes import anyof, choose, negated
 
 
 @inlined
@@ -15,10 +16,12 @@ def of_time(on, e, t):
     pull = cosine = 0.0
     if on.wire:
         even = e[slots.WIRE + 4]
-        if even > LEAST_EVENNESS:
-            left = max(1.0 - even * t / e[slots.WIRE + 2], 0.0) ** (1.0 / even)
-        else:
-            left = math.exp(-t / e[slots.WIRE + 2])
+        evenly = even > LEAST_EVENNESS
+        left = even
+        if anyof(evenly):
+            left = max(1.0 - even * t / e[slots.WIRE + 2], 0.0) ** (1.0 / choose(evenly, even, 1.0))
+        if anyof(negated(evenly)):
+            left = choose(evenly, left, math.exp(-t / e[slots.WIRE + 2]))
         pull = e[slots.WIRE + 1] * left
     if on.vibration:
         cosine = math.cos(e[slots.VIBRATION + 2] * t + e[slots.VIBRATION + 3])
@@ -81,8 +84,11 @@ def advance_support(e, weight, h, carried, turning, plate):
     k, (q, q_rate, pitch, pitch_rate) = slots.SUPPORT, plate
     q_rate = q_rate + h * ((weight - carried) - e[k + 2] * q - e[k + 3] * q_rate) / e[k + 1]
     q = q + h * q_rate
-    if e[k + 4] != 0.0:
+    pitches = e[k + 4] != 0.0
+    if anyof(pitches):
         load = e[k + 7] - turning
-        pitch_rate = pitch_rate + h * (load - e[k + 5] * pitch - e[k + 6] * pitch_rate) / e[k + 4]
-        pitch = pitch + h * pitch_rate
+        inertia = choose(pitches, e[k + 4], 1.0)
+        next_rate = pitch_rate + h * (load - e[k + 5] * pitch - e[k + 6] * pitch_rate) / inertia
+        pitch = choose(pitches, pitch + h * next_rate, pitch)
+        pitch_rate = choose(pitches, next_rate, pitch_rate)
     return q, q_rate, pitch, pitch_rate

@@ -11,6 +11,7 @@ from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.contact import length
 from rockref.engines.compiled.jit import inlined
+from rockref.engines.compiled.lanes import anyof, choose
 
 #: Arm of the turning stiffness [m], as in `rockref.effects.friction.rolling_resistance`.
 ARM = 0.05
@@ -21,8 +22,7 @@ def pulled(sums, e, height, rx, ry):
     """Adhesion: force along z and moments about x and y, with the pull of one point at this height [m] added."""
     z, mx, my = sums
     pull = e[slots.ADHESION + 1]
-    if height > 0.0:
-        pull = pull * max(1 + -height / e[slots.ADHESION + 2], 0.0)
+    pull = choose(height > 0.0, pull * max(1 + -height / e[slots.ADHESION + 2], 0.0), pull)
     return z - pull, mx - ry * pull, my + rx * pull
 
 
@@ -34,7 +34,15 @@ def pushed(sums, px, py, rx, ry, rz):
 
 
 @inlined
-def spin_moment(e, props, memory, i, F_N, vx, vy, oz, turn2):
+def of_foot(e, first, foot):
+    """The number of one of the four feet, of which the first stands at `first` and each next one two further."""
+    return choose(
+        foot < 2.5, choose(foot < 1.5, e[first], e[first + 2]), choose(foot < 3.5, e[first + 4], e[first + 6])
+    )
+
+
+@inlined
+def spin_moment(e, props, memory, i, F_N, vx, vy, oz, turn2, above):
     """Moment about the vertical of a touching point; its yaw moves on."""
     radius, share = e[slots.SPIN + 1], e[slots.SPIN + 2]
     square = radius * radius
@@ -42,19 +50,21 @@ def spin_moment(e, props, memory, i, F_N, vx, vy, oz, turn2):
     yaw = memory[i, col.YAW] + turn2
     M = -K * yaw - C * oz
     limit = radius * props[i, col.MU] * F_N
-    if share != 0.0:
+    if anyof(share != 0.0):
         rim = radius * abs(oz)
         size = math.sqrt(rim * rim + vx * vx + vy * vy)
-        limit = limit * (1 + share * ((rim / size if size > 0.0 else 1.0) - 1))
-    if abs(M) > limit:
-        M = min(max(M, -limit), limit)
-        yaw = -(M + C * oz) / K
-    memory[i, col.YAW] = yaw
+        weaker = limit * (1 + share * (choose(size > 0.0, rim / size, 1.0) - 1))
+        limit = choose(share != 0.0, weaker, limit)
+    slides = abs(M) > limit
+    if anyof(slides):
+        M = choose(slides, min(max(M, -limit), limit), M)
+        yaw = choose(slides, -(M + C * oz) / K, yaw)
+    memory[i, col.YAW] = choose(above, 0.0, yaw)
     return M
 
 
 @inlined
-def roll_moment(e, props, memory, i, F_N, ox, oy, turn0, turn1):
+def roll_moment(e, props, memory, i, F_N, ox, oy, turn0, turn1, above):
     """Moments about x and y of a touching point; the moments that its springs hold move on."""
     lever = e[slots.ROLLING + 1]
     size = lever * ARM
@@ -63,9 +73,10 @@ def roll_moment(e, props, memory, i, F_N, ox, oy, turn0, turn1):
     dx, dy = C * ox, C * oy
     mx, my = hx - dx, hy - dy
     trial, limit = length(mx, my), lever * F_N
-    if trial > limit:
+    slides = trial > limit
+    if anyof(slides):
         scale = limit / trial
-        mx, my = scale * mx, scale * my
-        hx, hy = mx + dx, my + dy
-    memory[i, col.ROLL_X], memory[i, col.ROLL_Y] = hx, hy
+        mx, my = choose(slides, scale * mx, mx), choose(slides, scale * my, my)
+        hx, hy = choose(slides, mx + dx, hx), choose(slides, my + dy, hy)
+    memory[i, col.ROLL_X], memory[i, col.ROLL_Y] = choose(above, 0.0, hx), choose(above, 0.0, hy)
     return mx, my

@@ -42,6 +42,12 @@ Switches = namedtuple(
     "tilt support",
 )
 
+#: The slots of these switches, in the same order.
+SWITCHED_BY = [
+    HERTZ, HYSTERESIS, HUNT, ORIENTATION, STRIBECK, LOAD, ADHESION, VISCOUS, NORMALS, SPIN, ROLLING, DRAG, CABLE, WIRE,
+    VIBRATION, TILT, SUPPORT,
+]  # fmt: skip
+
 #: The groups of effects that a variant of the compiled step has or has not, with the slots of their numbers.
 CONTACT, FORCES, MOMENTS, LOADS, PLATE = 1, 2, 4, 8, 16
 GROUPS = {

@@ -7,24 +7,25 @@ import math
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.jit import called, inlined, marked
+from rockref.engines.compiled.lanes import anyof, choose, negated
 from rockref.engines.compiled.loads import advance_support, of_time
 
 
 @inlined
 def times(body, at, x, y, z):
     """J or J^-1, which stand in `body` from column `at`, times a vector."""
-    if body[col.PRINCIPAL] != 0.0:
-        return body[at] * x, body[at + 4] * y, body[at + 8] * z
-    return (
-        body[at] * x + body[at + 1] * y + body[at + 2] * z,
-        body[at + 3] * x + body[at + 4] * y + body[at + 5] * z,
-        body[at + 6] * x + body[at + 7] * y + body[at + 8] * z,
-    )
+    principal = body[col.PRINCIPAL] != 0.0
+    a, b, c = body[at] * x, body[at + 4] * y, body[at + 8] * z
+    if anyof(negated(principal)):
+        a = choose(principal, a, body[at] * x + body[at + 1] * y + body[at + 2] * z)
+        b = choose(principal, b, body[at + 3] * x + body[at + 4] * y + body[at + 5] * z)
+        c = choose(principal, c, body[at + 6] * x + body[at + 7] * y + body[at + 8] * z)
+    return a, b, c
 
 
 @called
 def _long_series(t):
-    s = c = 1.0 if t <= 10.24 else math.nan  # beyond 3.2 rad the law refuses the step: the caller finds out where
+    s = c = choose(t <= 10.24, 1.0, math.nan)  # beyond 3.2 rad the law refuses the step: the caller finds out where
     for k in range(17, 0, -1):
         s = 1.0 - t * s * (1.0 / (2 * k * (2 * k + 1)))
         c = 1.0 - t * c * (1.0 / ((2 * k + 1) * (2 * k + 2)))
@@ -34,15 +35,18 @@ def _long_series(t):
 @inlined
 def series(t):
     """sin(theta)/theta and (1 - cos(theta))/theta^2 from t = theta^2, as `rotation.series_coefficients`."""
-    if not t <= 1e-4:
-        return _long_series(t)
     s = 1.0 - t * 1.0 * (1.0 / 42.0)
     s = 1.0 - t * s * (1.0 / 20.0)
     s = 1.0 - t * s * (1.0 / 6.0)
     c = 1.0 - t * 1.0 * (1.0 / 56.0)
     c = 1.0 - t * c * (1.0 / 30.0)
     c = 1.0 - t * c * (1.0 / 12.0)
-    return s, c / 2
+    c = c / 2
+    short = t <= 1e-4
+    if anyof(negated(short)):
+        longer_s, longer_c = _long_series(t)
+        s, c = choose(short, s, longer_s), choose(short, c, longer_c)
+    return s, c
 
 
 @inlined
@@ -78,40 +82,49 @@ def switches(e):
     )  # fmt: skip
 
 
-def make_begin(groups: int, evaluate, listening: int = 0):
+@inlined
+def plate_of(state):
+    """q, q_rate, pitch and pitch_rate of the plate."""
+    return state[col.Q], state[col.Q_RATE], state[col.PITCH], state[col.PITCH_RATE]
+
+
+def make_begin(groups: int, evaluate):
     """The first force evaluation of a run with these groups of effects."""
 
-    def begin(body, centres, props, memory, forces, e, s):
-        """a and T (6) at the start; forces and memories are written."""
-        forces[:, :] = 0.0
-        on = switches(e)
-        sunk = (s[col.Q], s[col.Q_RATE], s[col.PITCH], s[col.PITCH_RATE])
+    def begin(body, centres, props, memory, forces, e, on, s):
+        """Writes a and T into the state at the start, and forces and memories."""
+        for i in range(centres.shape[0]):
+            for j in range(3):
+                forces[i, j] = 0.0
         a0, a1, a2, T0, T1, T2, _, _, _ = evaluate(
-            body, centres, props, memory, forces, e, on, of_time(on, e, s[col.TIME]), sunk,
+            body, centres, props, memory, forces, e, on, of_time(on, e, s[col.TIME]), plate_of(s),
             s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14],
             s[15], s[16], s[17], (0.0, 0.0, 0.0),
         )  # fmt: skip
+        s[18], s[19], s[20], s[21], s[22], s[23] = a0, a1, a2, T0, T1, T2
         for i in range(centres.shape[0]):
-            if memory[i, col.ANCHORED] == 0.0:  # only a touching point slides and remembers, whatever the start says
+            free = memory[i, col.ANCHORED] == 0.0
+            if anyof(free):  # only a touching point slides and remembers, whatever the start says
                 for j in range(col.SLIDING, col.MEMORY):
-                    memory[i, j] = 0.0
-        return a0, a1, a2, T0, T1, T2
+                    memory[i, j] = choose(free, 0.0, memory[i, j])
 
-    return called(marked(begin, groups, listening))
+    return called(marked(begin, groups))
 
 
-def make_steps(groups: int, evaluate, listening: int = 0):
-    """The steps of runs with these groups of effects; `listening` as in `make_evaluation`."""
+def make_steps(groups: int, evaluate, bearing: int):
+    """The steps of runs with these groups of effects; `bearing` as in `make_evaluation`."""
     loads, plate = groups & slots.LOADS, groups & slots.PLATE
 
-    @inlined
-    def steps(number, body, centres, props, memory, forces, e, on, h, origin, count, t, pose, sunk):
-        """Make a number of steps; forces and memories are written.
+    def steps(number, body, centres, props, memory, forces, e, on, h, state):
+        """Make a number of steps; state, forces and memories are written.
 
-        pose : x, v, Lambda, W, a, T;  sunk : q, q_rate, pitch, pitch_rate of the plate  ->  both one piece of the run
-        later, with count and time, and the sums over these steps of normal force and normal force times lever arm (4).
+        Returns the sums over these steps of normal force and normal force times lever arm (4), or zeros.
         """
-        x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, a0, a1, a2, T0, T1, T2 = pose
+        x0, x1, x2, v0, v1, v2 = state[0], state[1], state[2], state[3], state[4], state[5]
+        L0, L1, L2, L3, L4, L5 = state[6], state[7], state[8], state[9], state[10], state[11]
+        L6, L7, L8, W0, W1, W2 = state[12], state[13], state[14], state[15], state[16], state[17]
+        a0, a1, a2, T0, T1, T2 = state[18], state[19], state[20], state[21], state[22], state[23]
+        t, origin, count, sunk = state[col.TIME], state[col.ORIGIN], state[col.COUNT], plate_of(state)
         half, half_square = h / 2, h * h / 2
         load = place0 = place1 = place2 = 0.0
         for _ in range(number):
@@ -136,7 +149,7 @@ def make_steps(groups: int, evaluate, listening: int = 0):
             L0, L1, L2 = turned(L0, L1, L2, E)  # I3
             L3, L4, L5 = turned(L3, L4, L5, E)
             L6, L7, L8 = turned(L6, L7, L8, E)
-            b0, b1, b2, N0, N1, N2, carried, turning, bearing = evaluate(
+            b0, b1, b2, N0, N1, N2, carried, turning, place = evaluate(
                 body, centres, props, memory, forces, e, on, timed, sunk,
                 x0, x1, x2, v0 + h * a0, v1 + h * a1, v2 + h * a2, L0, L1, L2, L3, L4, L5, L6, L7, L8,
                 W0 + h * A0, W1 + h * A1, W2 + h * A2, (turn0, turn1, turn2),
@@ -156,14 +169,17 @@ def make_steps(groups: int, evaluate, listening: int = 0):
             )  # fmt: skip
             W0, W1, W2 = W0 + gain0, W1 + gain1, W2 + gain2  # I5
             T0, T1, T2 = N0, N1, N2
-            if listening:
-                load += bearing[0]
-                place0 += bearing[1]
-                place1 += bearing[2]
-                place2 += bearing[3]
-        pose = (
-            x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, a0, a1, a2, T0, T1, T2,
-        )  # fmt: skip
-        return count, t, pose, sunk, (load, place0, place1, place2)
+            if bearing:
+                load += place[0]
+                place0 += place[1]
+                place1 += place[2]
+                place2 += place[3]
+        state[0], state[1], state[2], state[3], state[4], state[5] = x0, x1, x2, v0, v1, v2
+        state[6], state[7], state[8], state[9], state[10], state[11] = L0, L1, L2, L3, L4, L5
+        state[12], state[13], state[14], state[15], state[16], state[17] = L6, L7, L8, W0, W1, W2
+        state[18], state[19], state[20], state[21], state[22], state[23] = a0, a1, a2, T0, T1, T2
+        state[col.TIME], state[col.COUNT] = t, count
+        state[col.Q], state[col.Q_RATE], state[col.PITCH], state[col.PITCH_RATE] = sunk
+        return load, place0, place1, place2
 
-    return steps
+    return inlined(marked(steps, groups, bearing))

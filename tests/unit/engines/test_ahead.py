@@ -10,7 +10,7 @@ from rockref import engines
 
 pytest.importorskip("numba", reason="the compiled engine is the extra `fast`")
 
-from rockref.engines.compiled import ahead, kernel, slots
+from rockref.engines.compiled import abreast, ahead, slots
 
 
 class Process:
@@ -56,13 +56,13 @@ def test_none_is_begun_where_there_is_nothing_to_do_or_nobody_to_do_it(monkeypat
 
 
 def test_every_variant_but_the_law_is_compiled_ahead():
-    assert set(ahead.ORDER) | {0} == set(kernel.LOOPS)
+    assert set(ahead.ORDER) | {0} == set(abreast.LOOPS)
 
 
 @pytest.mark.parametrize("groups", ahead.ORDER)
 def test_what_is_made_is_the_variant_that_was_asked_for(monkeypatch, groups):
     called = []
-    monkeypatch.setattr(kernel, "LOOPS", {g: (lambda *a, g=g: called.append(g)) for g in kernel.LOOPS})
+    monkeypatch.setattr(abreast, "LOOPS", {g: (lambda *a, g=g: called.append(g)) for g in abreast.LOOPS})
     ahead.make(groups)
     assert called == [groups]
 

@@ -9,9 +9,9 @@ pytest.importorskip("numba")
 
 import rockref
 from rockref.effects.catalogue import EFFECTS
+from rockref.engines.compiled import batch, engine
 from rockref.engines.compiled import columns as col
-from rockref.engines.compiled import engine
-from rockref.engines.compiled.batch import from_problems, run_batch
+from rockref.engines.compiled.batch import from_problems, run_batch, run_reduced
 from rockref.model.errors import InputError
 from tests.property.engines.problems import similar_problem
 
@@ -83,6 +83,21 @@ def test_a_lost_run_has_no_numbers_in_the_rows_that_are_wanted():
     batch = replace(from_problems([bad]), wanted=np.array([0, 5, 9, -1]))
     states = run_batch(batch, out=np.full((1, 4, col.STATE), 4.0))[0, :, col.W_]
     assert np.isnan(states[1:3]).all() and states[3] == 4.0
+
+
+def test_a_summary_of_runs_is_that_of_all_their_rows(problems, monkeypatch):
+    """In pieces of a few runs, none of which holds more than its own rows."""
+    whole, seen = from_problems(problems * 5), []
+    monkeypatch.setattr(batch, "ROWS_A_PIECE", 1)
+    monkeypatch.setattr(batch, "PIECES", 1)
+
+    def largest(states):
+        seen.append(len(states))
+        return np.abs(states[:, :, col.W_ : col.W_ + 3]).max(axis=1)
+
+    found = run_reduced(whole, largest, workers=1)
+    assert sum(seen) == 20 and max(seen) < 20
+    np.testing.assert_array_equal(found, largest(run_batch(whole)))
 
 
 def test_a_run_that_loses_its_numbers_spoils_no_other():

@@ -8,26 +8,29 @@ import pytest
 
 pytest.importorskip("numba")
 
-from rockref.engines.compiled import kernel, slots
+from rockref.engines.compiled import abreast, kernel, slots
 
 
 def test_variants_do_not_share_a_file():
     """numba names the files after the qualified name and the line; the line is the same for all."""
-    texts = [loop.py_func for loop in kernel.LOOPS.values()]
-    assert len({text.__code__.co_firstlineno for text in texts}) == 1
-    assert len({text.__qualname__ for text in texts}) == len(texts) == len(slots.VARIANTS)
+    for loops in (kernel.LOOPS, abreast.LOOPS):
+        texts = [loop.py_func for loop in loops.values()]
+        assert len({text.__code__.co_firstlineno for text in texts}) == 1
+        assert len({text.__qualname__ for text in texts}) == len(texts) == len(slots.VARIANTS)
 
 
 def test_each_variant_calls_functions_of_its_own():
-    called = [loop.py_func.__globals__["steps"] for loop in kernel.LOOPS.values()]
+    called = [loop.py_func.__globals__["steps"] for module in (kernel, abreast) for loop in module.LOOPS.values()]
     assert len(set(map(id, called))) == len(called)
-    assert kernel.steps is None, "the text of the loop itself belongs to no variant"
+    assert kernel.steps is abreast.steps is None, "the text of the loop itself belongs to no variant"
 
 
 def test_what_each_variant_calls_has_a_name_of_its_own():
     """The name is part of the symbol in the machine code; two of one name are one function where both are loaded."""
-    names = [loop.py_func.__globals__["begin"].py_func.__qualname__ for loop in kernel.LOOPS.values()]
-    assert len(set(names)) == len(slots.VARIANTS)
+    for loops in (kernel.LOOPS, abreast.LOOPS):
+        for called in ("begin", "steps"):
+            names = [loop.py_func.__globals__[called].py_func.__qualname__ for loop in loops.values()]
+            assert len(set(names)) == len(slots.VARIANTS)
 
 
 #: The first force evaluation of the law, or of a run with one effect, compiled against the law in NumPy.
