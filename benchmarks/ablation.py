@@ -25,11 +25,11 @@ from typing import Any
 
 import numpy as np
 from rich.progress import Progress
+from rivals import first_of_ranking, said
 
 from rockref.blind.cases.sealing import unseal, write_json
-from rockref.blind.scoring.evaluation import VERDICT
+from rockref.blind.scoring.judging import VERDICT
 from rockref.blind.scoring.marks import mark
-from rockref.blind.scoring.rivals import first_of_ranking, said
 from rockref.blind.scoring.table import scores
 from rockref.discover import window_rules as rules
 from rockref.discover.compare.models import baseline_model

@@ -1,4 +1,4 @@
-"""`rockref blind make` and `rockref blind score`: verdicts on hidden effects, tested without knowing them."""
+"""`rockref blind make`, `score` and `judge`: verdicts on hidden effects, tested without knowing them."""
 
 import json
 from pathlib import Path
@@ -14,14 +14,16 @@ HELP = """Test the discoverer on sealed hidden effects.
 Example:
   rockref blind make blind --seed 7 --cases 12
   rockref blind score blind
+  rockref blind judge blind
 """
 
 
 def register(app: typer.Typer) -> None:
-    """Add ``blind make`` and ``blind score`` to `app`."""
+    """Add ``blind make``, ``blind score`` and ``blind judge`` to `app`."""
     group = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help=HELP)
     group.command("make")(make)
     group.command("score")(score)
+    group.command("judge")(judge)
     app.add_typer(group, name="blind")
 
 
@@ -99,7 +101,6 @@ def score(
     ],
     workers: Annotated[int | None, typer.Option(min=1, help="Cases at a time; one a core by default.")] = None,
     dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
-    rivals: Annotated[bool, typer.Option("--rivals/--no-rivals", help="Score simpler methods beside it.")] = True,
     check: Annotated[bool, typer.Option("--check", help="End with 1 if a goal is not met.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
 ) -> None:
@@ -113,21 +114,56 @@ def score(
       rockref blind score blind --workers 2
       rockref blind score blind --json > scores.json
     """
-    from rockref.blind.scoring import evaluation, table
+    from rockref.blind.scoring import evaluation
     from rockref.commands._progress import progress
 
     with progress("diagnosing cases") as ahead:
-        found = evaluation.score(folder, workers=workers, dask=dask, with_rivals=rivals, progress=ahead)
+        found = evaluation.score(folder, workers=workers, dask=dask, progress=ahead)
+    _print(found, as_json)
+    for what, whole in found["sealed"].items():
+        if not whole:
+            typer.echo(f"rockref: not as it was sealed: {what}", err=True)
+    _check(found, check)
+
+
+def judge(
+    folder: Annotated[
+        Path, typer.Argument(parser=folder_name, metavar="FOLDER", help="Folder scored by `rockref blind score`.")
+    ],
+    check: Annotated[bool, typer.Option("--check", help="End with 1 if a goal is not met.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+) -> None:
+    """Decide every case again from its stored evidence, by today's rules and calibration, and print the scores.
+
+    Nothing is fitted and nothing is written: hundreds of cases take seconds. A case without evidence.json keeps its
+    stored verdict. Probabilities are compared with how often verdicts are right.
+
+    \b
+    Example:
+      rockref blind judge blind
+    """
+    from rockref.blind.scoring import evaluation
+
+    found = evaluation.judge(folder)
+    _print(found, as_json)
+    _check(found, check)
+
+
+def _print(found: dict, as_json: bool) -> None:
+    """The scores, the cases that failed, and how right stated probabilities are."""
+    from rockref.blind.scoring import intervals, table
+
     if as_json:
         typer.echo(json.dumps(found, indent=1))
-    else:
-        typer.echo(table.as_text(found["scores"]))
-        for line in found["failures"]:
-            typer.echo(f"- {line}")
-        if found["rivals"]:
-            typer.echo("\n" + table.beside({"discoverer": found["scores"], **found["rivals"]}))
-        for what, whole in found["sealed"].items():
-            if not whole:
-                typer.echo(f"rockref: not as it was sealed: {what}", err=True)
-    if check and any(row["met"] is False for row in found["scores"]):
+        return
+    typer.echo(table.as_text(found["by_block"]))
+    for line in found["failures"]:
+        typer.echo(f"- {line}")
+    for block, rows in found["reliability"].items():
+        if rows:
+            typer.echo(f"\nProbabilities, {block}\n\n{intervals.as_text(rows)}")
+
+
+def _check(found: dict, check: bool) -> None:
+    if check and any(row["met"] is False for rows in found["by_block"].values() for row in rows):
         raise typer.Exit(1)

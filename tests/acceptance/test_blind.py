@@ -54,7 +54,7 @@ def test_an_effect_in_no_list_is_something_else(tmp_path):
 def test_sixty_cases_are_no_worse_than_the_documentation_says(tmp_path):
     """Hours of processor time. Interrupted, `rockref blind score` goes on in the folder that is left."""
     make(tmp_path / "blind", 1515, 60, 0)
-    found = score(tmp_path / "blind", with_rivals=False)
+    found = score(tmp_path / "blind")
     assert all(found["sealed"].values())
     rows = {row["score"]: row["value"] for row in found["scores"]}
     print("\n".join(found["failures"]))

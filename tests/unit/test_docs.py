@@ -54,6 +54,15 @@ def test_the_pages_of_commands_and_names_are_up_to_date():
     assert reference.API.read_text(encoding="utf-8") == reference.api_page()
 
 
+def test_the_table_of_blind_sets_is_up_to_date():
+    """`python docs/make_blind_history.py` writes it anew."""
+    history = program("docs/make_blind_history.py")
+    assert history.PAGE.read_text(encoding="utf-8") == history.text()
+    for row in history.rows():
+        for _, hits, n in history.SHARES:
+            assert not row[hits] or not row[n] or int(row[hits]) <= int(row[n]), row["set"]
+
+
 def test_the_tables_are_those_of_the_measured_figures(figures):
     """`python docs/make_figures.py` writes it anew."""
     text = figures.README.read_text(encoding="utf-8")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
+from rockref.blind.cases.blocks import NEAR
 from rockref.blind.cases.plan import CONTROL, FAULTY, OUTSIDER, PAIR, SINGLE, TWIN
 from rockref.blind.scoring.sizes import covered, size_error, stated
-from rockref.discover.window_rules import least_seen
 
 #: Verdicts that say of one or two effects that they are there.
 NAMING = ("named", "pair")
@@ -33,6 +34,7 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
     found: dict[str, Any] = {
         "name": truth["name"],
         "kind": kind,
+        "block": (truth.get("block") or {}).get("family", NEAR),
         "truth": true,
         "sizes": [e["size"] for e in truth["effects"]],
         "forms": [e["form"] for e in truth["effects"]],
@@ -40,6 +42,8 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
         "said": said,
         "wrong_name": word in NAMING and not set(said) <= right,
         "seconds": verdict.get("seconds"),
+        "probability": verdict.get("probability"),
+        "right": is_right(kind, true, right, word, said),
     }
     if kind == CONTROL:
         found["false_alarm"] = word in CLAIMS or word == "something_else"
@@ -64,6 +68,33 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
     if kind in (SINGLE, PAIR):
         found["gap_closed"] = gap_closed(verdict.get("error") or {})
     return found
+
+
+def is_right(kind: str, true: list[str], right: set[str], word: str, said: list[str]) -> bool:
+    """Whether a verdict is right as it stands, which is what its stated probability is the probability of.
+
+    true : effects that are hidden; right : those that may be named. A class is right if it holds the truth.
+    """
+    if kind == CONTROL:
+        return word == "none"
+    if kind == OUTSIDER:
+        return word == "something_else"
+    if kind == FAULTY:
+        return word in REFUSALS
+    if word == "class":
+        return bool(set(said) & right) if kind != PAIR else set(true) <= set(said)
+    if kind == PAIR:
+        return word in CLAIMS and set(said) == set(true)
+    return word in ("named", "indicated") and len(said) == 1 and said[0] in right
+
+
+def least_seen(limits: dict[str, dict[str, Any]]) -> dict[str, float]:
+    """Return the least size, in typical ones, at which each effect would be seen, from the limits of its parameters."""
+    least: dict[str, float] = {}
+    for name, limit in limits.items():
+        effect = name.partition(".")[0]
+        least[effect] = min(least.get(effect, math.inf), float(limit["in_typical_sizes"]))
+    return least
 
 
 def is_below_limit(effect: dict[str, Any], verdict: dict[str, Any]) -> bool:

@@ -40,8 +40,8 @@ def test_a_folder_that_is_no_blind_test_is_refused(capsys, tmp_path):
 def test_make_hands_over_what_was_asked_for(capsys, tmp_path, monkeypatch):
     asked = {}
 
-    def make(folder, seed, n, **more):
-        asked.update(more, seed=seed, n=n)
+    def make(folder, seed, near, other, **more):
+        asked.update(more, seed=seed, near=near, other=other)
         return {"truth_sha256": "abc", "cases": {"case-001": {}}}
 
     monkeypatch.setattr(making, "make", make)
@@ -53,33 +53,51 @@ def test_make_hands_over_what_was_asked_for(capsys, tmp_path, monkeypatch):
     ]
 
 
-def test_check_ends_with_1_where_a_goal_is_missed(capsys, tmp_path, monkeypatch):
-    row = {"score": "a", "value": 0.5, "low": 0.3, "high": 0.7, "n": 4, "goal": ">= 0.9", "met": False, "percent": True}
-    found = {"scores": [row], "failures": ["case-001"], "rivals": {"r": [row]}, "sealed": {"truth": False}}
-    monkeypatch.setattr(evaluation, "score", lambda *a, **k: found)
-    code, printed = run(capsys, "score", tmp_path, "--check")
-    assert code == 1 and "| a | 50.0 % | 30.0 % to 70.0 % | 4 | >= 0.9 | **no** |" in printed.out
-    assert "| score | discoverer | r | n |" in printed.out and "| a | 50.0 % | 50.0 % | 4 |" in printed.out
-    assert "not as it was sealed: truth" in printed.err
-    assert run(capsys, "score", tmp_path)[0] == 0
-
-
-def test_make_says_how_many_cases_there_are_and_the_digest_of_the_truth(capsys, tmp_path, monkeypatch):
-    asked = {}
+def test_other_blocks_are_asked_for_by_number(capsys, tmp_path, monkeypatch):
+    asked = []
     made = {"truth_sha256": "abc", "cases": {"case-001": {}, "case-002": {}}}
-    monkeypatch.setattr(making, "make", lambda folder, seed, n, **more: asked.update(more, n=n) or made)
-    code, printed = run(capsys, "make", tmp_path, "--seed", 7, "--cases", 2)
+    monkeypatch.setattr(making, "make", lambda folder, seed, *numbers, **more: asked.append((numbers, more)) or made)
+    code, printed = run(capsys, "make", tmp_path, "--seed", 7, "--cases", 9)
     assert code == 0 and printed.out == f"2 cases in {tmp_path}; truth sealed, SHA-256 abc\n"
-    assert asked["n"] == 2 and asked["cases"] is None
+    run(capsys, "make", tmp_path, "--seed", 7, "--other", 4)
+    run(capsys, "make", tmp_path, "--seed", 7, "--near", 1, "--other", 2, "--effects", "none")
+    assert [numbers for numbers, _ in asked] == [(6, 3), (0, 4), (1, 2)]
+    assert asked[0][1]["cases"] is None and sorted(c.block for c in asked[2][1]["cases"]) == ["near", "other", "other"]
 
 
-def test_scores_that_all_meet_their_goals_pass_the_check_and_nothing_else_is_said(capsys, tmp_path, monkeypatch):
-    row = {"score": "a", "value": 0.95, "low": 0.8, "high": 1.0, "n": 4, "goal": ">= 0.9", "met": True, "percent": True}
-    found = {"scores": [row], "failures": [], "rivals": {}, "sealed": {"truth": True, "verdicts": True}}
-    asked = {}
-    monkeypatch.setattr(evaluation, "score", lambda *a, **k: asked.update(k) or found)
-    code, printed = run(capsys, "score", tmp_path, "--check", "--no-rivals")
-    assert code == 0 and printed.err == "" and asked["with_rivals"] is False
-    assert "95.0 %" in printed.out and "discoverer" not in printed.out
+def test_no_case_at_all_is_refused(capsys, tmp_path):
+    code, printed = run(capsys, "make", tmp_path / "b", "--seed", 1, "--near", 0)
+    assert code == 2 and "[E-RANGE]" in printed.err and not (tmp_path / "b").exists()
+
+
+def found_with(value, met, **more):
+    row = {"score": "a", "value": value, "low": 0.3, "high": 0.9, "n": 4, "hits": 2, "goal": ">= 0.9", "met": met}
+    rows = {"near": [row | {"percent": True}], "other": []}
+    return {"by_block": rows, "reliability": {"near": []}, "failures": ["case-001"], "sealed": {"truth": True}} | more
+
+
+@pytest.mark.parametrize("command", ["score", "judge"])
+def test_check_ends_with_1_where_a_goal_is_missed(capsys, tmp_path, monkeypatch, command):
+    monkeypatch.setattr(evaluation, command, lambda *a, **k: found_with(0.5, False))
+    code, printed = run(capsys, command, tmp_path, "--check")
+    assert code == 1 and "| a | 2 of 4 (30.0 % to 90.0 %) | >= 0.9 **missed** |" in printed.out
+    assert "- case-001" in printed.out and run(capsys, command, tmp_path)[0] == 0
+
+
+def test_scores_that_meet_their_goals_pass_the_check(capsys, tmp_path, monkeypatch):
+    found = found_with(0.95, True)
+    monkeypatch.setattr(evaluation, "score", lambda *a, **k: found)
     code, printed = run(capsys, "score", tmp_path, "--check", "--json")
-    assert code == 0 and json.loads(printed.out) == found and asked["with_rivals"] is True
+    assert code == 0 and printed.err == "" and json.loads(printed.out) == found
+
+
+def test_what_is_not_as_it_was_sealed_is_told(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(evaluation, "score", lambda *a, **k: found_with(0.95, True, sealed={"truth": False}))
+    assert "not as it was sealed: truth" in run(capsys, "score", tmp_path)[1].err
+
+
+def test_probabilities_are_told_where_verdicts_state_them(capsys, tmp_path, monkeypatch):
+    row = {"from": 0.9, "to": 0.95, "stated": 0.93, "right": 3, "n": 4, "low": 0.3, "high": 0.95}
+    monkeypatch.setattr(evaluation, "judge", lambda *a: found_with(0.95, True, reliability={"other": [row]}))
+    printed = run(capsys, "judge", tmp_path)[1].out
+    assert "Probabilities, other" in printed and "| 0.9 to 0.95 | 93.0 % | 3 of 4 | 30 to 95 % |" in printed

@@ -6,7 +6,7 @@ import pytest
 
 from rockref.blind.scoring.marks import gap_closed, mark
 from rockref.blind.scoring.sizes import covered, size_error, stated
-from rockref.blind.scoring.table import as_text, beside, failures, scores
+from rockref.blind.scoring.table import as_text, failures, scores
 
 
 def truth(kind, *effects, form="catalogue", twins=(), parameters=None, card=None):
@@ -158,8 +158,9 @@ def test_table_and_failures():
     assert rows["seconds a case, median"]["met"] is True
     (line,) = failures(marks)
     assert "nothing; verdict: named adhesion" in line
-    text = as_text(scores(marks))
-    assert "| controls: false alarms | 4.2 % |" in text and "**no**" in text
+    text = as_text({"near": scores(marks), "other": scores([])})
+    assert "| controls: false alarms | 1 of 24 (" in text and "<= 0 **missed** |" in text
+    assert text.startswith("| score | near | goal |") and "two effects" not in text
 
 
 def test_the_best_possible_answers_meet_every_goal():
@@ -200,14 +201,32 @@ def test_what_a_verdict_says_of_other_effects_or_without_a_number_is_left_out():
     assert stated(None, "cable_restraint") == {}
 
 
-def test_methods_stand_side_by_side_where_there_is_a_goal_and_a_case():
-    good = scores([mark(truth("control"), said("none"))])
-    bad = scores([mark(truth("control"), said("named", "adhesion"))])
-    head, _, *lines = beside({"ours": good, "rival": bad}).splitlines()
-    assert head == "| score | ours | rival | n |"
-    # No single effects, no pairs, no goal for what is only told; seconds are of one method alone.
-    assert lines == [
-        "| controls: false alarms | 0.0 % | 100.0 % | 1 |",
-        "| controls: an effect named | 0.0 % | 100.0 % | 1 |",
-        "| all: wrong name | 0.0 % | 100.0 % | 1 |",
-    ]
+def test_goals_of_other_blocks_are_their_own():
+    singles = [mark(truth("single", "adhesion"), said("named", "adhesion" if i else "clock_error")) for i in range(20)]
+    met = {b: {r["score"]: r["met"] for r in scores(singles, b)}["single: truth first"] for b in ("near", "other")}
+    assert met == {"near": False, "other": True}  # 95 %
+
+
+@pytest.mark.parametrize(
+    ("case", "verdict", "right"),
+    [
+        (truth("control"), said("none"), True),
+        (truth("control"), said("indicated", "adhesion"), False),
+        (truth("single", "adhesion"), said("none"), False),
+        (truth("single", "adhesion"), said("indicated", "adhesion"), True),
+        (truth("single", "adhesion"), said("class", "clock_error", "adhesion"), True),
+        (truth("single", "adhesion"), said("pair", "adhesion", "clock_error"), False),
+        (truth("twin", "adhesion", twins=("adhesion", "gyro_drift")), said("named", "gyro_drift"), True),
+        (truth("pair", "plate_tilt", "gyro_drift"), said("named", "plate_tilt"), False),
+        (truth("pair", "plate_tilt", "gyro_drift"), said("pair", "gyro_drift", "plate_tilt"), True),
+        (truth("outsider", "gust"), said("something_else"), True),
+        (truth("faulty"), said("refused"), True),
+    ],
+)
+def test_a_verdict_is_right_as_it_stands(case, verdict, right):
+    found = mark(case, verdict | {"probability": 0.9})
+    assert found["right"] is right and found["probability"] == 0.9 and found["block"] == "near"
+
+
+def test_a_case_of_another_block_is_marked_as_such():
+    assert mark(truth("control") | {"block": {"family": "other"}}, said("none"))["block"] == "other"

@@ -1,8 +1,15 @@
-"""Simpler methods that the discoverer has to beat: they name effects without refitting, or without held-out runs."""
+"""Simpler methods that the discoverer has to beat: `python benchmarks/rivals.py FOLDER`.
+
+FOLDER is a blind test that was scored (`rockref blind make`, `rockref blind score`). The methods name effects without
+refitting, or without held-out runs; their answers are kept beside each case, and the scores of all are printed.
+"""
 
 from __future__ import annotations
 
+import argparse
+import json
 import math
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
@@ -10,6 +17,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from rockref.blind.cases.sealing import unseal, write_json
+from rockref.blind.scoring import table
+from rockref.blind.scoring.evaluation import COMMITTED
+from rockref.blind.scoring.judging import VERDICT
+from rockref.blind.scoring.marks import mark
 
 #: Seconds of a record that are compared: through the second main impact, after which the baseline is out of step.
 STRETCH = 1.3
@@ -198,3 +211,52 @@ METHODS: dict[str, Callable[[Path], dict[str, Any]]] = {
     "residual correlation without refit": residual_correlation,
     "sparse regression on the residual torque": sparse_regression,
 }
+#: The discoverer's own ranking, taken at its word.
+RANKING = "ranking without holdout"
+KEPT = "rivals.json"
+
+
+def answers(case: Path) -> dict[str, dict[str, Any]]:
+    """The verdicts of all methods on one case, kept in its folder; what is there is not made again."""
+    path = case / KEPT
+    if not path.exists():
+        found = {}
+        for id, method in METHODS.items():
+            try:
+                found[id] = method(case)
+            except Exception as error:
+                found[id] = {"verdict": "error", "effects": [], "why": repr(error)}
+        write_json(path, found)
+    verdict = json.loads((case / VERDICT).read_text(encoding="utf-8"))
+    return {"discoverer": verdict, **json.loads(path.read_text(encoding="utf-8")), RANKING: first_of_ranking(verdict)}
+
+
+def beside(methods: dict[str, list[dict[str, Any]]]) -> str:
+    """Scores of several methods side by side, in Markdown; only those that have a goal and a case."""
+    lines = ["| score | " + " | ".join(methods) + " | n |", "| --- |" + " --- |" * (len(methods) + 1)]
+    for rows in zip(*methods.values(), strict=True):
+        if rows[0]["goal"] and any(row["value"] is not None for row in rows) and "seconds" not in rows[0]["score"]:
+            cells = " | ".join(table.shown(row["value"], row["percent"]) for row in rows)
+            lines.append(f"| {rows[0]['score']} | {cells} | {rows[0]['n']} |")
+    return "\n".join(lines)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Ask every method, then open the truth and print the table. Exit code 2 where the folder was not scored."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path)
+    folder = parser.parse_args(arguments).folder
+    if not (folder / COMMITTED).is_file():
+        print(f"{folder}: no scored blind test. Run rockref blind make and score first.", file=sys.stderr)
+        return 2
+    cases = sorted(path.parent for path in folder.glob(f"case-*/{VERDICT}"))
+    found = {case.name: answers(case) for case in cases}
+    truth = {t["name"]: t for t in unseal(folder)[0]["cases"]}
+    methods = ("discoverer", *METHODS, RANKING)
+    marks = {id: [mark(truth[name], said[id]) for name, said in found.items()] for id in methods}
+    print(beside({id: table.scores(some) for id, some in marks.items()}))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,12 +1,20 @@
 """The simpler methods find what they can find."""
 
+import json
+import sys
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from rockref.blind.scoring import rivals
+from rockref.blind.cases import making, plan, sealing
+from rockref.blind.scoring import evaluation
+from rockref.blind.scoring.judging import VERDICT
+from tests.shipped import ROOT
 from tests.unit.discover.synthetic import GYRO
+
+sys.path.insert(0, str(ROOT / "benchmarks"))
+import rivals  # noqa: E402
 
 BLOCK = SimpleNamespace(mass=54.0, width=0.100, height=0.688)
 RADIUS = 0.5 * np.hypot(BLOCK.width, BLOCK.height)
@@ -121,3 +129,36 @@ def test_traces_are_what_an_effect_changes_in_the_record(monkeypatch, baseline, 
     # Turned, the block swings the other way.
     upright, turned = (found["none"][r][-1, 0] for r in releases)
     assert upright > 0.1 and turned < -0.1
+
+
+def test_answers_are_made_once_and_marked_beside_the_discoverer(tmp_path, monkeypatch, capsys):
+    asked = []
+
+    def always(case):
+        asked.append(case.name)
+        return {"verdict": "named", "effects": ["cable_restraint"]}
+
+    def broken(case):
+        raise ZeroDivisionError("no")
+
+    def make_one(root, name, case):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "experiment.toml").write_text(f"name = '{name}'\n")
+        (tmp_path / name / VERDICT).write_text(json.dumps({"verdict": "none", "effects": []}))
+        effects = [{"id": id, "size": s, "form": "catalogue", "parameters": {"k": 5.0}} for id, s in case.effects]
+        truth = {"name": name, "kind": case.kind, "effects": effects, "class": []}
+        sealing.write_json(tmp_path / making.PARTS / f"{name}.json", truth)
+        return name
+
+    monkeypatch.setattr(making, "make_one", make_one)
+    monkeypatch.setattr(rivals, "METHODS", {"always": always, "broken": broken})
+    making.make(tmp_path, 1, cases=plan.listed(1, ["none", "cable_restraint"]), workers=1)
+    assert rivals.main([str(tmp_path)]) == 2, "no truth is opened before the verdicts stand"
+    evaluation.score(tmp_path, workers=1)
+    assert rivals.main([str(tmp_path)]) == 0 == rivals.main([str(tmp_path)])
+    lines = [[cell.strip() for cell in line.split("|")[1:-1]] for line in capsys.readouterr().out.splitlines()]
+    rows = {cells[0]: cells[1:] for cells in lines}
+    assert rows["score"] == ["discoverer", "always", "broken", rivals.RANKING, "n"]
+    assert rows["controls: false alarms"] == ["0.0 %", "100.0 %", "0.0 %", "0.0 %", "1"]
+    assert rows["single: truth first"] == ["0.0 %", "100.0 %", "0.0 %", "0.0 %", "1"]
+    assert asked == ["case-001", "case-002"] and not any("seconds" in row for row in rows)

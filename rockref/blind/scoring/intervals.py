@@ -1,0 +1,48 @@
+"""How sure a share is, and whether stated probabilities are right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+from typing import Any
+
+from scipy.stats import binomtest
+
+#: Edges of the bins of stated probabilities; the last holds one.
+EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
+
+
+def wilson(hits: int, n: int) -> tuple[float, float]:
+    """Return the 95 % Wilson interval of a share of `hits` in `n` (0 to 1 if n is 0)."""
+    if n == 0:
+        return 0.0, 1.0
+    found = binomtest(hits, n).proportion_ci(confidence_level=0.95, method="wilson")
+    return float(found.low), float(found.high)
+
+
+def reliability(marks: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Compare stated probabilities with the share of verdicts that are right.
+
+    Returns a row for each bin that is not empty: `from`, `to`, `stated` (mean probability), `right`, `n`, and the
+    Wilson interval `low`, `high` of the share. Calibrated verdicts have `stated` inside it.
+    """
+    said = [m for m in marks if m.get("probability") is not None]
+    rows = []
+    for low, high in pairwise(EDGES):
+        inside = [m for m in said if low <= m["probability"] < high or m["probability"] == high == EDGES[-1]]
+        if inside:
+            hits, n = sum(m["right"] for m in inside), len(inside)
+            interval = dict(zip(("low", "high"), wilson(hits, n), strict=True))
+            stated = sum(m["probability"] for m in inside) / n
+            rows.append({"from": low, "to": high, "stated": stated, "right": hits, "n": n, **interval})
+    return rows
+
+
+def as_text(rows: list[dict[str, Any]]) -> str:
+    """Return the table of stated probabilities in Markdown."""
+    lines = ["| probability | stated, mean | right | interval |", "| --- | ---: | ---: | --- |"]
+    for r in rows:
+        share = f"{r['right']} of {r['n']}"
+        interval = f"{100 * r['low']:.0f} to {100 * r['high']:.0f} %"
+        lines.append(f"| {r['from']:g} to {r['to']:g} | {100 * r['stated']:.1f} % | {share} | {interval} |")
+    return "\n".join(lines)

@@ -1,0 +1,76 @@
+"""Verdicts on the cases of a blind test: by a diagnosis, or again from the evidence that a diagnosis stored."""
+
+from __future__ import annotations
+
+import json
+import time
+import traceback
+from pathlib import Path
+from typing import Any
+
+from rockref.blind.cases.sealing import write_json
+from rockref.model.errors import InputError
+
+VERDICT, EVIDENCE = "verdict.json", "evidence.json"
+
+
+def judge_case(folder: str, name: str, threads: int | None) -> str:
+    """Find the verdict on one case and keep it in its folder, a failure too; an existing verdict is left alone.
+
+    Stored evidence is decided; where there is none the case is diagnosed.
+    """
+    case = Path(folder) / name
+    if (case / VERDICT).exists():
+        return name
+    began = time.perf_counter()
+    try:
+        found = decided(case) if (case / EVIDENCE).exists() else diagnosed(case, threads)
+    except InputError as error:  # the record is refused: right where it is faulty
+        found = {"verdict": "refused", "effects": [], "code": error.code, "why": str(error)}
+    except Exception as error:  # a case that breaks the discoverer counts against it, and the others go on
+        found = {"verdict": "error", "effects": [], "why": f"{error!r}", "trace": traceback.format_exc()}
+    found.setdefault("seconds", round(time.perf_counter() - began, 1))
+    write_json(case / VERDICT, found)
+    return name
+
+
+def diagnosed(case: Path, threads: int | None) -> dict[str, Any]:
+    """Diagnose a case, and keep its evidence beside it."""
+    from rockref.discover.diagnose import diagnose
+
+    result = diagnose(case, workers=threads)
+    evidence = getattr(result, "evidence", None)
+    if evidence is not None:
+        evidence.save(case / EVIDENCE)
+    return json.loads(json.dumps(result.to_dict(), default=float))
+
+
+def decided(case: Path) -> dict[str, Any]:
+    """Decide a case again by today's rules; where it has no evidence, the stored verdict stands.
+
+    Raises InputError (E-FILE) where it has neither.
+    """
+    stored: dict[str, Any] = {}
+    if (case / VERDICT).exists():
+        stored = json.loads((case / VERDICT).read_text(encoding="utf-8"))
+    if not (case / EVIDENCE).exists():
+        if not stored:
+            cure = "Diagnose it first: rockref blind score DIR."
+            raise InputError("E-FILE", str(case), f"has neither {EVIDENCE} nor {VERDICT}", cure)
+        return stored
+    from rockref.discover.evidence.evidence import Evidence
+    from rockref.discover.verdict.rules import decide
+
+    evidence = Evidence.load(case / EVIDENCE)
+    verdict = decide(evidence)
+    if list(verdict.effects) != stored.get("effects"):
+        stored.pop("error", None)  # errors of another model
+    numbers = verdict.best.numbers
+    return stored | {
+        "verdict": verdict.word,
+        "effects": list(verdict.effects),
+        "probability": verdict.probability,
+        "amplitudes": {name: {"value": n.value, "low": n.low, "high": n.high} for name, n in numbers.items()},
+        "signature": evidence.signature,
+        "detection_limits": evidence.limits,
+    }
