@@ -82,7 +82,11 @@ class TestContact:
         assert {(f.verdict, f.cause) for f in found} == {("not judged", "soft")}
 
     @pytest.mark.parametrize(
-        "norm, way, cause", [(1, "too far", "pyramid_inside"), (np.inf, "too short", "pyramid_outside")]
+        "norm, way, cause",
+        [
+            (1, "too far", "pyramid_inside"),
+            pytest.param(np.inf, "too short", "pyramid_outside", marks=pytest.mark.slow),
+        ],
     )
     def test_a_pyramid_shows_along_the_diagonal(self, monkeypatch, norm, way, cause):
         """Coulomb's circle in the law replaced by the square inside or around it."""
