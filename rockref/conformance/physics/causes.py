@@ -12,6 +12,7 @@ CAUSES = {
     "count": ("a step too many is made", "check whether the first call makes a step of its own"),
     "damping": ("the engine damps free motion", "set linear and angular damping to zero"),
     "gravity": ("gravity is another one", "check its value, and whether it acts in every substep"),
+    "plate": ("there is no contact with the plate", "check that plate and body collide, and the plate's pose"),
     "creep": ("friction is a viscous law at small speeds", "raise the friction's stiffness or the iterations"),
     "rattling": ("the contact does not come to rest", "raise the contact's damping, or lower its stiffness or the "
                  "step"),
@@ -21,6 +22,8 @@ CAUSES = {
                         "choose an elliptic or round cone, or a friction model that couples both directions"),
     "friction": ("friction is not that of its coefficient", "check how the engine combines the coefficients of two "
                  "bodies, and at how many points a face rests"),
+    "rounding": ("in single precision such a drift grows as steps get smaller", "take larger steps, or build the "
+                 "engine in double precision"),
     "integrator": ("the integrator is of first order in free rotation", "halve the step, or choose one of higher "
                    "order"),
     "few_contacts": ("the block stands on fewer contact points than it has corners", "give the body a contact point at "

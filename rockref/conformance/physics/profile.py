@@ -25,12 +25,18 @@ def judge_setting(adapter: Adapter, setting: str, progress: Progress | None = No
     trial, found = Trial(Engine(adapter, setting)), []
     for k, (name, check) in enumerate(CHECKS.items()):
         try:
-            found.append(check(trial))
+            found.append(fallen(name, trial) if name not in FREE and not trial.is_held else check(trial))
         except Lost as error:
             found.append(Finding(name, "fail", "none", seen=str(error), cause="lost"))
         if progress is not None:
             progress(setting, (k + 1) / len(CHECKS))
     return explained(found)
+
+
+def fallen(name: str, trial: Trial) -> Finding:
+    """Return the answer to a check of contact where the plate does not hold the block."""
+    seen = f"the plate does not hold the block, which is {trial.rest.sink:.2g} m below it after settling"
+    return Finding(name, "fail", "none", seen=seen, cause="plate")
 
 
 def explained(findings: list[Finding]) -> list[Finding]:

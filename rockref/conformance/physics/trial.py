@@ -60,6 +60,11 @@ class Trial:
         """Whether the contact is too soft to judge rocking."""
         return self.softness > SOFT
 
+    @property
+    def is_held(self) -> bool:
+        """Whether the plate holds the block: the sink is below half the height."""
+        return self.rest.sink < self.theory.h
+
     def tilted(self, theta: float, about_z: float = 0.0) -> Start:
         """Return the block at rest at the tilt theta [rad] about its y axis, on the edge, turned about z [rad].
 

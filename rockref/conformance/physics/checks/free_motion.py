@@ -101,7 +101,8 @@ def flight(trial: Trial) -> Finding:
     if seen or drift <= 1e-3:
         return judged("flight", not seen, measured, f"{interval:.4f} s", bars, seen, cause, numbers)
     told = f"energy or momentum drifts by {100 * drift:.2g} % in four flips"
-    return Finding("flight", "remark", measured, f"{interval:.4f} s", bars, told, "integrator", numbers)
+    cause = "integrator" if trial.engine.double else "rounding"
+    return Finding("flight", "remark", measured, f"{interval:.4f} s", bars, told, cause, numbers)
 
 
 FALL = 2.0  # s

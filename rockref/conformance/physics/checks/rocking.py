@@ -50,11 +50,13 @@ def energy(trial: Trial) -> Finding:
     """Check that no apex lies above the last one, and that no apex has more energy than the start."""
     swing, sink = trial.swing, max(trial.rest.sink, 0.0)
     sizes = swing.amplitudes()
+    if len(sizes) < 2:
+        return Finding("apex energy", "not judged", "no second apex", "falling", "", "the block does not rock on")
     heights = swing.motion.x[swing.apexes(), 2]
     scale = trial.theory.R * (np.cos(0.5 * trial.theory.alpha) - np.cos(trial.theory.alpha))
-    gain = float(np.max((heights - heights[0]) / scale)) if len(sizes) > 1 else 0.0
+    gain = float(np.max((heights - heights[0]) / scale))
     allowed = APEX + sink / scale
-    rise = float(np.max(sizes[1:] / sizes[:-1])) if len(sizes) > 1 else 0.0
+    rise = float(np.max(sizes[1:] / sizes[:-1]))
     text = ", ".join(f"{a / trial.theory.alpha:.3f}" for a in sizes[:4])
     seen = ""
     if gain > allowed:

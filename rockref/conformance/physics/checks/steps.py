@@ -20,6 +20,8 @@ def symmetry(trial: Trial) -> Finding:
     """Compare the amplitudes of swings to the other side and in turned directions; a difference is a remark."""
     alpha = trial.theory.alpha
     first = trial.swing.amplitudes()[:APEXES]
+    if len(first) < 2:
+        return Finding("symmetry", "not judged", "no second apex", "0", "", "the block does not rock on")
     worst, where, span = 0.0, "", (float(first[-1]), float(first[-1]))
     for name, (about, sign) in CASES.items():
         other = trial.released(sign * 0.5 * alpha, 2.5, np.radians(about)).amplitudes()[:APEXES]

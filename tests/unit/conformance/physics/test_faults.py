@@ -20,7 +20,11 @@ class TestFreeMotion:
     def test_the_template_passes(self):
         found = asked(seeded.free("", ""), "echo", "flight", "fall")
         # The drift of a first-order integrator is a remark, with its size.
-        assert [f.verdict for f in found] == ["pass", "remark", "pass"] and "4 %" in found[1].seen
+        assert (
+            [f.verdict for f in found] == ["pass", "remark", "pass"]
+            and "4 %" in found[1].seen
+            and found[1].cause == "integrator"
+        )
 
     @pytest.mark.parametrize(
         "check, cause, text, fault",

@@ -81,6 +81,11 @@ class TestConsequences:
         found = [failing("slide", "friction")]
         assert profiles.explained(found) == found
 
+    def test_a_plate_that_does_not_hold_fails_every_check_of_contact(self):
+        found = profiles.judge_setting(seeded.free("", ""), "default")
+        assert [f.verdict for f in found[:3]] == ["pass", "remark", "pass"]
+        assert {(f.verdict, f.cause) for f in found[3:]} == {("fail", "plate")} and len(found) == 13
+
     def test_an_engine_that_loses_its_numbers_fails_and_the_others_go_on(self, monkeypatch):
         def stops(trial):
             raise Lost("x is not finite")
@@ -114,6 +119,7 @@ class TestCommand:
 
     def test_a_file_is_judged_printed_and_written(self, capsys, tmp_path, monkeypatch):
         monkeypatch.setattr(profiles, "CHECKS", {name: lambda trial, n=name: failing(n, "soft") for name in CHECKS})
+        monkeypatch.setattr(profiles.Trial, "is_held", True)
         (tmp_path / "mine.py").write_text("def run(*_):\n    pass\n")
         words = (tmp_path / "mine.py", "--quick", "--output", tmp_path / "page.md")
         code, out, _ = self.run(capsys, *words)
