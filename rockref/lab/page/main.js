@@ -94,7 +94,6 @@ function startLab() {
         " degrees per second to the second main impact; noise " +
         short(noise) +
         ".";
-      byId("speed-note").textContent = (answer.steps / answer.elapsed / 1e3).toFixed(1) + " million steps/s";
     }
     byId("overturned").hidden = !answer.lost;
   }
