@@ -1,38 +1,68 @@
 """How well the judge names mistakes that it does not know: `python benchmarks/strangers.py`.
 
-Each mistake of `strangers_list.py` is planted in the tutorial backend, which is judged three times: with its pieces,
-by runs alone, and by runs that show no forces. Named: the verdict has the rule that was planted. Alike: it has that
-rule, or says that runs cannot tell it from the one that it has. The fingerprints of the zoo are not consulted: none of
-its mistakes helps. A minute of processor time.
+Each mistake of a list is planted in the tutorial backend, which is judged three times: with its pieces, by runs alone,
+and by runs that show no forces. Named: the verdict has the rule that was planted. Top two: that rule is the one that
+the verdict has, or the next one that it gives. Alike: the verdict has that rule, or says that runs cannot tell it from
+the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
+time.
+
+    --list first | second       the mistakes of `strangers_list.py`, of `strangers_second.py`; both by default
+    --profile scheme            planted in backends with another integrator (`strangers_schemes.py`)
+    --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import subprocess
 import sys
+import tempfile
+import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from strangers_list import HARMLESS, MISTAKES, Mistake
+import strangers_controls
+import strangers_controls_c
+import strangers_list
+import strangers_schemes
+import strangers_second
+from strangers_list import HARMLESS, Mistake
 
+from rockref.conformance.executable import Executable
 from rockref.conformance.judge import LAYERS, judge
 from rockref.conformance.vectors import flat
-from rockref.conformance.verdict import alike, verdict
+from rockref.conformance.verdict import alike, suspects, verdict
 
-SOURCE = Path(__file__).resolve().parents[1] / "examples/backend_numpy.py"
+EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
+SOURCE, SOURCE_C = EXAMPLES / "backend_numpy.py", EXAMPLES / "backend_c/backend.c"
 QUICK = [name for name in LAYERS if name not in ("L5", "L6")]
 WAYS = ("pieces", "runs", "runs without forces")
+LISTS = {"first": strangers_list.MISTAKES, "second": strangers_second.MISTAKES}
+MISTAKES = strangers_list.MISTAKES
 
 
-def planted(mistake: Mistake) -> Any:
-    """The tutorial backend with the mistake in it."""
-    text = SOURCE.read_text()
-    assert text.count(mistake.old) == 1, f"{mistake.says}: {text.count(mistake.old)} places"
+def made(text: str, says: str) -> Any:
+    """The backend of a text."""
     space: dict[str, Any] = {"__name__": "planted"}
-    exec(compile(text.replace(mistake.old, mistake.new), mistake.says, "exec"), space)
+    exec(compile(text, says, "exec"), space)
     return space["Backend"]()
+
+
+def changed(text: str, says: str, *changes: tuple[str, str]) -> str:
+    """The text with each change made at its one place."""
+    for old, new in changes:
+        assert text.count(old) == 1, f"{says}: {text.count(old)} places of {old!r}"
+        text = text.replace(old, new)
+    return text
+
+
+def planted(mistake: Mistake, scheme: str | None = None) -> Any:
+    """The tutorial backend, or the one with another integrator, with the mistake in it."""
+    text = SOURCE.read_text() if scheme is None else strangers_schemes.exchanged(SOURCE.read_text(), scheme)
+    return made(changed(text, mistake.says, (mistake.old, mistake.new)), mistake.says)
 
 
 class Runs:
@@ -56,37 +86,96 @@ class Runs:
         return {k: v for k, v in self.kept[key].items() if k not in self.hidden}
 
 
-def seen(backend: Any, mistake: Mistake) -> dict[str, Any]:
+def seen(backend: Any, mistake: Mistake, profile: str = "float64") -> dict[str, Any]:
     """What the judge says."""
-    found = verdict(judge(backend, QUICK))
+    found = verdict(judge(backend, QUICK, profile))
     rules = {found.rule, *alike(found)}
     return {
         "detected": found.status == "FAIL",
         "named": found.rule in mistake.rules,
+        "top two": bool(set(suspects(found)[:2]) & set(mistake.rules)),
         "alike": bool(rules & set(mistake.rules)),
         "rule": found.rule,
+        "next": suspects(found)[1:2],
+        "slip": found.slip,
         "says": found.says,
         "vector": None if found.check is None else f"{found.check.vector} {found.check.name}",
     }
 
 
-def of_mistake(mistake: Mistake) -> dict[str, Any]:
+def of_mistake(mistake: Mistake, scheme: str | None = None) -> dict[str, Any]:
     """One mistake, in all ways that can show it."""
-    backend, kept = planted(mistake), {}
-    ways = {"pieces": seen(backend, mistake)}
+    backend, kept = planted(mistake, scheme), {}
+    profile = "float64" if scheme is None else "scheme"
+    ways = {"pieces": seen(backend, mistake, profile)}
     if mistake.in_runs:
-        ways["runs"] = seen(Runs(backend, kept), mistake)
-        ways["runs without forces"] = seen(Runs(backend, kept, ("F", "anchored")), mistake)
+        ways["runs"] = seen(Runs(backend, kept), mistake, profile)
+        ways["runs without forces"] = seen(Runs(backend, kept, ("F", "anchored")), mistake, profile)
     return {"says": mistake.says, "rules": mistake.rules, "ways": ways}
 
 
 def counted(found: list[dict[str, Any]]) -> dict[str, dict[str, int]]:
-    """By way: how many were asked, detected, named, named or called alike."""
+    """By way: how many were asked, detected, named, named in the top two, named or called alike."""
     table = {}
     for way in WAYS:
         asked = [f["ways"][way] for f in found if way in f["ways"]]
-        table[way] = {"asked": len(asked)} | {k: sum(a[k] for a in asked) for k in ("detected", "named", "alike")}
+        counts = {k: sum(a[k] for a in asked) for k in ("detected", "named", "top two", "alike")}
+        table[way] = {"asked": len(asked)} | counts
     return table
+
+
+def of_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The mistakes that are planted in backends with another integrator, and in which."""
+    yield from ((m, "symplectic Euler") for m in strangers_schemes.MISTAKES)
+    for scheme in strangers_schemes.SCHEMES:
+        text = strangers_schemes.exchanged(SOURCE.read_text(), scheme)
+        step = SOURCE.read_text()
+        step = step[step.index("def first_half") : step.index("PROPERTIES = ")]
+        for mistake in (*strangers_list.MISTAKES, *strangers_second.MISTAKES):
+            if mistake.in_runs and text.count(mistake.old) == 1 and mistake.old not in step:
+                yield mistake, scheme
+
+
+def variants() -> Iterator[tuple[str, Any, list[str]]]:
+    """Correct variants: what they do, the backend, the layers by which it is judged."""
+    for v in strangers_controls.IN_PYTHON:
+        yield v.says, made(changed(SOURCE.read_text(), v.says, *v.changes), v.says), [n for n in LAYERS if n != "L5"]
+    with tempfile.TemporaryDirectory() as folder:
+        for i, v in enumerate(strangers_controls_c.IN_C):
+            source, program = Path(folder) / f"{i}.c", Path(folder) / str(i)
+            source.write_text(changed(SOURCE_C.read_text(), v.says, *v.changes))
+            flags = v.flags or ("-O2",)
+            subprocess.run(["cc", *flags, "-std=gnu11", "-o", str(program), str(source), "-lm"], check=True)
+            backend = Executable([str(program)])
+            yield v.says, backend, list(LAYERS)
+            backend.close()
+
+
+def controls(only: str) -> int:
+    """Judge the correct variants, with pieces and by runs alone; print each; how many are rejected."""
+    rejected = asked = 0
+    for says, backend, layers in variants():
+        if only not in says:
+            continue
+        asked += 1
+        told = [verdict(judge(b, layers, examples=10)) for b in (backend, RunsAlone(backend))]
+        bad = [v for v in told if not v.passed]
+        rejected += bool(bad)
+        print(f"{'REJECTED' if bad else 'passes'}: {says}", *(r for v in told[:1] for r in v.findings.remarks), sep="\n  ")
+        for v in bad:
+            where = f"{v.check.vector} {v.check.name}" if v.check else v.run.id if v.run else ""
+            print(f"  {v.rule} {where}", flush=True)
+    print(f"controls rejected: {rejected} of {asked}")
+    return rejected
+
+
+class RunsAlone:
+    """`simulate` alone of a backend."""
+
+    language, precision = "Python", "float64"
+
+    def __init__(self, backend: Any):
+        self.simulate, self.name = backend.simulate, backend.name
 
 
 def main() -> None:
@@ -94,15 +183,27 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", action="store_true", help="print everything as one JSON object")
     parser.add_argument("--only", default="", help="mistakes with these words in what they say")
+    parser.add_argument("--list", choices=tuple(LISTS), help="one list alone")
+    parser.add_argument("--profile", choices=("float64", "scheme"), default="float64")
+    parser.add_argument("--controls", action="store_true", help="correct variants")
     given = parser.parse_args()
+    if given.controls:
+        sys.exit(bool(controls(given.only)))
+    asked: list[tuple[Mistake, str | None]] = [(m, None) for k, v in LISTS.items() if given.list in (None, k) for m in v]
+    asked = list(of_schemes()) if given.profile == "scheme" else asked
     found = []
-    for mistake in MISTAKES:
+    for mistake, scheme in asked:
         if given.only in mistake.says:
-            found.append(of_mistake(mistake))
-            print(f"{len(found)} of {len(MISTAKES)}: {mistake.says}", file=sys.stderr, flush=True)
-    table, harmless = counted(found), [of_mistake(m) for m in HARMLESS if given.only in m.says]
-    rejected = sum(any(a["detected"] for a in h["ways"].values()) for h in harmless)
-    if given.json:
+            found.append(of_mistake(mistake, scheme))
+            print(f"{len(found)} of {len(asked)}: {mistake.says}", file=sys.stderr, flush=True)
+    harmless = [of_mistake(m) for m in HARMLESS if given.only in m.says and given.profile == "float64"]
+    show(found, harmless, given.json)
+
+
+def show(found: list[dict[str, Any]], harmless: list[dict[str, Any]], as_json: bool) -> None:
+    """Print counts, and the mistakes that are not named."""
+    table, rejected = counted(found), sum(any(a["detected"] for a in h["ways"].values()) for h in harmless)
+    if as_json:
         counts = table | {"harmless": len(harmless), "harmless rejected": rejected}
         print(json.dumps({"counts": counts, "mistakes": found}, indent=1))
         return
@@ -112,9 +213,10 @@ def main() -> None:
     for f in found:
         for way, a in f["ways"].items():
             if not a["named"]:
-                got = a["rule"] or ("no rule" if a["detected"] else "PASS")
+                got = " then ".join([a["rule"], *a["next"]]) if a["rule"] else "no rule" if a["detected"] else "PASS"
                 print(f"  {way}: {f['says']} ({' or '.join(f['rules'])}): {got}; {a['vector']}; {a['says']}")
 
 
 if __name__ == "__main__":
+    warnings.simplefilter("ignore", RuntimeWarning)
     main()

@@ -12,8 +12,9 @@ import numpy as np
 
 from rockref.conformance import vectors
 from rockref.conformance.asking import ANYTHING, as_mapping
-from rockref.conformance.compare import bar_of, in_bars
+from rockref.conformance.compare import bar_of, weighed_in_bars
 from rockref.conformance.fields import Missing, result
+from rockref.conformance.negligible import size_and_unit
 from rockref.conformance.runs import SHOWN, expected_columns, grouped, simulate
 from rockref.conformance.vectors import Expected, Vector, as_shipped, manifest, problem_of, read_bytes, trajectory
 from rockref.model.storage import unpacked
@@ -32,9 +33,9 @@ SAME = 0.99
 SIMILAR = 0.25
 
 
-def mark(got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
-    """sign(deviation) log10(1 + deviation in bars), flat; 0 inside ten bars."""
-    ratio = in_bars(got, expected, bar)
+def mark(name: str, got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
+    """sign(deviation) log10(1 + deviation in bars), flat; 0 inside ten bars, and where it is too small to matter."""
+    ratio, _ = weighed_in_bars(got, expected, bar, size_and_unit(name)[0])
     with np.errstate(all="ignore"):
         size = np.minimum(np.log10(1 + ratio), LARGEST)
         sign = np.where(np.asarray(got, float) < expected, -1.0, 1.0)
@@ -58,7 +59,7 @@ def _mark_of(name: str, expected: Expected, vector: Vector, out: dict[str, Any])
         got = np.asarray(result(name, out, vector.branch), float)
     except (Missing, TypeError, ValueError, IndexError):
         return nothing
-    return mark(got, expected.value, bar) if got.shape == expected.value.shape else nothing
+    return mark(name, got, expected.value, bar) if got.shape == expected.value.shape else nothing
 
 
 def of_window(name: str, out: dict[str, Any]) -> np.ndarray:
@@ -76,7 +77,7 @@ def of_window(name: str, out: dict[str, Any]) -> np.ndarray:
             marks.append(np.full(right.size, np.nan))
             continue
         bar = bars[key][::STRIDE].reshape((-1,) + (1,) * (right.ndim - 1))
-        marks.append(mark(got, right, np.broadcast_to(bar, right.shape)))
+        marks.append(mark(key, got, right, np.broadcast_to(bar, right.shape)))
     return np.concatenate(marks)
 
 

@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.asking import ANYTHING, as_mapping, has, raised
-from rockref.conformance.compare import grade_of, in_bars
+from rockref.conformance.compare import grade_of, weighed_in_bars
+from rockref.conformance.negligible import size_and_unit
 from rockref.conformance.vectors import as_shipped, problem_of, read_bytes, value_of
 from rockref.model.problem import Problem, State
 
@@ -132,7 +133,7 @@ def explained(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
 
 def compare(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
     """One answer against its vector."""
-    worst = 0.0
+    worst, negligible = 0.0, False
     for name, (right, bar) in claim.expect.items():
         got = answer.get(name)
         if got is None and name not in ("W", "crv_deg_s"):
@@ -141,5 +142,6 @@ def compare(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
         if shape != right.shape:
             note = f"{name} has shape {shape}, not {right.shape}"
             return ClaimCheck(claim.effect, "outside", float("inf"), note)
-        worst = max(worst, float(np.max(in_bars(np.asarray(got), right, bar))))
-    return ClaimCheck(claim.effect, grade_of(worst), worst)
+        ratio, small = weighed_in_bars(np.asarray(got), right, bar, size_and_unit(name)[0])
+        worst, negligible = max(worst, float(np.max(ratio))), negligible or bool(np.any(small))
+    return ClaimCheck(claim.effect, grade_of(worst, negligible), worst)

@@ -9,8 +9,9 @@ from rockref.conformance.judge import LAYERS, Findings
 from rockref.conformance.rules import BY_ID, PIECES, RULES
 from rockref.conformance.runs import RunCheck
 from rockref.conformance.vectors import AS_RUN, layer, manifest
-from rockref.conformance.verdict import Verdict, alike, downstream_of, grades
+from rockref.conformance.verdict import Verdict, alike, downstream_of, grades, remarks
 
+GRADES = ("bitwise", "inside", "look", "negligible", "outside", "not judged")
 RED, GREEN, BOLD, PLAIN = "\x1b[31m", "\x1b[32m", "\x1b[1m", "\x1b[0m"
 
 
@@ -53,7 +54,7 @@ def rule_lines(v: Verdict) -> list[str]:
     """A rule a line, with its status."""
     words = {
         "pass": "pass",
-        "look": "pass (within ten bars)",
+        "look": "pass (see the remarks)",
         "fail": "FAIL",
         "follows": "follows",
         "no answer": "no usable answer",
@@ -99,7 +100,9 @@ def run_line(r: RunCheck) -> str:
     """A run in one line."""
     if r.note:
         return f"  {r.id:34} {r.grade:8} {r.note}"
-    return f"  {r.id:34} {r.grade:8} {bars(r.worst)} up to {r.horizon_s:.4g} s"
+    late = [str(k) for k, i in enumerate(r.impacts, 1) if i["grade"] == "outside"]
+    which = f"; main impact {', '.join(late)} outside" if late else ""
+    return f"  {r.id:34} {r.grade:8} {bars(r.worst)} up to {r.horizon_s:.4g} s{which}"
 
 
 def run_lines(v: Verdict) -> list[str]:
@@ -110,6 +113,8 @@ def run_lines(v: Verdict) -> list[str]:
     failed = [r for r in runs if r.failed]
     lines = [f"Runs (L5): {len(runs) - len(failed)} of {len(runs)} inside"]
     lines += [run_line(r) for r in runs if r.failed or r.grade == "look"]
+    if v.run is not None:
+        lines += impact_lines(v.run)
     if v.run is not None and v.run.first is not None:
         f = v.run.first
         lines.append(
@@ -123,6 +128,23 @@ def run_lines(v: Verdict) -> list[str]:
             else "  no event before it"
         )
     return lines
+
+
+def impact_lines(run: RunCheck) -> list[str]:
+    """The main impacts that are outside: run, which one, instants, deviation."""
+    return [
+        f"  main impact {number} of {run.id}: expected at {i['t_s']:.9g} s +- {i['bar_s']:.2g} s, {came(i)}"
+        for number, i in enumerate(run.impacts, 1)
+        if i["grade"] == "outside"
+    ]
+
+
+def came(impact: dict) -> str:
+    """When an impact came, and by how much late or early."""
+    if impact["got_s"] is None:
+        return "did not come"
+    off = impact["got_s"] - impact["t_s"]
+    return f"came at {impact['got_s']:.9g} s, {abs(off):.3g} s {'late' if off > 0 else 'early'} ({bars(impact['bars'])})"
 
 
 def neighbour_lines(v: Verdict) -> list[str]:
@@ -177,10 +199,10 @@ def text(v: Verdict, colour: bool = False) -> str:
     lines += [f"  {e.effect}: {e.note or bars(e.worst)} ({e.vector})" for e in claimed if e.failed]
     lines += ["Rules:"] + rule_lines(v) if v.status == "FAIL" else []
     lines += unseen(v) if v.passed and "L5s" in f.layers else []
-    lines += [f"Remark: {r}" for r in f.remarks]
+    lines += [f"Remark: {r}" for r in remarks(v)]
     counted = grades(v)
     told = ", ".join(
-        f"{counted[g]} {g}" for g in ("bitwise", "inside", "look", "outside", "not judged") if g in counted
+        f"{counted[g]} {g}" for g in GRADES if g in counted
     )
     lines.append(f"Results: {told}; {f.seconds:.1f} s")
     word = f"{v.status} ({v.rule})" if v.rule else v.status

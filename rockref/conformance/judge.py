@@ -147,11 +147,13 @@ def _properties(backend: Any, findings: Findings, examples: int) -> None:
         findings.remarks.append(f"L6 (properties) is not judged in the profile {findings.profile}.")
         return
     try:
-        from rockref.conformance.properties import judge_properties
+        from rockref.conformance.properties import bit_by_bit, judge_properties
     except ImportError:
         findings.remarks.append("L6 (properties) needs hypothesis: pip install hypothesis.")
         return
     findings.properties = judge_properties(backend, examples)
+    if all(p.holds for p in findings.properties):
+        findings.remarks += filter(None, [bit_by_bit(backend)])
 
 
 def finite(value: float) -> float | None:

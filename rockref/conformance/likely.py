@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.claims import Claim, with_effect
-from rockref.conformance.compare import LOOK, in_bars
+from rockref.conformance.compare import LOOK, weighed_in_bars
+from rockref.conformance.negligible import size_and_unit
 from rockref.conformance.vectors import problem_of
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
@@ -40,7 +41,9 @@ def alike(claim: Claim, answer: dict[str, Any], made: dict[str, Any]) -> bool:
     """Whether what is shown of an answer is what a mistake gives."""
     for name, (right, bar) in claim.expect.items():
         got, wrong = answer.get(name), np.asarray(made[name]).reshape(right.shape)
-        if got is not None and np.max(in_bars(np.asarray(got), wrong, bar)) > LOOK:
+        if got is None:
+            continue
+        if np.max(weighed_in_bars(np.asarray(got), wrong, bar, size_and_unit(name)[0])[0]) > LOOK:
             return False
     return True
 

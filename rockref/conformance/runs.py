@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.asking import ANYTHING, as_mapping, raised
-from rockref.conformance.compare import grade_of, in_bars, wrong_instants
+from rockref.conformance.compare import LOOK, grade_of, weighed_in_bars, wrong_instants
+from rockref.conformance.negligible import INSTANT, size_and_unit
 from rockref.conformance.vectors import Trajectory, trajectory, trajectory_names, window_names
 from rockref.model.problem import Problem
 
@@ -62,6 +63,7 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
     check = RunCheck(t.id, t.title, "bitwise", horizon_s=horizon)
     rows = int(np.sum(instants <= horizon * (1 + 1e-12)))
     ratios: dict[str, np.ndarray] = {}
+    negligible = False
     said = "" if out.get("t") is None else wrong_instants(out["t"], instants, t.problem.step)
     if said:
         return replace(check, grade="outside", worst=np.inf, note=said)
@@ -76,12 +78,14 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
         if got.dtype.kind not in "fiu" or got.shape != right.shape:
             return replace(check, grade="outside", worst=np.inf, note=f"{key} has shape {got.shape}, not {right.shape}")
         bar = bars[key].reshape((-1,) + (1,) * (right.ndim - 1))
-        ratios[key] = in_bars(got[:rows], right[:rows], np.broadcast_to(bar[:rows], right[:rows].shape))
+        bar = np.broadcast_to(bar[:rows], right[:rows].shape)
+        ratios[key], small = weighed_in_bars(got[:rows], right[:rows], bar, size_and_unit(key)[0])
+        negligible = negligible or bool(np.any(small))
     if "W" not in ratios:
         return replace(check, grade="outside", worst=np.inf, note="gives no W")
     by_row = np.max([r.reshape(rows, -1).max(axis=1) for r in ratios.values()], axis=0)
     check.t, check.ratios, check.worst = instants[:rows], by_row, float(by_row.max())
-    check.grade = grade_of(check.worst)
+    check.grade = grade_of(check.worst, negligible)
     if check.failed:
         check.first = first_outside(ratios, expected, bars, out, instants)
         before = [e for e in t.meta["events"] if e[0] <= check.first["t_s"]]
@@ -136,7 +140,8 @@ def judge_impacts(
         got = upright(instants[:rows], np.asarray(out["Lambda"])[:rows])
     judged = []
     for i, impact in enumerate(expected):
-        off = abs(got[i] - impact["t_s"]) / impact["bar_s"] if i < len(got) else np.inf
+        apart = abs(got[i] - impact["t_s"]) if i < len(got) else np.inf
+        off = min(apart / impact["bar_s"], LOOK) if apart <= INSTANT else apart / impact["bar_s"]
         judged.append({**impact, "got_s": float(got[i]) if i < len(got) else None, "bars": off, "grade": grade_of(off)})
     return judged
 

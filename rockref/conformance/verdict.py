@@ -44,6 +44,7 @@ class Verdict:
     consequences: list[Check] = field(default_factory=list)
     neighbours: list[tuple[str, float]] = field(default_factory=list)
     alone: bool = False
+    slip: str = ""
 
     @property
     def passed(self) -> bool:
@@ -63,7 +64,7 @@ def status_of_rules(checks: Sequence[Check]) -> dict[str, str]:
         elif any(c.failed for c in own):
             found[rule.id] = "no answer"
         else:
-            found[rule.id] = "look" if any(c.grade == "look" for c in own) else "pass"
+            found[rule.id] = "look" if any(c.grade in ("look", "negligible") for c in own) else "pass"
     return found
 
 
@@ -224,6 +225,23 @@ def alike(v: Verdict) -> list[str]:
     return [rule for rule in ALIKE_IN_RUNS.get(v.rule, ()) if small[rule] == "not shown"]
 
 
+def remarks(v: Verdict) -> list[str]:
+    """What is remarked of a backend: what it was told, and what differs by more than bars and less than it matters."""
+    f = v.findings
+    small = [c for c in f.checks if c.grade == "negligible"]
+    counted = len(small) + sum(r.grade == "negligible" for r in (*f.runs, *f.effects))
+    if not counted:
+        return f.remarks
+    first_ = f"; first {small[0].name} of {small[0].vector}: {small[0].note}" if small else ""
+    differ = f"{counted} results differ by more than ten bars and by less than 1 nN or 1 pm, which is no verdict{first_}."
+    return [*f.remarks, differ]
+
+
+def suspects(v: Verdict) -> list[str]:
+    """The rules that may be wrong, the likeliest first."""
+    return [] if v.rule is None else [v.rule, *alike(v)]
+
+
 def grades(verdict: Verdict) -> dict[str, int]:
     """How many results have each grade."""
     found: dict[str, int] = {}
@@ -277,7 +295,7 @@ def as_json(v: Verdict) -> dict[str, Any]:
         "runs": [run_as_json(r) for r in f.runs],
         "properties": [vars(p) for p in f.properties],
         "effects": [vars(e) | {"worst": finite(e.worst)} for e in f.effects],
-        "remarks": f.remarks,
+        "remarks": remarks(v),
         "seconds": round(f.seconds, 2),
     }  # fmt: skip
 

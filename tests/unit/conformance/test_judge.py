@@ -90,7 +90,8 @@ def planted(old, new):
         ("N2", " if xi >= 0 else 0.0", ""),
         ("T5", "return s if anchored and xi >= 0 else u_t", "return s"),
         ("T1", "return -K_T * (u_t - s) - C_T * v_slide", "return -K_T * (u_t - s)"),
-        ("T2", "return np.hypot(*F_trial) <= limit", "return np.hypot(*F_trial) < limit"),
+        # On the cone itself both sides are right; at its tip this divides nothing by nothing.
+        ("T3", "return np.hypot(*F_trial) <= limit", "return np.hypot(*F_trial) < limit"),
         ("T2", "return np.hypot(*F_trial) <= limit", "return max(abs(F_trial)) <= limit"),
         ("T6", "return (mu if was_sliding else mu_0) * F_N", "return mu_0 * F_N"),
         ("T6", "return (mu if was_sliding else mu_0) * F_N", "return 1.1 * (mu if was_sliding else mu_0) * F_N"),
