@@ -25,8 +25,8 @@ IN_C = (
         (
             (
                 "apply(L, W_, omega);\n    for (int i = 0; i < n; i++) {\n        apply(L, P",
-                "apply(L, W_, omega);\n    for (int k = 0, at = rand() % n, by = rand() % 2 ? 1 : n - 1; k < n; k++) {\n"
-                "        int i = (at + k * by) % n;\n        apply(L, P",
+                "apply(L, W_, omega);\n    for (int k = 0, at = rand() % n, by = rand() % 2 ? 1 : n - 1; k < n; k++)"
+                " {\n        int i = (at + k * by) % n;\n        apply(L, P",
             ),
         ),
     ),

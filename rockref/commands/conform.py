@@ -42,7 +42,9 @@ def register(app: typer.Typer) -> None:
 def conform(
     target: Annotated[str, typer.Argument(help="What is judged, or what is done; see above.")] = "numpy",
     rest: Annotated[list[str] | None, typer.Argument(help="Program and its arguments, or files.")] = None,
-    layers: Annotated[str | None, typer.Option(help="Some of L0,L1,L2,L3,L4,L5s,L5,L6,L7,LE; all by default.")] = None,
+    layers: Annotated[
+        str | None, typer.Option(help="Some of L0,L1,L2,L3,L4,L5s,LS,L5,L6,L7,LE; all by default.")
+    ] = None,
     profile: Annotated[
         str | None, typer.Option(help="float64, float32, scheme (another integrator); default: the backend's own.")
     ] = None,
@@ -67,8 +69,8 @@ def conform(
     TARGET is numpy, numba, path/to/file.py:Class, package:Class, the name of an entry point, or one of
     exe (a program that speaks JSON lines), export and judge (questions and answers as files), answer and serve
     (a Python backend as file or as program), zoo (the judge judged by planted mistakes), example (a backend to start
-    from: python or c), physics (engines with a contact law of their own, by mechanics: mujoco, pybullet, ..., or a
-    file). From the first option that is none of those below, words after exe PROGRAM are the program's;
+    from: python, c or javascript), physics (engines with a contact law of their own, by mechanics: mujoco, pybullet,
+    ..., or a file). From the first option that is none of those below, words after exe PROGRAM are the program's;
     after -- all are.
     Exit code 1 where the backend falls short.
 

@@ -15,12 +15,15 @@ from rockref.conformance.asking import ANYTHING, as_mapping
 from rockref.conformance.compare import bar_of, weighed_in_bars
 from rockref.conformance.fields import Missing, result
 from rockref.conformance.negligible import size_and_unit
-from rockref.conformance.runs import SHOWN, expected_columns, grouped, simulate
+from rockref.conformance.runs import SHOWN, expected_columns
+from rockref.conformance.side_by_side import grouped, simulate, steps_of
 from rockref.conformance.vectors import Expected, Vector, as_shipped, manifest, problem_of, read_bytes, trajectory
 from rockref.model.storage import unpacked
 
 #: Every so many rows of a window enter the fingerprint: windows are long, and their rows alike.
 STRIDE = 10
+#: Windows of more steps are left out: they cost more than they tell. Decided: 20 ms of 10 us.
+MOST_STEPS = 2000
 #: Deviations are written as whole tenths of their logarithm; a number that is none counts as 10^20 bars.
 TENTHS, LARGEST = 10, 20.0
 #: Deviations below so many bars are rounding.
@@ -33,9 +36,9 @@ SAME = 0.99
 SIMILAR = 0.25
 
 
-def mark(name: str, got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
-    """sign(deviation) log10(1 + deviation in bars), flat; 0 inside ten bars, and where it is too small to matter."""
-    ratio, _ = weighed_in_bars(got, expected, bar, size_and_unit(name)[0])
+def mark(got: Any, expected: np.ndarray, bar: np.ndarray, size: float) -> np.ndarray:
+    """sign(deviation) log10(1 + deviation in bars), flat; 0 inside ten bars, and below a physical size."""
+    ratio, _ = weighed_in_bars(got, expected, bar, size)
     with np.errstate(all="ignore"):
         size = np.minimum(np.log10(1 + ratio), LARGEST)
         sign = np.where(np.asarray(got, float) < expected, -1.0, 1.0)
@@ -59,7 +62,8 @@ def _mark_of(name: str, expected: Expected, vector: Vector, out: dict[str, Any])
         got = np.asarray(result(name, out, vector.branch), float)
     except (Missing, TypeError, ValueError, IndexError):
         return nothing
-    return mark(name, got, expected.value, bar) if got.shape == expected.value.shape else nothing
+    size = size_and_unit(name, vector.layer)[0]
+    return mark(got, expected.value, bar, size) if got.shape == expected.value.shape else nothing
 
 
 def of_window(name: str, out: dict[str, Any]) -> np.ndarray:
@@ -77,14 +81,18 @@ def of_window(name: str, out: dict[str, Any]) -> np.ndarray:
             marks.append(np.full(right.size, np.nan))
             continue
         bar = bars[key][::STRIDE].reshape((-1,) + (1,) * (right.ndim - 1))
-        marks.append(mark(key, got, right, np.broadcast_to(bar, right.shape)))
+        marks.append(mark(got, right, np.broadcast_to(bar, right.shape), size_and_unit(key)[0]))
     return np.concatenate(marks)
+
+
+def compared() -> list[str]:
+    """The windows that enter a fingerprint: those of few steps."""
+    return [name for name in vectors.window_names() if steps_of(trajectory(name).problem) <= MOST_STEPS]
 
 
 def fingerprint(backend: Any) -> np.ndarray:
     """All marks of a backend, in a fixed order; not a number where it shows nothing."""
-    short = vectors.layer("L5s")
-    names = vectors.window_names()
+    short, names = vectors.layer("L5s"), compared()
     problems = [problem_of(v.inputs) for v in short] + [trajectory(name).problem for name in names]
     answers: list[Any] = [None] * len(problems)
     for group in grouped(problems):

@@ -15,6 +15,8 @@ from rockref.model.simulate import output_steps
 
 #: A result within ten bars is inside "look": it passes, and is pointed out.
 LOOK = 10.0
+#: And in the profile of other integrators inside two: their bars are those of whole schemes.
+LOOK_SCHEME = 2.0
 FLAGS = ("touching", "sliding", "anchored")
 
 
@@ -57,11 +59,16 @@ def bar_of(expected: Expected, profile: str) -> np.ndarray | None:
     return expected.bar_float32 if profile == "float32" else expected.bar
 
 
-def grade_of(worst: float, negligible: bool = False) -> str:
+def grade_of(worst: float, negligible: bool = False, look: float = LOOK) -> str:
     """The grade of a deviation in bars; `negligible`: it was larger, and too small to be physical."""
     if worst == 0:
         return "bitwise"
-    return "inside" if worst <= 1 else "outside" if worst > LOOK else "negligible" if negligible else "look"
+    return "inside" if worst <= 1 else "outside" if worst > look else "negligible" if negligible else "look"
+
+
+def look_of(profile: str, layer: str) -> float:
+    """From how many bars on a result is outside: what has no integrator in it is weighed by other schemes, too."""
+    return LOOK_SCHEME if profile == "scheme" and layer in ("LS", "L5") else LOOK
 
 
 def in_bars(got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
@@ -73,24 +80,26 @@ def in_bars(got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(np.asarray(got, float)) & ~np.isnan(ratio), ratio, np.inf)
 
 
-def weighed_in_bars(got: Any, expected: np.ndarray, bar: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray]:
-    """Deviations in bars, those that are below a physical `size` ten at most; and where that made a difference."""
+def weighed_in_bars(
+    got: Any, expected: np.ndarray, bar: np.ndarray, size: float, look: float = LOOK
+) -> tuple[np.ndarray, np.ndarray]:
+    """Deviations in bars, those below a physical `size` no more than what passes; and where that made a difference."""
     ratio = in_bars(got, expected, bar)
     with np.errstate(all="ignore"):
-        small = (np.abs(np.asarray(got, float) - expected) <= size) & (ratio > LOOK)
-    return np.where(small, LOOK, ratio), small
+        small = (np.abs(np.asarray(got, float) - expected) <= size) & (ratio > look)
+    return np.where(small, look, ratio), small
 
 
-def compare_number(name: str, got: Any, expected: Expected, bar: np.ndarray) -> dict[str, Any]:
+def compare_number(name: str, layer: str, got: Any, expected: Expected, bar: np.ndarray, look: float) -> dict[str, Any]:
     """Grade, worst place and numbers there."""
-    size, unit = size_and_unit(name)
-    ratio, small = weighed_in_bars(got, expected.value, bar, size)
-    # Of those that are set to ten bars, the place of the largest difference.
+    size, unit = size_and_unit(name, layer)
+    ratio, small = weighed_in_bars(got, expected.value, bar, size, look)
+    # Of those that are set to what passes, the place of the largest difference.
     apart = np.where(small, np.abs(np.asarray(got, float) - expected.value), -1.0)
-    decides = apart if float(np.max(ratio)) == LOOK and np.any(small) else ratio
+    decides = apart if float(np.max(ratio)) == look and np.any(small) else ratio
     index = np.unravel_index(int(np.argmax(decides)), ratio.shape) if ratio.ndim else ()
     at = tuple(int(i) for i in index)
-    found, grade = float(np.asarray(got)[at]), grade_of(float(ratio[at]), bool(small[at]))
+    found, grade = float(np.asarray(got)[at]), grade_of(float(ratio[at]), bool(small[at]), look)
     note = "" if np.isfinite(found) else "not a finite number"
     note = f"differs by {float(apart[at]):.2g} {unit}".strip() if grade == "negligible" else note
     return {
@@ -136,8 +145,10 @@ def compare_one(name: str, vector: Vector, out: dict[str, Any], profile: str) ->
             else "is no number"
         )
         return Check(**common, grade="outside", worst=float("inf"), note=note, weighed=False)
-    found = compare_flag(name, vector, got, expected.value) if flag else compare_number(name, got, expected, bar)
-    return Check(**common, **found)
+    if flag:
+        return Check(**common, **compare_flag(name, vector, got, expected.value))
+    look = look_of(profile, vector.layer)
+    return Check(**common, **compare_number(name, vector.layer, got, expected, bar, look))
 
 
 def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> list[Check]:
@@ -147,7 +158,7 @@ def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> li
     said = wrong_shape(vector, out) if vector.piece == "simulate" else ""
     if said:
         return rows_of_another_number(vector, out) or no_answer(vector, said)
-    checks = [compare_one(name, vector, out, profile) for name in asked_for(vector, out)]
+    checks = [compare_one(name, vector, out, profile) for name in asked_for(vector, out, profile)]
     if vector.piece == "simulate" and out.get("t") is not None:
         checks += rows_at_wrong_instants(vector, out["t"])
     decided_wrongly = any(c.failed for c in checks if c.name.partition("@")[0] in FLAGS)
@@ -213,12 +224,15 @@ def rows_at_wrong_instants(vector: Vector, got: Any) -> list[Check]:
     return [Check(vector.id, vector.layer, "S2", "t", "outside", float("inf"), note=said)] if said else []
 
 
-def asked_for(vector: Vector, out: dict[str, Any]) -> list[str]:
-    """The results that are weighed: those that stand in for others only where the others are not shown."""
+def asked_for(vector: Vector, out: dict[str, Any], profile: str = "float64") -> list[str]:
+    """The results that are weighed: those that stand in for others only where the others are not shown; of another
+    integrator in a short run those before its first step."""
 
     def shown(name: str) -> bool:
         return out.get(PARTS.get(name.partition("@")[0], name.partition("@")[0])) is not None
 
+    if profile == "scheme" and vector.layer == "L5s":
+        return [k for k in vector.expect if k.endswith("@0")]
     return [k for k, e in vector.expect.items() if not e.instead_of or not shown(e.instead_of)]
 
 

@@ -1,4 +1,4 @@
-"""Backends to start from, as text: the tutorials in Python and in C."""
+"""Backends to start from, as text: the tutorials in Python, in C and in JavaScript."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from rockref.model.errors import InputError
 
 #: In the wheel they lie in the package, in the repository in `examples`.
 PLACES = (Path(__file__).parent / "example_files", Path(__file__).resolve().parents[2] / "examples")
-FILES = {"python": "backend_numpy.py", "c": "backend_c/backend.c"}
+FILES = {"python": "backend_numpy.py", "c": "backend_c/backend.c", "javascript": "backend_js/backend.js"}
 
 
 def source(language: str) -> str:
-    """The text of a backend to start from. Raises InputError (E-ARGUMENT) for another language than python and c."""
+    """The text of a backend to start from. Raises InputError (E-ARGUMENT) for another language."""
     if language not in FILES:
         raise InputError("E-ARGUMENT", language, "has no example", f"Use one of {', '.join(FILES)}.")
     for place in PLACES:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from rockref.conformance.compare import Check
-from rockref.conformance.judge import LAYERS, Findings
+from rockref.conformance.judge import Findings
 from rockref.conformance.rules import BY_ID, PIECES, RULES
 from rockref.conformance.runs import RunCheck
 from rockref.conformance.vectors import AS_RUN, layer, manifest
-from rockref.conformance.verdict import Verdict, alike, downstream_of, grades, remarks
+from rockref.conformance.verdict import Verdict, alike, downstream_of, grades, not_asked, remarks
 
 GRADES = ("bitwise", "inside", "look", "negligible", "outside", "not judged")
 RED, GREEN, BOLD, PLAIN = "\x1b[31m", "\x1b[32m", "\x1b[1m", "\x1b[0m"
@@ -67,7 +67,7 @@ def rule_lines(v: Verdict) -> list[str]:
 
 def divergence(v: Verdict, colour: bool) -> list[str]:
     """The first wrong rule, and what shows it."""
-    lines = []
+    lines = [painted(f"COMMON SLIP  {v.slip}", BOLD, RED, colour=colour)] if v.slip else []
     if v.rule is not None:
         rule = BY_ID[v.rule]
         lines.append(
@@ -144,7 +144,9 @@ def came(impact: dict) -> str:
     if impact["got_s"] is None:
         return "did not come"
     off = impact["got_s"] - impact["t_s"]
-    return f"came at {impact['got_s']:.9g} s, {abs(off):.3g} s {'late' if off > 0 else 'early'} ({bars(impact['bars'])})"
+    return (
+        f"came at {impact['got_s']:.9g} s, {abs(off):.3g} s {'late' if off > 0 else 'early'} ({bars(impact['bars'])})"
+    )
 
 
 def neighbour_lines(v: Verdict) -> list[str]:
@@ -172,7 +174,7 @@ def unseen(v: Verdict) -> list[str]:
 
 def passing(f: Findings) -> str:
     """The word for who passes: in which profile, and what was not asked."""
-    left = [name for name in LAYERS if name not in f.layers]
+    left = not_asked(f)
     quick = "quick: long runs and properties were not asked"
     said = [f.profile] if f.profile != "float64" else []
     said += [quick if left == ["L5", "L6"] else f"not asked: {' '.join(left)}"] if left else []
@@ -201,9 +203,7 @@ def text(v: Verdict, colour: bool = False) -> str:
     lines += unseen(v) if v.passed and "L5s" in f.layers else []
     lines += [f"Remark: {r}" for r in remarks(v)]
     counted = grades(v)
-    told = ", ".join(
-        f"{counted[g]} {g}" for g in GRADES if g in counted
-    )
+    told = ", ".join(f"{counted[g]} {g}" for g in GRADES if g in counted)
     lines.append(f"Results: {told}; {f.seconds:.1f} s")
     word = f"{v.status} ({v.rule})" if v.rule else v.status
     word = passing(f) if v.passed else word

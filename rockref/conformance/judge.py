@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from rockref.conformance import asking, vectors
+from rockref.conformance import asking, scheme, vectors
 from rockref.conformance.claims import ClaimCheck, judge_claims
 from rockref.conformance.compare import Check, compare, no_answer
 from rockref.conformance.rules import PIECES
@@ -16,15 +16,15 @@ from rockref.conformance.runs import RunCheck, judge_runs
 from rockref.conformance.vectors import Vector
 from rockref.model.errors import InputError
 
-LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "L5", "L6", "L7", "LE")
+LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "LS", "L5", "L6", "L7", "LE")
 PROFILES = ("float64", "float32", "scheme")
 #: What a backend with another integrator is not asked: its own step is its own.
-NOT_OF_THE_SCHEME = {"integrate", "step", "simulate"}
+NOT_OF_THE_SCHEME = {"integrate", "step"}
 
 
 @dataclass
 class Findings:
-    """Everything that was seen of one backend."""
+    """Everything that was seen of one backend; `answers` to the vectors of the small layers and short runs."""
 
     backend: dict[str, Any]
     profile: str
@@ -34,6 +34,7 @@ class Findings:
     properties: list[Any] = field(default_factory=list)
     effects: list[ClaimCheck] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
+    answers: list[tuple[Vector, dict[str, Any]]] = field(default_factory=list)
     pieces: tuple[str, ...] = ()
     seconds: float = 0.0
 
@@ -62,6 +63,11 @@ def chosen_layers(layers: Iterable[str] | None) -> tuple[str, ...]:
     return tuple(name for name in LAYERS if name in wanted)
 
 
+def of_the_profile(layer: str, profile: str) -> bool:
+    """Whether a layer is asked in a profile: of other integrators no step, but short runs of their own."""
+    return layer != "L4" if profile == "scheme" else layer != "LS"
+
+
 def used_profile(backend: Any, wanted: str | None) -> str:
     """The profile that is asked for, or else what the backend says of its precision. Raises InputError (E-PROFILE)."""
     if wanted is not None and wanted not in PROFILES:
@@ -82,8 +88,8 @@ def judge(
     Parameters
     ----------
     backend : an object with `simulate`, and as many of the other pieces as it likes to show (`rules.PIECES`).
-    layers : some of L0 .. L4, L5s (short runs), L5 (trajectories), L6 (properties), L7, LE (effects that it claims);
-        all by default.
+    layers : some of L0 .. L4, L5s (short runs), LS (short runs of other integrators), L5 (trajectories),
+        L6 (properties), L7, LE (effects that it claims); all by default.
     profile : "float64", "float32", or "scheme" (the same physics by another integrator).
     progress : called with the layer and the share of it that is done.
     examples : drawn for each property of L6.
@@ -98,7 +104,7 @@ def judge(
         raise InputError(
             "E-BACKEND", described(backend)["name"], "has no simulate(problem)", "It is the one mandatory piece."
         )
-    wanted = chosen_layers(layers)
+    wanted = tuple(name for name in chosen_layers(layers) if of_the_profile(name, profile))
     pieces = tuple(p for p in PIECES if asking.has(backend, p))
     findings = Findings(described(backend), profile, wanted, pieces=pieces)
     begin = time.perf_counter()
@@ -128,15 +134,21 @@ def _small(backend: Any, findings: Findings, asked: tuple[Vector, ...], report: 
         if findings.profile == "scheme" and vector.piece in NOT_OF_THE_SCHEME:
             continue
         if asking.has(backend, vector.piece):
-            findings.checks += answered(backend, vector, findings.profile)
+            findings.checks += answered(backend, vector, findings.profile, findings.answers)
         if report is not None and i % max(1, len(asked) // 50) == 0:
             report((i + 1) / len(asked))
 
 
-def answered(backend: Any, vector: Vector, profile: str) -> list[Check]:
-    """The checks of one vector; whatever the backend raises is its answer."""
+def answered(
+    backend: Any, vector: Vector, profile: str, kept: list[tuple[Vector, dict[str, Any]]] | None = None
+) -> list[Check]:
+    """The checks of one vector; whatever the backend raises is its answer. `kept` gets the answer."""
+    ask = scheme.ask if vector.layer == "LS" else asking.ask
     try:
-        return compare(vector, asking.ask(backend, vector), profile)
+        out = ask(backend, vector)
+        if kept is not None:
+            kept.append((vector, out))
+        return compare(vector, out, profile)
     except asking.ANYTHING as e:  # the backend is a stranger's
         return no_answer(vector, asking.raised(e))
 

@@ -30,12 +30,18 @@ SIZES: dict[str, tuple[float, str]] = {
 }
 
 
-def size_and_unit(name: str) -> tuple[float, str]:
+#: Layers of a few steps: a place there shows the force that moved it, and 1 pm after a step of 10 us is a newton.
+#: Forces alone have a size there.
+OF_FEW_STEPS = ("L4", "L5s", "LS")
+
+
+def size_and_unit(name: str, layer: str = "") -> tuple[float, str]:
     """The size [SI] below which a difference of a result is negligible, zero where there is none; and its unit.
 
     name : as results are called, `F_N@1`, `trace.s_trial`
     """
-    return SIZES.get(name.removeprefix("trace.").partition("@")[0], (0.0, ""))
+    size, unit = SIZES.get(name.removeprefix("trace.").partition("@")[0], (0.0, ""))
+    return (0.0, unit) if layer in OF_FEW_STEPS and unit != "N" else (size, unit)
 
 
 def same_force(q: dict[str, Any]) -> bool:

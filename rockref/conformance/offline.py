@@ -8,9 +8,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from rockref.conformance import jsonlines, vectors
+from rockref.conformance import jsonlines, scheme, vectors
 from rockref.conformance.executable import Misbehaved
-from rockref.conformance.judge import asked_in
+from rockref.conformance.judge import asked_in, of_the_profile
 from rockref.conformance.rules import PIECES
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
@@ -18,7 +18,7 @@ from rockref.model.storage import read_bytes, unpacked
 
 #: Decided: all questions have 0.9 MB and the law's answers 6 MB; JSON takes thirty times its size in memory at worst.
 LARGEST_REQUESTS, LARGEST_RESPONSES = 24_000_000, 24_000_000
-SMALL = ("L0", "L1", "L2", "L3", "L4", "L5s", "L7")
+SMALL = ("L0", "L1", "L2", "L3", "L4", "L5s", "LS", "L7")
 
 
 def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[str, Any]]:
@@ -26,9 +26,12 @@ def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[
     yield {"cmd": "start", "protocol": jsonlines.PROTOCOL}
     wanted = tuple(layers)
     for layer in SMALL:
-        if layer in wanted:
+        if layer in wanted and of_the_profile(layer, profile):
             yield from map(jsonlines.of_vector, vectors.layer(layer))
-        if layer == "L4" and layer in wanted:
+        if layer == "LS" and layer in wanted and profile == "scheme":
+            for v in vectors.layer(layer):
+                yield jsonlines.of_problem(f"{v.id}-half", "simulate", scheme.halved(vectors.problem_of(v.inputs)))
+        if layer == "L4" and layer in wanted and profile != "scheme":
             yield from map(jsonlines.of_vector, vectors.steps_as_runs())
     if "L5" in wanted:
         names = (
@@ -86,7 +89,9 @@ class Recorded:
 
     def _left_out(self) -> list[str]:
         """A remark for every layer with questions to pieces that are shown which the file does not answer."""
-        asked = {name: tuple((v.id, v.piece) for v in asked_in(name, self)) for name in SMALL}
+        # What is asked of other integrators alone is not missed.
+        of_all = [name for name in SMALL if name != "LS"]
+        asked = {name: tuple((v.id, v.piece) for v in asked_in(name, self)) for name in of_all}
         asked["L5"] = tuple((name, "simulate") for name in vectors.window_names() + vectors.trajectory_names())
         remarks = []
         for layer, questions_ in asked.items():
@@ -130,7 +135,7 @@ class Recorded:
 @lru_cache
 def _by_content() -> dict[str, str]:
     """Which id a question has, by its content."""
-    every = questions((*SMALL, "L5"))
+    every = [q for profile in ("float64", "scheme") for q in questions((*SMALL, "L5"), profile)]
     return {_key(q["piece"], q["in"]): q["id"] for q in every if q["cmd"] == "run"}
 
 

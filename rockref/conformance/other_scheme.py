@@ -11,14 +11,13 @@ from rockref.conformance import pieces
 from rockref.conformance.law_backend import RulesBackend
 from rockref.model.integrator import Inertia, times
 from rockref.model.problem import Problem, State
-from rockref.model.rotation import cross
 
 
 def kick_and_drift(rules: pieces.Rules, problem: Problem, state: State, inertia: Inertia) -> State:
     """Symplectic Euler: velocities by the forces at n, then positions by the new velocities, then the forces there."""
     h = state.x.dtype.type(problem.step)
     v = state.v + h * state.a
-    W = state.W + h * times(inertia.J_inverse, state.T - cross(state.W, times(inertia.J, state.W)))
+    W = state.W + h * rules.acceleration(state.T, state.W, times(inertia.J, state.W), inertia.J_inverse)
     x = state.x + h * v
     Lambda = rules.rotation(state.Lambda, rules.exponential(h * W))
     a, T, F, c = pieces.evaluate(rules, problem, state, x, Lambda, v, W)

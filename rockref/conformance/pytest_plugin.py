@@ -56,7 +56,7 @@ def usable(target: str) -> Any:
 def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
     """What becomes a test: the kind of test, its name, and what it is about."""
     from rockref.conformance import asking, claims, vectors
-    from rockref.conformance.judge import NOT_OF_THE_SCHEME, asked_in
+    from rockref.conformance.judge import NOT_OF_THE_SCHEME, asked_in, of_the_profile
 
     if layer == "L5":
         windows = () if profile == "scheme" else vectors.window_names()
@@ -66,6 +66,8 @@ def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
     if layer == "LE":
         found = claims.claims() if profile == "float64" else ()
         return [(ClaimItem, c.id, c) for c in found if asking.has(backend, c.piece)]
+    if not of_the_profile(layer, profile):
+        return []
     not_asked = NOT_OF_THE_SCHEME if profile == "scheme" else set()
     shown = [v for v in asked_in(layer, backend) if asking.has(backend, v.piece) and v.piece not in not_asked]
     return [(VectorItem, v.id, v) for v in shown]

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.asking import ANYTHING, as_mapping, raised
-from rockref.conformance.compare import LOOK, grade_of, weighed_in_bars, wrong_instants
+from rockref.conformance.compare import grade_of, look_of, weighed_in_bars, wrong_instants
 from rockref.conformance.negligible import INSTANT, size_and_unit
+from rockref.conformance.side_by_side import grouped, simulate
 from rockref.conformance.vectors import Trajectory, trajectory, trajectory_names, window_names
-from rockref.model.problem import Problem
 
 #: Column of the values, and of the bars, by profile.
 VALUES = {"float64": "", "float32": "", "scheme": "converged_"}
@@ -63,7 +63,7 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
     check = RunCheck(t.id, t.title, "bitwise", horizon_s=horizon)
     rows = int(np.sum(instants <= horizon * (1 + 1e-12)))
     ratios: dict[str, np.ndarray] = {}
-    negligible = False
+    negligible, look = False, look_of(profile, "L5")
     said = "" if out.get("t") is None else wrong_instants(out["t"], instants, t.problem.step)
     if said:
         return replace(check, grade="outside", worst=np.inf, note=said)
@@ -79,30 +79,30 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
             return replace(check, grade="outside", worst=np.inf, note=f"{key} has shape {got.shape}, not {right.shape}")
         bar = bars[key].reshape((-1,) + (1,) * (right.ndim - 1))
         bar = np.broadcast_to(bar[:rows], right[:rows].shape)
-        ratios[key], small = weighed_in_bars(got[:rows], right[:rows], bar, size_and_unit(key)[0])
+        ratios[key], small = weighed_in_bars(got[:rows], right[:rows], bar, size_and_unit(key)[0], look)
         negligible = negligible or bool(np.any(small))
     if "W" not in ratios:
         return replace(check, grade="outside", worst=np.inf, note="gives no W")
     by_row = np.max([r.reshape(rows, -1).max(axis=1) for r in ratios.values()], axis=0)
     check.t, check.ratios, check.worst = instants[:rows], by_row, float(by_row.max())
-    check.grade = grade_of(check.worst, negligible)
+    check.grade = grade_of(check.worst, negligible, look)
     if check.failed:
-        check.first = first_outside(ratios, expected, bars, out, instants)
+        check.first = first_outside(ratios, expected, bars, out, instants, look)
         before = [e for e in t.meta["events"] if e[0] <= check.first["t_s"]]
         check.event = before[-1] if before else None
     if profile != "float32":
         expected_ = t.meta["impacts"] if profile == "float64" else t.meta["converged"]["impacts"]
-        check.impacts = judge_impacts(expected_, out, instants, rows)
+        check.impacts = judge_impacts(expected_, out, instants, rows, look)
         if any(i["grade"] == "outside" for i in check.impacts):
             check.grade = "outside"
     return check
 
 
 def first_outside(
-    ratios: dict, expected: dict, bars: dict, out: dict[str, Any], instants: np.ndarray
+    ratios: dict, expected: dict, bars: dict, out: dict[str, Any], instants: np.ndarray, look: float
 ) -> dict[str, Any]:
-    """The first row that is more than ten bars off, and the quantity that is most off in it."""
-    outside = {k: np.flatnonzero(r.reshape(len(r), -1).max(axis=1) > 10) for k, r in ratios.items()}
+    """The first row that is outside, and the quantity that is most off in it."""
+    outside = {k: np.flatnonzero(r.reshape(len(r), -1).max(axis=1) > look) for k, r in ratios.items()}
     row = min(int(i[0]) for i in outside.values() if len(i))
     key = max((k for k, i in outside.items() if len(i) and i[0] == row), key=lambda k: float(np.max(ratios[k][row])))
     index = np.unravel_index(int(np.argmax(ratios[key][row])), ratios[key][row].shape)
@@ -131,7 +131,7 @@ def upright(t: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
 
 
 def judge_impacts(
-    expected: list[dict[str, float]], out: dict[str, Any], instants: np.ndarray, rows: int
+    expected: list[dict[str, float]], out: dict[str, Any], instants: np.ndarray, rows: int, look: float
 ) -> list[dict[str, Any]]:
     """The main impacts, each with its deviation in bars."""
     if out.get("Lambda") is None:
@@ -141,39 +141,11 @@ def judge_impacts(
     judged = []
     for i, impact in enumerate(expected):
         apart = abs(got[i] - impact["t_s"]) if i < len(got) else np.inf
-        off = min(apart / impact["bar_s"], LOOK) if apart <= INSTANT else apart / impact["bar_s"]
-        judged.append({**impact, "got_s": float(got[i]) if i < len(got) else None, "bars": off, "grade": grade_of(off)})
+        off = min(apart / impact["bar_s"], look) if apart <= INSTANT else apart / impact["bar_s"]
+        judged.append(
+            {**impact, "got_s": float(got[i]) if i < len(got) else None, "bars": off, "grade": grade_of(off, look=look)}
+        )
     return judged
-
-
-def simulate(backend: Any, problems: list[Problem]) -> list[Any]:
-    """The answers of a backend to some runs, side by side where it can; an exception stands for the answer that it
-    spoiled."""
-    if hasattr(backend, "simulate_many") and len({alike(p) for p in problems}) == 1:
-        try:
-            return list(backend.simulate_many(problems))
-        except ANYTHING:  # one of them spoils all: ask one by one
-            pass
-    answers: list[Any] = []
-    for problem in problems:
-        try:
-            answers.append(backend.simulate(problem))
-        except ANYTHING as e:
-            answers.append(e)
-    return answers
-
-
-def alike(p: Problem) -> tuple[Any, ...]:
-    """What runs must share to be computed side by side."""
-    return p.step, p.duration, p.output_rate, p.points.n
-
-
-def grouped(problems: list[Problem]) -> list[list[int]]:
-    """Indices of the problems that can be computed side by side."""
-    groups: dict[tuple[Any, ...], list[int]] = {}
-    for i, p in enumerate(problems):
-        groups.setdefault(alike(p), []).append(i)
-    return list(groups.values())
 
 
 def judge_runs(backend: Any, profile: str, report: Callable[[float], None] | None = None) -> list[RunCheck]:

@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import Any
 
 from rockref.conformance.compare import Check
-from rockref.conformance.judge import LAYERS, Findings, finite
+from rockref.conformance.judge import LAYERS, Findings, finite, of_the_profile
 from rockref.conformance.rules import ALIKE_IN_RUNS, BY_ID, RULES, downstream
 from rockref.conformance.runs import RunCheck
 from rockref.conformance.vectors import AS_RUN, layer, manifest
@@ -20,7 +20,10 @@ NO_RULE = "No short run diverges: the first divergent sample of the long ones is
 A_STEP = "A whole step is wrong, and no short run tells by which rule: it is this one, or one that comes before it."
 HANDED = "The piece by itself passes: look at what the step hands to it."
 COMPANY = "The piece by itself passes; where several feet stand together, at the very start of a run, it does not."
+ANEW = "The answer is that of a start evaluated anew: the a, T and F that the start brings were not taken."
 SMALL = ("L0", "L1", "L2", "L3", "L7")
+#: Short runs: those of the law's scheme, and those of other ones.
+SHORT = ("L5s", "LS")
 
 
 @dataclass
@@ -30,6 +33,7 @@ class Verdict:
     status : "PASS", "FAIL", or "NOTHING JUDGED"
     rule : the first wrong rule, None where it cannot be told; check : the vector that shows it
     run : the first run that diverges; rules : status of every rule; consequences : failed checks that come after
+    slip : a common slip that explains all answers to some result, in words
     neighbours : mistakes of the zoo with a similar fingerprint, for a backend of which the pieces do not tell the rule;
     alone : they were looked for, and there is none
     """
@@ -93,13 +97,13 @@ def first(checks: Sequence[Check]) -> Check | None:
 def place(check: Check) -> tuple[float, float]:
     """Where a failure stands: by rule and number; short runs by place alone, as they build on each other."""
     number = float(check.vector.removesuffix(AS_RUN).rpartition("-")[2])
-    return (0.0, places().get(check.vector, number)) if check.layer == "L5s" else (check.rank, number)
+    return (0.0, places().get(check.vector, number)) if check.layer in SHORT else (check.rank, number)
 
 
 @lru_cache
 def places() -> dict[str, float]:
     """The short runs that are judged elsewhere than at their own number."""
-    return {v.id: v.place for v in layer("L5s") if v.place is not None}
+    return {v.id: v.place for name in SHORT for v in layer(name) if v.place is not None}
 
 
 def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
@@ -108,7 +112,7 @@ def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
     Who shows a step but not the contact law is first asked by short runs, which tell the contact rules apart.
     """
     shown = {"kinematics", "contact_law"} <= set(pieces)
-    return (SMALL, ("L4",), ("L5s",)) if shown else (SMALL, ("L5s",), ("L4",))
+    return (SMALL, ("L4",), SHORT) if shown else (SMALL, SHORT, ("L4",))
 
 
 @lru_cache
@@ -119,7 +123,8 @@ def layers_of_pieces() -> dict[str, str]:
 
 def all_asked(findings: Findings) -> bool:
     """Whether every piece that is shown was asked by itself: only then can it be said that all of them pass."""
-    return {layers_of_pieces()[p] for p in findings.pieces} <= set(findings.layers)
+    asked = {layers_of_pieces()[p] for p in findings.pieces}
+    return {name for name in asked if of_the_profile(name, findings.profile)} <= set(findings.layers)
 
 
 def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
@@ -130,7 +135,7 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
         check = first([c for c in checks if c.layer in layers])
         if check is None:
             continue
-        if layers == ("L5s",) and check.rule == "S2" and pieces:
+        if layers == SHORT and check.rule == "S2" and pieces:
             return "S2", check, LOOP if all_asked(findings) else ""
         if layers == ("L4",) and check.vector.endswith(AS_RUN):
             return check.rule, check, A_STEP
@@ -138,9 +143,9 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
             return check.rule, check, ""
         if layers == ("L4",):
             return in_company(checks) or (check.rule, check, HANDED)
-        others = [c for c in checks if c.layer == "L5s" and c.rule not in good]
+        others = [c for c in checks if c.layer in SHORT and c.rule not in good]
         unproved = first(others)
-        whole = {"step", "integrate"} & set(pieces)
+        whole = {"step", "integrate"} & set(pieces) if findings.profile != "scheme" else set()
         if unproved is not None and not whole:
             return unproved.rule, unproved, ""
         return ("S2", check, LOOP) if all_asked(findings) else (None, check, UNASKED)
@@ -160,6 +165,11 @@ def unanswered(checks: Sequence[Check]) -> str:
     if not any(c.weighed for c in checks if c.grade not in ("not shown", "not judged")):
         return "No question was answered in a way that can be weighed: that speaks of no rule."
     return "The first failure is an answer that is missing or of another shape: that speaks of no rule."
+
+
+def not_asked(f: Findings) -> list[str]:
+    """The layers of the profile that were not asked."""
+    return [name for name in LAYERS if of_the_profile(name, f.profile) and name not in f.layers]
 
 
 def something_judged(findings: Findings) -> bool:
@@ -185,18 +195,28 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     found = Verdict(status, findings, rule, check, bad_run, says, rules)
     if status != "FAIL":
         return found
+    found.slip, anew = slip_of(findings, check)
+    found.says = found.says or anew
     found.consequences = [c for c in findings.checks if c.failed and c is not check]
     found.rules = with_consequences(rules, rule, findings.checks)
     in_pieces = {"step", "contact_law"} <= set(findings.pieces) and findings.profile != "scheme"
     if rule is None and bad_run is not None and in_pieces:
         found.rule, found.says = ("S2", LOOP) if all_asked(findings) else (None, UNASKED)
-    short = any(c.layer == "L5s" for c in findings.checks)
+    short = any(c.layer in SHORT for c in findings.checks)
     if found.rule is None and check is None and bad_run is not None and short:
         found.says = NO_RULE
     silent = check is not None and not check.weighed
     if backend is not None and findings.profile == "float64" and "contact_law" not in findings.pieces and not silent:
         resembling(found, backend)
     return found
+
+
+def slip_of(findings: Findings, check: Check | None) -> tuple[str, str]:
+    """A common slip in words, and a sentence where the first failure is that of a start evaluated anew."""
+    from rockref.conformance.slips import evaluated_anew, told
+
+    shown = next((a for a in findings.answers if check is not None and a[0].id == check.vector), None)
+    return told(findings.answers, findings.checks), ANEW if shown is not None and evaluated_anew(*shown) else ""
 
 
 def resembling(found: Verdict, backend: Any) -> None:
@@ -219,7 +239,7 @@ def resembling(found: Verdict, backend: Any) -> None:
 
 def alike(v: Verdict) -> list[str]:
     """Rules that the runs cannot tell from the one that is named, and of which no piece says that they are right."""
-    if v.rule is None or v.check is None or v.check.layer != "L5s":
+    if v.rule is None or v.check is None or v.check.layer not in SHORT:
         return []
     small = status_of_rules([c for c in v.findings.checks if c.layer in SMALL])
     return [rule for rule in ALIKE_IN_RUNS.get(v.rule, ()) if small[rule] == "not shown"]
@@ -233,7 +253,9 @@ def remarks(v: Verdict) -> list[str]:
     if not counted:
         return f.remarks
     first_ = f"; first {small[0].name} of {small[0].vector}: {small[0].note}" if small else ""
-    differ = f"{counted} results differ by more than ten bars and by less than 1 nN or 1 pm, which is no verdict{first_}."
+    differ = (
+        f"{counted} results differ by more than ten bars and by less than 1 nN or 1 pm, which is no verdict{first_}."
+    )
     return [*f.remarks, differ]
 
 
@@ -279,8 +301,9 @@ def as_json(v: Verdict) -> dict[str, Any]:
         "equation": None if v.rule is None else BY_ID[v.rule].equation,
         "says": None if v.rule is None else BY_ID[v.rule].says,
         "remark": v.says,
+        "slip": v.slip,
         "alike": alike(v),
-        "not_asked": [name for name in LAYERS if name not in f.layers],
+        "not_asked": not_asked(f),
         "backend": f.backend,
         "profile": f.profile,
         "layers": list(f.layers),

@@ -26,18 +26,18 @@ def short(value: float, bits: int = 16) -> float:
 
 
 class Draw:
-    """A seeded source of short numbers and vectors."""
+    """A seeded source of short numbers and vectors; of numbers with all their bits where `bits` is 53."""
 
-    def __init__(self, seed: int):
-        self.random = random.Random(seed)
+    def __init__(self, seed: int, bits: int = 16):
+        self.random, self.bits = random.Random(seed), bits
 
     def between(self, low: float, high: float) -> float:
         """Uniform between two numbers."""
-        return short(low + (high - low) * self.random.random())
+        return short(low + (high - low) * self.random.random(), self.bits)
 
     def decade(self, low: float, high: float) -> float:
         """Uniform in the logarithm."""
-        return short(math.exp(math.log(low) + (math.log(high) - math.log(low)) * self.random.random()))
+        return short(math.exp(math.log(low) + (math.log(high) - math.log(low)) * self.random.random()), self.bits)
 
     def vector(self, size: float, n: int = 3) -> np.ndarray:
         """Components between -size and size."""

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from rockref.conformance.executable import Executable
+from rockref.conformance.maker import ways
 
 SOURCE = Path(__file__).resolve().parents[3] / "examples/backend_c/backend.c"
 ROUNDING = Path(__file__).with_name("rounding.c")
@@ -34,9 +35,18 @@ def folder() -> tempfile.TemporaryDirectory[str]:
 
 @lru_cache
 def built(name: str) -> Path:
-    """One of `BUILDS`, compiled."""
+    """One of `BUILDS`, or one of `ways.WAYS` or `ways.SCHEMES` in double precision, compiled."""
     path = Path(folder().name) / name
-    subprocess.run([*COMMON, *BUILDS[name], "-o", str(path), "-lm"], check=True)
+    subprocess.run([*COMMON, *(BUILDS[name] if name in BUILDS else [str(written(name))]), "-o", str(path), "-lm"],
+                   check=True)  # fmt: skip
+    return path
+
+
+def written(name: str) -> Path:
+    """The source of another way to write the law, or of another integrator."""
+    text = SOURCE.read_text()
+    path = Path(folder().name) / f"{name}.c"
+    path.write_text(ways.changed(text, ways.WAYS[name]) if name in ways.WAYS else ways.with_scheme(text, name))
     return path
 
 

@@ -1,7 +1,8 @@
 """Expected rows of a run, and their bars.
 
 Values: longdouble. Bars: 8 times the largest deviation, so far in the run, of the float64 law, of 16 runs with all
-inputs moved by an ulp and the points in random order, and of 8 runs under random rounding; plus an ulp.
+inputs moved by an ulp and the points in random order, of 5 other ways to write the law (`ways.py`), and of 8 runs under
+random rounding; plus an ulp.
 """
 
 from __future__ import annotations
@@ -12,17 +13,16 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance import exact_run, pieces
-from rockref.conformance.maker import programs
+from rockref.conformance import exact_run
+from rockref.conformance.maker import programs, ways
 from rockref.conformance.maker.answers import body_of, start_of
 from rockref.conformance.maker.arithmetic import LongDoubles, converted
 from rockref.conformance.maker.bars import FACTOR, ULP_RUNS, moved, ulp
 from rockref.conformance.maker.scenes import PER_POINT
-from rockref.conformance.other_scheme import KickAndDrift
 from rockref.conformance.runs import upright
 from rockref.conformance.vectors import problem_of
 from rockref.engines import run
-from rockref.model.problem import Problem, stack
+from rockref.model.problem import Problem
 from rockref.model.simulate import output_steps
 
 ROUNDING_RUNS, SINGLE_RUNS = 8, 12
@@ -95,6 +95,16 @@ def double_members(q: dict[str, Any], seed: int) -> list[Any]:
     return [run(p, engine="auto") for p in problems]
 
 
+def way_members(q: dict[str, Any]) -> list[Any]:
+    """Correct float64 runs by other ways to write the law."""
+    return [as_rows(programs.answer(name, [problem_of(q)])[0]) for name in ways.WAYS]
+
+
+def scheme_members(q: dict[str, Any]) -> list[Any]:
+    """Runs by other integrators at the stated step."""
+    return [as_rows(programs.answer(name, [problem_of(q)])[0]) for name in ways.SCHEMES]
+
+
 def rounding_members(q: dict[str, Any], seed: int) -> list[Any]:
     """Correct float64 runs under random rounding."""
     return [as_rows(programs.answer("rounding", [problem_of(q)], seed + i)[0]) for i in range(ROUNDING_RUNS)]
@@ -153,36 +163,6 @@ def impact_bars(found: list[Any], truth: Rows, end: float, factor: float = FACTO
         apart = [abs(o[k] - instant) if len(o) > k else np.inf for o in others]
         result.append({"t_s": float(instant), "bar_s": float(factor * max(apart) + np.spacing(instant))})
     return result
-
-
-def inert(q: dict[str, Any], points: int) -> dict[str, Any]:
-    """The inputs with points added that hang a metre above the centre of mass and never touch."""
-    more = points - len(q["P"])
-    if not more:
-        return q
-    added = {k: np.concatenate([q[k], np.ones(more)]) for k in PER_POINT if k != "P"}
-    added["P"] = np.concatenate([q["P"], np.tile([0.0, 0.0, 1.0], (more, 1))])
-    added["s"] = np.concatenate([q["s"], np.zeros((more, 2))])
-    added |= {k: np.concatenate([q[k], np.zeros(more, bool)]) for k in ("anchored", "sliding")}
-    return q | added | {"names": [*q["names"], *(f"inert {i}" for i in range(more))]}
-
-
-def alike(qs: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Inputs of one step made so alike that they can run in one batch: as many points, the longest duration, every
-    row."""
-    longest = {"duration": max(q["duration"] for q in qs), "output_rate": max(q["output_rate"] for q in qs)}
-    return [inert(q, max(len(p["P"]) for p in qs)) | longest for q in qs]
-
-
-def other_scheme(qs: list[dict[str, Any]]) -> list[Rows]:
-    """Runs by another integrator, for several inputs of one step, all in one batch."""
-    shared = [problem_of(q) for q in alike(qs)]
-    batch, steps = pieces.simulate(KickAndDrift().rules, stack(shared)), output_steps(shared[0])
-    found = []
-    for i, q in enumerate(qs):
-        rows, run_ = np.searchsorted(steps, output_steps(problem_of(q))), batch.pick(i)
-        found.append(Rows(run_.t[rows], run_.W[rows], run_.x[rows], run_.Lambda[rows]))
-    return found
 
 
 def converged(problem: Problem, step: float) -> Any:

@@ -18,7 +18,8 @@ EVEN = (5e-5, 5e-5, 5e-5, 5e-5)
 
 @dataclass(frozen=True)
 class Scene:
-    """A run: flat inputs without the step, duration [s], rows a second [Hz], step [s], what it shows."""
+    """A run: flat inputs without the step, duration [s], rows a second [Hz], step [s], what it shows; whether it is
+    asked for as a whole, and not for a window of it alone."""
 
     id: str
     title: str
@@ -26,6 +27,7 @@ class Scene:
     duration: float
     rate: float = 250.0
     step: float = 1e-5
+    whole: bool = True
 
     @property
     def inputs(self) -> dict[str, Any]:
@@ -63,6 +65,12 @@ def released(q: dict[str, Any], theta_0: float = THETA_0, W: Any = (0, 0, 0)) ->
 def standing(q: dict[str, Any], gap: float, **state: Any) -> dict[str, Any]:
     """The inputs with the block upright, its internal points `gap` above the plate."""
     return at_rest(q, (0, 0, HEIGHT / 2 + gap), np.eye(3), **state)
+
+
+def flying(q: dict[str, Any]) -> dict[str, Any]:
+    """The inputs of a body with three different moments of inertia that turns far above the plate."""
+    q = q | {"inertia": np.diag([0.5, 1.25, 2.0])}
+    return at_rest(q, (0.5, -0.25, 8.0), rotation((0.3, -0.2, 0.5)), v=(1.0, -0.5, 0.25), W=(3.1, 4.7, -2.3))
 
 
 def without(q: dict[str, Any], *corners: int) -> dict[str, Any]:
@@ -109,11 +117,13 @@ def scenes() -> dict[str, Scene]:
         Scene("one_foot_missing", "corner 3 has no points: it comes down there", released(without(base, 3)), 0.8),
         Scene("oblique_inertia", "products of inertia", oblique, 1.4),
         Scene("other_gravity", "60 kg, 9.80665 m/s2", heavy, 1.4),
-        Scene("step_3e-6", "Table 3.1 with the source's smaller step", released(base), 0.6, 250.0, 3e-6),
+        Scene("step_3e-6", "Table 3.1 with the source's smaller step", released(base), 0.6, 250.0, 3e-6, False),
         Scene("step_2e-5", "Table 3.1 with twice the step", released(base), 1.4, 250.0, 2e-5),
         Scene("static", "let go upright, leaning by 0.2 mrad: it settles on its feet", uneven, 0.3, 1000.0),
         Scene("slide", "upright, sliding, until friction has stopped it", sliding, 0.5, 500.0),
         Scene("drop", "dropped flat from 1 mm; the closed form is known", standing(even, 1e-3), 0.06, 5000.0),
+        # A row every 33 1/3 steps: a clock that is added up, or cut, is some rows late before the end.
+        Scene("flight", "far above the plate, three different moments: ten thousand steps", flying(base), 0.1, 3000.0),
     ]
     return {scene.id: scene for scene in found}
 
@@ -145,4 +155,6 @@ WINDOWS = (
     Window("slide", 0.28, "sliding ends"),
     Window("drop", 0.01, "flat touch-down"),
 )
+#: They stand behind the trajectories, so that these keep their seeds.
+LATER_WINDOWS = (Window("step_3e-6", 0.5, "main impact, with the source's smaller step"),)
 WINDOW_DURATION, WINDOW_RATE = 0.02, 5000.0

@@ -9,7 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.maker import cases_alone, cases_body, cases_derived, cases_point, cases_short, cases_step
+from rockref.conformance.maker import (
+    cases_alone,
+    cases_body,
+    cases_derived,
+    cases_full,
+    cases_memory,
+    cases_point,
+    cases_scheme,
+    cases_short,
+    cases_step,
+)
 from rockref.conformance.maker.bars import Barred, Case, barred
 from rockref.conformance.maker.branches import branch
 from rockref.conformance.maker.hunting import hunted
@@ -19,14 +29,14 @@ from rockref.conformance.vectors import SCHEMA, vector_of
 #: The questions of each layer, in order. The seed of a question is its place.
 QUESTIONS = {
     "L0": (cases_derived.derived, cases_derived.release, cases_derived.inner_pivots, cases_derived.elsewhere),
-    "L1": (cases_point.all_points,),
-    "L2": (cases_body.assembly,),
-    "L3": (cases_body.exponentials, cases_body.steps, cases_body.no_rotation),
+    "L1": (cases_point.all_points, cases_full.points),
+    "L2": (cases_body.assembly, cases_full.assembly),
+    "L3": (cases_body.exponentials, cases_body.steps, cases_body.no_rotation, cases_full.steps),
     "L4": (cases_step.steps,),
-    "L5s": (cases_short.all_short, cases_alone.alone),
+    "L5s": (cases_short.all_short, cases_alone.alone, cases_memory.memory),
     "L7": (cases_derived.channel,),
 }
-LAYERS = tuple(QUESTIONS)
+LAYERS = (*QUESTIONS, "LS")
 #: Inputs that the vectors of a layer may share, by name of the set.
 SHARED = ("mass", "g", "inertia", "P", "K_N", "C_N", "K_T", "C_T", "mu_0", "mu", "names")
 
@@ -80,9 +90,14 @@ def entry_of(case: Case, number: int, sets: dict[str, Any]) -> dict[str, Any]:
         shared = sets.setdefault(case.set, {k: inputs[k] for k in SHARED if k in inputs})
         inputs = {k: v for k, v in inputs.items() if shared.get(k) != v}
         entry["set"] = case.set
-    found = barred(case, seed=number)
     entry["in"] = inputs
-    entry["expect"] = {k: result_of(b, case.fields[k], "mpmath-50") for k, b in found.items()}
+    if case.layer == "LS":
+        values, bars = cases_scheme.converged(case.inputs)
+        found = {k: Barred(values[k[:-2]], bars[k[:-2]], None) for k in case.fields}
+    else:
+        found = barred(case, seed=number)
+    route = "longdouble, converged" if case.layer == "LS" else "mpmath-50"
+    entry["expect"] = {k: result_of(b, case.fields[k], route) for k, b in found.items()}
     for name, shown in case.instead.items():
         entry["expect"][name]["instead_of"] = shown
     entry["branch"] = branch(case)
@@ -99,18 +114,23 @@ def vectors(layer: str, refused: list[str]) -> tuple[dict[str, Any], Iterator[di
     sets: dict[str, Any] = {}
 
     def admitted() -> Iterator[dict[str, Any]]:
-        number = 0
-        for group in QUESTIONS[layer]:
-            for case in group():
-                number += 1
-                entry = entry_of(case, number, sets)
-                vector = hunted(vector_of(entry, sets))
-                if vector is None:
-                    refused.append(f"{entry['id']} {case.flags}")
-                    continue
-                yield entry | {"hunts": list(vector.hunts), "resolving": vector.resolving}
+        for number, case in numbered(layer):
+            entry = entry_of(case, number, sets)
+            vector = hunted(vector_of(entry, sets))
+            if vector is None:
+                refused.append(f"{entry['id']} {case.flags}")
+                continue
+            yield entry | {"hunts": list(vector.hunts), "resolving": vector.resolving}
 
     return sets, admitted()
+
+
+def numbered(layer: str) -> Iterator[tuple[int, Case]]:
+    """The questions of a layer with their numbers; those to other integrators have the numbers of their short runs."""
+    if layer == "LS":
+        yield from cases_scheme.all_of_them()
+        return
+    yield from enumerate((case for group in QUESTIONS[layer] for case in group()), 1)
 
 
 def document(layer: str, refused: list[str]) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from rockref.conformance.maker.answers import pattern
 from rockref.conformance.maker.bars import FACTOR
 from rockref.conformance.maker.drawing import orthonormal
 from rockref.conformance.maker.runs import HORIZON, Rows
-from rockref.conformance.maker.scenes import WINDOW_DURATION, WINDOW_RATE, WINDOWS, Window, scenes
+from rockref.conformance.maker.scenes import LATER_WINDOWS, WINDOW_DURATION, WINDOW_RATE, WINDOWS, Scene, Window, scenes
 from rockref.conformance.maker.small import rounded_up, stored
 from rockref.conformance.runs import SHOWN
 from rockref.conformance.vectors import SCHEMA, problem_of
@@ -24,11 +24,10 @@ from rockref.model.simulate import output_steps
 
 #: Steps of the converged solution [s]; the difference of the two is how far it is converged.
 FINE, LESS_FINE = 1e-7, 2e-7
-#: Bar of the profile "scheme": so many times the larger deviation from the converged solution of two schemes at the
-#: stated step
-#: (the law's own, and kick and drift). Decided: another scheme of the same order may be as much worse again, and its
-#: double.
-SCHEME_FACTOR = 4
+#: Bar of the profile "scheme": so many times the largest deviation from the converged solution of five schemes at the
+#: stated step, the law's own and `ways.SCHEMES`. Decided: another scheme of the same order may be as much worse again;
+#: three that are not among the five keep within half of it.
+SCHEME_FACTOR = 2
 #: Least bar of that profile, of the largest value: ten times what storing twelve digits takes away. Decided.
 FLOOR = 1e-11
 STATE = ("x", "v", "Lambda", "W", "s", "anchored", "sliding")
@@ -41,7 +40,7 @@ def window_id(window: Window) -> str:
 
 def names() -> tuple[list[str], list[str]]:
     """Names of the trajectories and of the windows."""
-    return list(scenes()), [window_id(w) for w in WINDOWS]
+    return [s.id for s in scenes().values() if s.whole], [window_id(w) for w in WINDOWS + LATER_WINDOWS]
 
 
 def met(q: dict[str, Any]) -> dict[str, Any]:
@@ -78,34 +77,37 @@ def shortest(value: float) -> str:
 
 @dataclass
 class Item:
-    """A run to be made: its name and inputs, and the runs from which its bars are measured."""
+    """A run to be made: its name, inputs, and seed; whether the converged solution is given too."""
 
     name: str
     title: str
     kind: str
     q: dict[str, Any]
-    other_scheme: Rows | None = None
+    seed: int
+    converging: bool = False
 
 
 def items() -> list[Item]:
-    """All windows and trajectories; those that are given converged bring the run by another scheme."""
-    found = [Item(window_id(w), f"{w.scene}: {w.shows}", "window", window_inputs(w)) for w in WINDOWS]
-    return found + [Item(s.id, s.title, "trajectory", s.inputs) for s in scenes().values()]
+    """All windows and trajectories."""
+    found = [(w, 1000 * (i + 1)) for i, w in enumerate([*WINDOWS, *scenes().values(), *LATER_WINDOWS])]
+    return [item_of(thing, seed) for thing, seed in found if isinstance(thing, Window) or thing.whole]
 
 
-def with_other_scheme(made: list[Item]) -> None:
-    """Fill in the runs by another scheme."""
-    converging = [item for item in made if item.name in scenes() and scenes()[item.name].converged]
-    for item, other in zip(converging, runs.other_scheme([item.q for item in converging]), strict=True):
-        item.other_scheme = other
+def item_of(thing: Window | Scene, seed: int) -> Item:
+    """A run to be made, of a window or a scene."""
+    if isinstance(thing, Window):
+        return Item(window_id(thing), f"{thing.scene}: {thing.shows}", "window", window_inputs(thing), seed)
+    return Item(thing.id, thing.title, "trajectory", thing.inputs, seed, thing.converged)
 
 
-def barred(item: Item, seed: int) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+def barred(item: Item) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Columns and facts of one run."""
     truth = runs.in_longdouble(item.q)
-    members = runs.double_members(item.q, seed) + runs.rounding_members(item.q, seed)
+    members = (
+        runs.double_members(item.q, item.seed) + runs.rounding_members(item.q, item.seed) + runs.way_members(item.q)
+    )
     bars = runs.bars(members, truth)
-    single = runs.bars(runs.single_members(item.q, seed), truth, dtype=np.float32)
+    single = runs.bars(runs.single_members(item.q, item.seed), truth, dtype=np.float32)
     runs.held_to_exact(item.q, truth, bars, 1.0 if item.kind == "window" else 0.1)
     columns: dict[str, np.ndarray] = {"t_s": truth.t}
     columns |= {column: np.asarray(getattr(truth, k), float) for k, column in SHOWN.items()}
@@ -117,7 +119,7 @@ def barred(item: Item, seed: int) -> tuple[dict[str, np.ndarray], dict[str, Any]
     }
     impacts = runs.impact_bars(members, truth, horizon["float64"])
     meta: dict[str, Any] = {"horizon_s": horizon, "impacts": impacts, **met(item.q)}
-    if item.other_scheme is not None:
+    if item.converging:
         more, facts = converged(item, members[0], truth)
         columns |= more
         meta["horizon_s"]["scheme"] = facts.pop("horizon_s")
@@ -126,10 +128,10 @@ def barred(item: Item, seed: int) -> tuple[dict[str, np.ndarray], dict[str, Any]
 
 
 def converged(item: Item, law: Any, truth: Rows) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """The converged solution, and how far two schemes at the stated step are from it."""
+    """The converged solution, and how far five schemes at the stated step are from it."""
     fine, less = (runs.converged(problem_of(item.q), step) for step in (FINE, LESS_FINE))
     right = Rows(truth.t, fine.W, fine.x, fine.Lambda)
-    schemes = [law, item.other_scheme]
+    schemes = [law, *runs.scheme_members(item.q)]
     width = {
         k: SCHEME_FACTOR * runs.deviation(schemes, right, k) + FACTOR * runs.deviation([less], right, k) for k in SHOWN
     }
@@ -169,10 +171,8 @@ def document(name: str, title: str, kind: str, q: dict[str, Any], meta: dict[str
 
 def files(say: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
     """All files of L5: name and bytes."""
-    made = items()
-    with_other_scheme(made)
-    for number, item in enumerate(made):
-        columns, meta = barred(item, 1000 * (number + 1))
+    for item in items():
+        columns, meta = barred(item)
         say(f"{item.name}: {meta['horizon_s']}, impacts {meta['impacts']}, {len(meta['events'])} events")
         yield f"L5/{item.name}.json", document(item.name, item.title, item.kind, item.q, meta)
         yield f"L5/{item.name}.csv.gz", table(columns)

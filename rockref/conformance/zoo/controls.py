@@ -9,11 +9,12 @@ import numpy as np
 
 from rockref.conformance import pieces
 from rockref.conformance.law_backend import RulesBackend
+from rockref.conformance.pieces import Rules
 from rockref.model.assembly import resultant_force, resultant_moment
 from rockref.model.contact import Kinematics
-from rockref.model.integrator import angular_acceleration
-from rockref.model.problem import Problem, stack
-from rockref.model.rotation import cross, from_quaternion, hat, product, quaternion
+from rockref.model.integrator import Inertia, angular_acceleration, times
+from rockref.model.problem import Problem, State, stack
+from rockref.model.rotation import apply, apply_transposed, cross, from_quaternion, hat, product, quaternion
 
 
 @dataclass(frozen=True)
@@ -130,6 +131,38 @@ def divided_gyroscopic_term(T, W, JW, J_inverse):
     return angular_acceleration(T + cross(JW, W), 0 * W, JW, J_inverse)
 
 
+def by_squares(F):
+    """The length by the root of squares: zero below 1e-162."""
+    return np.sqrt(F[..., 0] * F[..., 0] + F[..., 1] * F[..., 1])
+
+
+def along_an_angle(F_trial, size, stick, mu_F_N):
+    """The sliding force by the angle of the trial force."""
+    angle = np.arctan2(F_trial[..., 1], F_trial[..., 0])
+    along = mu_F_N[..., None] * np.stack([np.cos(angle), np.sin(angle)], -1)
+    return np.where(stick[..., None], F_trial, along)
+
+
+def drawn_anew(right):
+    """A sum over the feet in an order that is drawn anew each time."""
+
+    def summed(*given):
+        feet = [i for i, a in enumerate(given) if np.ndim(a) >= 2]
+        order = np.random.default_rng().permutation(given[feet[0]].shape[-2])
+        return right(*(a[..., order, :] if i in feet else a for i, a in enumerate(given)))
+
+    return summed
+
+
+def momentum_in_plate_axes(rules: Rules, problem: Problem, state: State, inertia: Inertia) -> State:
+    """The rates from Lambda J W, the momentum in plate axes."""
+    after, h = pieces.step(rules, problem, state, inertia), state.x.dtype.type(problem.step)
+    L = apply(state.Lambda, times(inertia.J, state.W)) + h / 2 * (
+        apply(state.Lambda, state.T) + apply(after.Lambda, after.T)
+    )
+    return replace(after, W=times(inertia.J_inverse, apply_transposed(after.Lambda, L)))
+
+
 class Permuted(RulesBackend):
     """The points taken in another order inside, put back in the results."""
 
@@ -181,4 +214,12 @@ CONTROLS = (
     Control("C11", "longdouble", lambda: RulesBackend(dtype=np.longdouble)),
     Control("C12", "side by side with another run", InCompany),
     Control("C13", "gyroscopic term with its factors exchanged", _rules(acceleration=divided_gyroscopic_term)),
+    Control("C14", "the root of squares for the length", _rules(size=by_squares)),
+    Control("C15", "directions of sliding by atan2, cosine and sine", _rules(friction=along_an_angle)),
+    Control(
+        "C16",
+        "points summed in an order that is drawn anew each time",
+        _rules(force=drawn_anew(resultant_force), moment=drawn_anew(resultant_moment)),
+    ),
+    Control("C17", "momentum in plate axes", _rules(step=momentum_in_plate_axes)),
 )

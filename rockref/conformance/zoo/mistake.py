@@ -10,6 +10,7 @@ import numpy as np
 
 from rockref.conformance import pieces
 from rockref.conformance.law_backend import RulesBackend
+from rockref.conformance.other_scheme import kick_and_drift
 from rockref.conformance.pieces import Rows, Rules
 from rockref.model.problem import Problem, stack
 
@@ -24,6 +25,7 @@ class Mistake:
     plant : replaces rules;  read : how a whole run misreads its problem, where a mistake in what is derived from the
     parameters shows in a run only so;  report : what a run makes of its rows;  late : rows that many steps old;
     recorded : the numbers of the steps that a run writes down, where they are not the nearest ones.
+    digits : it loses digits, and may move a vector by anything.
     """
 
     id: str
@@ -34,17 +36,21 @@ class Mistake:
     report: Callable[[Rows], Rows] | None = None
     late: int = 0
     recorded: Callable[[Problem], np.ndarray] = pieces.output_steps
+    digits: bool = False
 
     def backend(self) -> Mistaken:
         """A backend that makes this mistake and shows all its pieces."""
-        return Mistaken(self)
+        return Mistaken(self, pieces.law())
+
+    def of_another_scheme(self) -> Mistaken:
+        """A backend that makes this mistake and has another integrator."""
+        return Mistaken(self, pieces.law().replace(step=kick_and_drift))
 
 
 class Mistaken(RulesBackend):
     """The law with one mistake."""
 
-    def __init__(self, mistake: Mistake):
-        rules = pieces.law()
+    def __init__(self, mistake: Mistake, rules: Rules):
         super().__init__(mistake.plant(rules) if mistake.plant else rules, name=mistake.id)
         self.mistake = mistake
 

@@ -143,10 +143,6 @@ def normal_constants(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, slidi
 # -- T2, T6: the cone -----------------------------------------------------------------------------------------------
 
 
-def length_by_squares(F):
-    return np.sqrt(F[..., 0] * F[..., 0] + F[..., 1] * F[..., 1])
-
-
 def larger_component(F):
     return np.maximum(np.abs(F[..., 0]), np.abs(F[..., 1]))
 
@@ -291,7 +287,6 @@ OF_POINTS = (
     Mistake("Z45", "T1", "no damper in the trial force", _one(trial=no_damper)),
     Mistake("Z46", "T1", "damper of the trial force pushes", _one(trial=damper_pushes)),
     Mistake("Z47", "T1", "normal constants in the trial force", _one(point_law=normal_constants)),
-    Mistake("Z21", "T2", "length by squares: zero below 1e-162", _one(size=length_by_squares)),
     Mistake("Z48", "T2", "larger component in place of the length", _one(size=larger_component)),
     Mistake("Z49", "T2", "sum of the components in place of the length", _one(size=sum_of_components)),
     Mistake("Z50", "T2", "square of the trial force against the limit", _one(sticks=square_against_limit)),

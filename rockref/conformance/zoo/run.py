@@ -6,8 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 from rockref.conformance import blackbox
+from rockref.conformance.asking import as_mapping
 from rockref.conformance.judge import finite, judge
-from rockref.conformance.runs import judge_rows, simulate
+from rockref.conformance.runs import RunCheck, judge_rows
+from rockref.conformance.side_by_side import grouped, simulate
 from rockref.conformance.vectors import manifest, trajectory, window_names
 from rockref.conformance.verdict import verdict
 from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
@@ -70,6 +72,17 @@ def seen_as_black_box(mistake: Any, backend: Any) -> dict[str, Any]:
     }
 
 
+def judge_windows(backend: Any) -> list[RunCheck]:
+    """The windows of L5."""
+    asked, found = [trajectory(name) for name in window_names()], []
+    for group in grouped([t.problem for t in asked]):
+        answers = simulate(backend, [asked[i].problem for i in group])
+        found += [
+            judge_rows(asked[i], as_mapping(a, "simulate"), "float64") for i, a in zip(group, answers, strict=True)
+        ]
+    return found
+
+
 def case_of_control(control: Any, runs: bool) -> dict[str, Any]:
     """One control: whether it is let through, by its pieces and, with `runs`, by the windows."""
     backend = control.backend()
@@ -77,12 +90,7 @@ def case_of_control(control: Any, runs: bool) -> dict[str, Any]:
     worst = max((c.worst for c in found.findings.checks), default=0.0)
     rejected = not found.passed
     if runs:
-        asked = [trajectory(name) for name in window_names()]
-        answers = simulate(backend, [t.problem for t in asked])
-        judged = [
-            judge_rows(t, vars(a) if hasattr(a, "__dict__") else a, "float64")
-            for t, a in zip(asked, answers, strict=True)
-        ]
+        judged = judge_windows(backend)
         rejected = rejected or any(r.failed for r in judged)
         worst = max(worst, *(r.worst for r in judged))
     return {

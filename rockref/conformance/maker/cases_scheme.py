@@ -1,0 +1,94 @@
+"""Questions to other integrators (LS): the short runs of L5s, sixteen steps long, with the converged solution.
+
+Expected: the C text of the law in long double with a 256th of the step. Bars: what five integrators are off by at the
+stated step after the same extrapolation as is made of an answer. Another integrator at the small step is held to the
+expected values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance import negligible
+from rockref.conformance.maker import cases_alone, cases_memory, cases_short, programs, ways
+from rockref.conformance.maker.bars import FACTOR, Case
+from rockref.conformance.scheme import SHOWN, extrapolated, halved
+from rockref.conformance.vectors import problem_of
+from rockref.model.problem import Problem
+
+#: Steps of a run, and the parts of a step of the converged solution: decided, a contact swings once in 200 steps.
+STEPS, PARTS = 16, 256
+#: Bar: so many times the largest deviation of five integrators, as for long runs.
+SCHEME_FACTOR = 2
+#: Least bar [m, rad, rad/s]: what is too small to be physical.
+FLOOR = negligible.LENGTH
+
+
+@lru_cache
+def running(name: str) -> Any:
+    """A program that answers many questions."""
+    return programs.program(name)
+
+
+def answer(name: str, problem: Problem) -> dict[str, Any]:
+    """A run of a program."""
+    return {k: np.asarray(v, np.longdouble) for k, v in running(name).simulate(problem).items()}
+
+
+def last(out: dict[str, Any]) -> dict[str, np.ndarray]:
+    """The last row."""
+    return {k: out[k][-1] for k in SHOWN}
+
+
+def at_step(problem: Problem, parts: int) -> Problem:
+    """The run with a part of the step."""
+    return replace(problem, step=problem.step / parts)
+
+
+def converged(q: dict[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """The last row of a run, converged, by name, and its bars. Raises AssertionError where another integrator with the
+    small step gives something else."""
+    problem = problem_of(q)
+    right, less = (last(answer("long", at_step(problem, parts))) for parts in (PARTS, PARTS // 2))
+    schemes = [extrapolated(answer(n, problem), answer(n, halved(problem))) for n in ("double", *ways.SCHEMES)]
+    bars = {}
+    for k, value in right.items():
+        off = np.max([np.abs(s[k][-1] - value) for s in schemes], axis=0)
+        fine = np.abs(less[k] - value)
+        bar = SCHEME_FACTOR * np.max(off) + FACTOR * np.max(fine) + FLOOR
+        bars[k] = np.full(value.shape, float(bar))
+    witness = last(extrapolated(*(answer("midpoint", at_step(problem, parts)) for parts in (PARTS // 2, PARTS))))
+    for k, value in right.items():
+        # The witness is computed in doubles: each of its steps rounds a place of some metres.
+        rounding = STEPS * PARTS * np.spacing(max(1.0, float(np.max(np.abs(value)))))
+        apart = np.max(np.abs(witness[k] - value) / (bars[k] + rounding))
+        assert apart <= 1, f"{k}: two integrators converge to values {apart:.2g} bars apart"
+    return {k: v.astype(float) for k, v in right.items()}, bars
+
+
+def asked(case: Case) -> Case | None:
+    """A short run as a question to other integrators; None where it is one of the law's own scheme."""
+    names = {name.partition("@")[0].removesuffix("_T") for name in (*case.fields, *case.instead)} & set(SHOWN)
+    h, rate = case.inputs["step"], case.inputs["output_rate"]
+    if not names or case.inputs.get("a") is not None or abs(rate * h - 1) > 1e-9:
+        return None
+    q = case.inputs | {"duration": STEPS * h, "output_rate": 1 / (STEPS * h)}
+    rule = next(iter(case.fields.values()))[0]
+    fields = {f"{k}@1": (rule, rule) for k in SHOWN if k in names}
+    return Case(rule, "LS", "simulate", q, fields, (case.flags[0], f"{STEPS} steps"), set="even feet", place=case.place)
+
+
+def all_of_them() -> Iterator[tuple[int, Case]]:
+    """Every question, with the number of its short run."""
+    number = 0
+    for group in (cases_short.all_short, cases_alone.alone, cases_memory.memory):
+        for case in group():
+            number += 1
+            found = asked(case)
+            if found is not None:
+                yield number, found
