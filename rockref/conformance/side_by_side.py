@@ -71,8 +71,8 @@ def alike(problems: list[Problem]) -> list[Problem]:
     every = int(np.gcd.reduce(np.concatenate([output_steps(p) for p in problems] + [np.array([last])])))
     h = problems[0].step
     # Half a step more: the last row is asked for by its number, whatever its product with the step rounds to.
-    shared = {"duration": (last + 0.5) * h, "output_rate": 1 / (every * h)}
-    return [replace(with_inert_points(p, n), **shared) for p in problems]
+    duration, rate = (last + 0.5) * h, 1 / (every * h)
+    return [replace(with_inert_points(p, n), duration=duration, output_rate=rate) for p in problems]
 
 
 def rows_of(problem: Problem, answer: Any, every: int) -> dict[str, Any]:

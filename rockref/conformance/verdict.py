@@ -249,7 +249,11 @@ def remarks(v: Verdict) -> list[str]:
     """What is remarked of a backend: what it was told, and what differs by more than bars and less than it matters."""
     f = v.findings
     small = [c for c in f.checks if c.grade == "negligible"]
-    counted = len(small) + sum(r.grade == "negligible" for r in (*f.runs, *f.effects))
+    counted = (
+        len([e for e in f.effects if e.grade == "negligible"])
+        + len(small)
+        + len([r for r in f.runs if r.grade == "negligible"])
+    )
     if not counted:
         return f.remarks
     first_ = f"; first {small[0].name} of {small[0].vector}: {small[0].note}" if small else ""

@@ -26,8 +26,8 @@ def contact() -> Iterator[Case]:
     # Rising slowly enough that the foot still presses.
     for share in (0.5, 1.5, -0.5):
         xi = d.decade(1e-6, 1e-5)
-        q = {"xi": xi, "xi_rate": share * xi * FOOT["K_N"] / FOOT["C_N"], "u_t": d.vector(1e-4, 2)}
-        yield ask("N1", {"F_N": N1, "touching": T5}, ("first touch", *ALL), anchored=False, **q)
+        falling = {"xi": xi, "xi_rate": share * xi * FOOT["K_N"] / FOOT["C_N"], "u_t": d.vector(1e-4, 2)}
+        yield ask("N1", {"F_N": N1, "touching": T5}, ("first touch", *ALL), anchored=False, **falling)
     for xi in (3.5e-4, 7e-4, 1.5e-3):
         yield ask("N1", {"F_N": N1}, ("deep", *ALL), xi=xi, xi_rate=d.between(-0.2, 0.2))
     pair = {"mu_0": 0.5, "mu": 0.25}
@@ -58,6 +58,9 @@ def points() -> Iterator[Case]:
     """All of L1."""
     yield from contact()
     yield from where()
+    d = Draw(68, 53)
+    none = {"mu_0": 0.0, "mu": 0.0, "s": d.vector(1e-5, 2), "xi": d.decade(1e-6, 1e-5)}
+    yield ask("T3", {"F_T": ("T3", "T3")}, ("slip", "no friction", *ALL), **none)
 
 
 def assembly() -> Iterator[Case]:

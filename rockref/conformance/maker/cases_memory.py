@@ -91,7 +91,7 @@ def start_with_its_own() -> Iterator[tuple[float, Case]]:
 
 def told_apart() -> Iterator[tuple[float, Case]]:
     """I1, N1, T5, A2, T6: what comes before others that show the same mistake under another name."""
-    drift = {"v": Draw(66, 53).vector(1), "g": WEIGHTLESS}
+    drift: Any = {"v": Draw(66, 53).vector(1), "g": WEIGHTLESS}
     yield 4.6, fly({"x@1": "I1"}, "drifting, all bits", **drift)
     yield 22.55, ask({"F_N@0": "N1"}, "a millimetre deep, in fast rebound", 1, standing(2.0**-10), made=ICE, v=0.5 * Z)
     own = held(Draw(67).vectors(1e-5, 8, 2))

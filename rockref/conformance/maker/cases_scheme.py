@@ -68,18 +68,19 @@ def converged(q: dict[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, np.nd
         rounding = STEPS * PARTS * np.spacing(max(1.0, float(np.max(np.abs(value)))))
         apart = np.max(np.abs(witness[k] - value) / (bars[k] + rounding))
         assert apart <= 1, f"{k}: two integrators converge to values {apart:.2g} bars apart"
-    return {k: v.astype(float) for k, v in right.items()}, bars
+    sideways = [{"x_T": a["x"][:2]} for a in (right, bars)]
+    return {k: v.astype(float) for k, v in (right | sideways[0]).items()}, bars | sideways[1]
 
 
 def asked(case: Case) -> Case | None:
     """A short run as a question to other integrators; None where it is one of the law's own scheme."""
-    names = {name.partition("@")[0].removesuffix("_T") for name in (*case.fields, *case.instead)} & set(SHOWN)
+    names = {name.partition("@")[0] for name in (*case.fields, *case.instead)} & {*SHOWN, "x_T"}
     h, rate = case.inputs["step"], case.inputs["output_rate"]
     if not names or case.inputs.get("a") is not None or abs(rate * h - 1) > 1e-9:
         return None
     q = case.inputs | {"duration": STEPS * h, "output_rate": 1 / (STEPS * h)}
     rule = next(iter(case.fields.values()))[0]
-    fields = {f"{k}@1": (rule, rule) for k in SHOWN if k in names}
+    fields = {f"{k}@1": (rule, rule) for k in (*SHOWN, "x_T") if k in names}
     return Case(rule, "LS", "simulate", q, fields, (case.flags[0], f"{STEPS} steps"), set="even feet", place=case.place)
 
 

@@ -89,7 +89,8 @@ class Item:
 
 def items() -> list[Item]:
     """All windows and trajectories."""
-    found = [(w, 1000 * (i + 1)) for i, w in enumerate([*WINDOWS, *scenes().values(), *LATER_WINDOWS])]
+    things: list[Window | Scene] = [*WINDOWS, *scenes().values(), *LATER_WINDOWS]
+    found = [(w, 1000 * (i + 1)) for i, w in enumerate(things)]
     return [item_of(thing, seed) for thing, seed in found if isinstance(thing, Window) or thing.whole]
 
 

@@ -157,9 +157,9 @@ def drawn_anew(right):
 def momentum_in_plate_axes(rules: Rules, problem: Problem, state: State, inertia: Inertia) -> State:
     """The rates from Lambda J W, the momentum in plate axes."""
     after, h = pieces.step(rules, problem, state, inertia), state.x.dtype.type(problem.step)
-    L = apply(state.Lambda, times(inertia.J, state.W)) + h / 2 * (
-        apply(state.Lambda, state.T) + apply(after.Lambda, after.T)
-    )
+    assert state.T is not None and after.T is not None
+    moments = apply(state.Lambda, state.T) + apply(after.Lambda, after.T)
+    L = apply(state.Lambda, times(inertia.J, state.W)) + h / 2 * moments
     return replace(after, W=times(inertia.J_inverse, apply_transposed(after.Lambda, L)))
 
 

@@ -1,5 +1,6 @@
 """Programs as backends: the tutorial in C, and programs that crash, hang, or print rubbish."""
 
+import shutil
 import sys
 import textwrap
 import time
@@ -13,6 +14,7 @@ from rockref.commands.conform import parted
 from rockref.conformance import executable, in_files, in_words, vectors
 from rockref.conformance.executable import Executable, Misbehaved
 from rockref.conformance.judge import judge
+from rockref.conformance.rules import PIECES
 from rockref.conformance.vectors import problem_of
 from rockref.conformance.verdict import verdict
 from rockref.model.errors import InputError
@@ -45,6 +47,21 @@ def test_the_tutorial_in_c_says_which_pieces_it_has_not(compiled):
 def test_its_twin_with_a_mistake_is_named(compiled):
     v = judged(compiled("-DMISTAKE"))
     assert v.rule == "T3" and v.check.vector.startswith("L1-")
+
+
+JS = Path(__file__).resolve().parents[3] / "examples/backend_js/backend.js"
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no Node.js on this machine")
+@pytest.mark.parametrize("options, rule", [((), None), (("--mistake",), "T3")])
+def test_the_tutorial_in_javascript_shows_every_piece_and_passes_and_its_twin_is_named(options, rule):
+    backend = Executable(["node", str(JS), *options])
+    try:
+        v = verdict(judge(backend, LAYERS))
+    finally:
+        backend.close()
+    assert v.rule == rule and v.passed == (rule is None), in_words.text(v)
+    assert v.findings.backend["language"] == "JavaScript" and set(v.findings.pieces) == set(PIECES)
 
 
 def test_in_single_precision_it_passes_its_own_profile(compiled):

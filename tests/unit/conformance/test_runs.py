@@ -7,9 +7,10 @@ import pytest
 
 from rockref.conformance import in_files, in_words, runs, vectors
 from rockref.conformance.backend import load
+from rockref.conformance.in_words import impact_lines, run_line
 from rockref.conformance.judge import judge
 from rockref.conformance.pieces import simulate
-from rockref.conformance.runs import judge_rows, judge_runs
+from rockref.conformance.runs import RunCheck, judge_rows, judge_runs
 from rockref.conformance.verdict import as_json, verdict
 from rockref.conformance.zoo.mistakes import BY_ID
 from rockref.engines import has_numba
@@ -208,3 +209,14 @@ def test_the_page_shows_where_a_run_parts():
     assert f"first outside: {run.columns['t_s'][60]:.5g} s" in page
     # The run that is right is left out where one is wrong.
     assert page.count("<svg") == page.count(f"<h3>{run.id}: outside") == 1
+
+
+def test_a_verdict_on_an_impact_names_run_impact_instants_and_deviation():
+    late = {"t_s": 0.51, "bar_s": 1e-10, "got_s": 0.510002, "bars": 2e4, "grade": "outside"}
+    missing = {"t_s": 1.3, "bar_s": 1e-9, "got_s": None, "bars": np.inf, "grade": "outside"}
+    right = {"t_s": 0.2, "bar_s": 1e-10, "got_s": 0.2, "bars": 0.0, "grade": "bitwise"}
+    run = RunCheck("planar", "", "outside", worst=1.0, impacts=[right, late, missing])
+    lines = impact_lines(run)
+    assert len(lines) == 2 and "main impact 2 of planar" in lines[0] and "main impact 3" in lines[1]
+    assert "expected at 0.51 s" in lines[0] and "2e-06 s late (2e+04 bars)" in lines[0] and "did not come" in lines[1]
+    assert "main impact 2, 3 outside" in run_line(run)

@@ -1,0 +1,64 @@
+"""Other integrators: right ones pass, mistakes in them have names."""
+
+import numpy as np
+import pytest
+
+from rockref.conformance import in_words, vectors
+from rockref.conformance.backend import load
+from rockref.conformance.judge import judge
+from rockref.conformance.scheme import extrapolated, halved
+from rockref.conformance.verdict import verdict
+from rockref.conformance.zoo.mistakes import BY_ID
+from rockref.conformance.zoo.run import BlackBox
+
+
+def test_extrapolation_leaves_nothing_of_first_order():
+    h = 0.01
+    rows = [{"t": [0, 1], "x": np.array([1.0, 2.0]) + step + 3 * step**2, "W": None} for step in (h, h / 2)]
+    out = extrapolated(*rows)
+    assert np.allclose(out["x"], [1.0, 2.0], atol=2 * h**2) and not np.allclose(rows[0]["x"], [1.0, 2.0], atol=h / 2)
+    assert "W" not in out and out["t"] == [0, 1]
+    with pytest.raises(ValueError, match="half the step"):
+        extrapolated({"x": np.zeros(3)}, {"x": np.zeros(2)})
+
+
+def test_half_the_step_is_the_same_run():
+    problem = vectors.problem_of(vectors.layer("LS")[0].inputs)
+    assert halved(problem).step == problem.step / 2 and halved(problem).duration == problem.duration
+
+
+def test_short_runs_of_other_integrators_show_places_rates_and_poses():
+    shown = {name for v in vectors.layer("LS") for name in v.expect}
+    assert shown == {"x@1", "x_T@1", "Lambda@1", "W@1"}
+    assert {v.rule for v in vectors.layer("LS")} >= {
+        "A1",
+        "A2",
+        "A3",
+        "I2",
+        "I3",
+        "K1",
+        "N1",
+        "T1",
+        "T2",
+        "T3",
+        "T4",
+        "T5",
+        "T6",
+    }
+
+
+def test_another_integrator_passes_by_runs_alone():
+    v = verdict(judge(BlackBox(load("scheme")), ["L5s", "LS"], "scheme"))
+    assert v.passed, in_words.text(v)
+    assert len([c for c in v.findings.checks if c.layer == "LS"]) > 70
+
+
+@pytest.mark.parametrize("id_", ["Z71", "Z93", "Z27", "Z02", "Z53", "Z24", "Z64"])
+def test_mistakes_in_another_integrator_are_named_by_runs_alone(id_):
+    v = verdict(judge(BlackBox(BY_ID[id_].of_another_scheme()), ["L5s", "LS"], "scheme"))
+    assert v.rule == BY_ID[id_].rule, in_words.text(v)
+
+
+def test_in_the_profile_of_the_law_they_are_not_asked():
+    assert judge(load("numpy"), ["LS"]).layers == ()
+    assert judge(load("scheme"), ["L4", "L1"], "scheme").layers == ("L1",)
