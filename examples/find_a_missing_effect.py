@@ -7,7 +7,7 @@ on a free core). `rockref diagnose` asks the same of the whole catalogue.
 # %% An experiment: six runs, two of them held out
 from pathlib import Path
 
-from rockref.discover.add import add
+from rockref.discover.add_effect import add_effect
 from rockref.discover.compare.models import baseline_model, compare
 from rockref.discover.compare.sentences import findings
 from rockref.measure import load_experiment
@@ -24,16 +24,17 @@ for finding in findings(comparison):
 
 # %% Something brakes the block between its impacts. Two suspects, each fitted together with everything else, on the
 # first 0.8 s of each run (3 s are the default, and take longer)
-suspects = {id: add(id, EXPERIMENT, end=0.8) for id in ("rolling_resistance", "quadratic_drag")}
+suspects = {id: add_effect(id, EXPERIMENT, end=0.8) for id in ("rolling_resistance", "quadratic_drag")}
 for id, found in suspects.items():
     before, after = found.before.holdout, found.after.holdout
     assert before is not None and after is not None
-    (size,) = [e for e in found.estimates if e.name.startswith(f"{id}.")][:1]
-    print(f"{id:20} held-out error {before.total:.4f} -> {after.total:.4f} deg/s (noise {found.noise:.4f})", end="")
-    print(f", {size.name} = {size.value:.3g} ({size.low:.3g} to {size.high:.3g}) {size.unit}")
+    name, size = next(iter(found.own_numbers.items()))
+    errors = f"{before['total']:.4f} -> {after['total']:.4f} deg/s (noise {found.noise:.4f})"
+    print(f"{id:20} held-out error {errors}", end="")
+    print(f", {name} = {size.value:.3g} ({size.low:.3g} to {size.high:.3g}) {size.unit}")
 
 # %% The one that comes nearer to the noise, on runs that no fit has seen, is kept
-best = min(suspects, key=lambda id: suspects[id].after.holdout.total)
+best = min(suspects, key=lambda id: suspects[id].after.holdout["total"])
 suspects[best].model.save("with_effect.toml")
 print(f"{best} is kept: with_effect.toml")
 assert best == "rolling_resistance"

@@ -14,7 +14,7 @@ from typer.core import TyperGroup
 
 from rockref import __version__, commands
 from rockref.commands._terminal import show_what_can_be_shown
-from rockref.model.errors import RockrefError
+from rockref.model.errors import Interrupted, RockrefError
 
 # What is kept of a command that was interrupted, and what goes on from it; of the others nothing is.
 KEPT = {
@@ -64,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         application()(args=None if arguments is None else list(arguments))
     except RockrefError as error:
-        _stop(str(error), 2)
+        _stop(str(error), 130 if isinstance(error, Interrupted) else 2)
     except (KeyboardInterrupt, SystemExit) as end:
         # Typer makes a silent exit of an interruption.
         if isinstance(end, SystemExit) and end.code != 130:

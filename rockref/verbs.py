@@ -72,12 +72,12 @@ def fit(
 
     `effects` are ids to fit along. Raises InputError, NumericalError.
     """
-    from rockref.discover.fitting import fit_experiment
+    from rockref.discover.fit_baseline import fit_baseline
     from rockref.report.fit_text import print_fit
 
     along = (effects,) if isinstance(effects, str) else tuple(effects)
     folder, start = _folder(experiment), _optional(model)
-    found = fit_experiment(folder, along or None, start, seed, None, check=check, progress=progress)
+    found = fit_baseline(folder, along, start, seed, None, check=check, progress=progress)
     return _of_model(f"fit of {found.experiment.name}", found, lambda: printed(lambda c: print_fit(c, found)), start)
 
 
@@ -126,13 +126,13 @@ def add(
 
     Raises InputError, NumericalError.
     """
-    from rockref.discover.add import add as run_addition
+    from rockref.discover.add_effect import add_effect
     from rockref.report.addition_page import write_addition
     from rockref.report.addition_text import print_addition
     from rockref.report.output import made_folder
 
     start = _optional(model)
-    found = run_addition(effect, _folder(experiment), start, seed, None, progress=progress)
+    found = add_effect(effect, _folder(experiment), start, seed, None, progress=progress)
     return _of_model(
         f"{effect} in {found.experiment.name}",
         found,

@@ -1,6 +1,9 @@
-"""Hypothesis profiles; the environment variable HYPOTHESIS_PROFILE chooses one (ci where CI is set, else dev)."""
+"""Hypothesis profiles, by HYPOTHESIS_PROFILE (ci where CI is set, else dev); a cache of fits of the tests' own."""
 
+import atexit
 import os
+import shutil
+import tempfile
 
 from hypothesis import Phase, settings
 from hypothesis.database import DirectoryBasedExampleDatabase
@@ -26,3 +29,7 @@ settings.register_profile(
     phases=(Phase.explicit, Phase.reuse, Phase.generate),
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci" if os.environ.get("CI") else "dev"))
+
+# No test reads or writes what a person's own commands have kept.
+os.environ["ROCKREF_CACHE"] = tempfile.mkdtemp(prefix="rockref-cache-")
+atexit.register(shutil.rmtree, os.environ["ROCKREF_CACHE"], ignore_errors=True)

@@ -85,9 +85,12 @@ def with_files(found: Any) -> Callable[[list[Path]], str]:
 
 @contextmanager
 def told(
-    as_json: bool, json_of: Callable[[list[Path]], str], words: "Callable[[Console], None]"
+    as_json: bool,
+    json_of: Callable[[list[Path]], str],
+    words: "Callable[[Console], None]",
+    then: Callable[[], str] | None = None,
 ) -> Iterator[list[Path]]:
-    """Give the list to which files are added as they are written; then tell what was found, and which files.
+    """Give the list to which files are added as they are written; then tell what was found, which files, what next.
 
     It is told even where a file cannot be written: minutes of work are not lost.
     """
@@ -102,6 +105,8 @@ def told(
         else:
             words(console())
             say_written(written)
+            if then is not None:
+                typer.echo(f"Next: {then()}")
 
 
 def say_written(paths: Iterable[Path]) -> None:

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._keeping import Fresh
 from rockref.commands._models import OwnEffects
 from rockref.commands._results import ExperimentFolder, folder_option
 
@@ -27,14 +28,16 @@ def add(
     report: Annotated[Path | None, folder_option("--report", help="Folder for page and figure.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
+    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
+    fresh: Fresh = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
 ) -> None:
     """Fit an effect into a model together with all that it has, and show the error before and after.
 
-    By axis and stretch, on fit and on held-out runs, beside the noise floor and what two repeated runs differ by. The
-    new model keeps the history, so that a second effect shows the error fall again. Exit code 0, or 2 if the input
-    cannot be used.
+    On fit and on held-out runs, beside the noise floor; by axis with --full. What rockref diagnose has found is not
+    computed again. The new model keeps the history, so that a second effect shows the error fall again. Exit code 0, or
+    2 if the input cannot be used.
 
     \b
     Example:
@@ -56,11 +59,12 @@ def add(
 
         of_releases_only(seed=seed != 0, workers=workers is not None)
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
+    from rockref.commands._keeping import keeping
     from rockref.commands._models import check_step, known_files, named_models, say_idle
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.commands._stages import stages
-    from rockref.discover.add import add as run_addition
-    from rockref.report.addition_text import print_addition
+    from rockref.discover import add_effect as engine
+    from rockref.report.addition_text import next_after_addition, print_addition
     from rockref.report.output import made_folder, usable_folder
 
     known_files([effect])
@@ -69,10 +73,11 @@ def add(
     say_idle(given, model)
     folder = usable_folder(report) if report is not None else None
     usable_files(output)
-    with stages(f"adding {effect}", every_line=verbose) as say:
-        found = run_addition(effect, experiment, given, seed, workers, progress=say)
+    with keeping(fresh) as store, stages(f"adding {effect}", every_line=verbose) as say:
+        found = engine.add_effect(effect, experiment, given, seed, workers, progress=say, store=store)
     say_remarks(found.experiment.notices)
-    with told(as_json, with_files(found), lambda console: print_addition(console, found)) as written:
+    words, then = lambda c: print_addition(c, found, full), lambda: next_after_addition(found, experiment, output)
+    with told(as_json, with_files(found), words, then) as written:
         found.model.save(output)
         written.append(output)
         if folder is not None:

@@ -20,10 +20,10 @@ def demo(
     data: Annotated[Path | None, typer.Option("--data", help="Folder of the shipped experiments.")] = None,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself, minutes) or numba (compiled).")] = "auto",
 ) -> None:
-    """Simulate the block of Table 3.1, compare it with two shipped experiments, find what one of them lacks.
+    """Find the effect that a model of a shipped experiment lacks, and show the error fall.
 
-    Writes one page about it, prints the lines that matter and where the page is. Takes two to three minutes, the first
-    time with compiling the engine.
+    Writes one page about it, prints the lines that matter and where the page is. Takes about a minute and a half, the
+    first time a minute more for compiling the engine.
 
     \b
     Example:

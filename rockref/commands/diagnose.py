@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._keeping import Fresh
 from rockref.commands._results import ExperimentFolder, folder_option
 
 
@@ -29,13 +30,16 @@ def diagnose(
     save_model: Annotated[Path | None, typer.Option("--save-model", help="Write the best model there.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
+    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
+    fresh: Fresh = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
 ) -> None:
     """Say which physical effect the model lacks, how large it is, and how sure that is; or what it could not tell.
 
-    Fits the baseline and every candidate of the catalogue to the fit runs, confirms on the held-out runs. Exit code 0
-    if there is a verdict (none is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
+    Fits the baseline and every candidate of the catalogue to the fit runs, confirms on the held-out runs. An unchanged
+    experiment with the same options is answered from what was kept; --fresh computes anew. Exit code 0 if there is a
+    verdict (none is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
 
     Of a folder of tosses: a staircase of effects, each with what it takes off the held-out error; without effects of
     your own, --seed and --workers.
@@ -54,13 +58,14 @@ def diagnose(
 
         of_releases_only(seed=seed != 0, workers=workers is not None)
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
+    from rockref.commands._keeping import keeping
     from rockref.commands._models import check_step, models_and_others, say_idle
     from rockref.commands._results import in_json, keep, say_remarks, told, usable_files
     from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
     from rockref.engines import compiled_ahead
-    from rockref.report.diagnosis_text import print_diagnosis
+    from rockref.report.diagnosis_text import next_after_diagnosis, print_diagnosis
     from rockref.report.output import made_folder, usable_folder
 
     models, candidates = models_and_others([model] if model else [], effect)
@@ -69,12 +74,13 @@ def diagnose(
     say_idle(given, model)
     folder = usable_folder(report) if report is not None else None
     usable_files(output, save_model)
-    with compiled_ahead(), stages(f"diagnosing {experiment}", every_line=verbose) as say:
-        found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates)
+    with keeping(fresh) as store, compiled_ahead(), stages(f"diagnosing {experiment}", every_line=verbose) as say:
+        found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates, store=store)
     record = plain(found.to_dict())
     text = in_json(record)
     say_remarks(found.experiment.notices)
-    with told(as_json, lambda written: text, lambda console: print_diagnosis(console, record)) as written:
+    words, then = lambda c: print_diagnosis(c, record, full), lambda: next_after_diagnosis(record, experiment)
+    with told(as_json, lambda written: text, words, then) as written:
         written += keep(text, output, found.model, save_model)
         if folder is not None:
             from rockref.report.diagnosis_page import write_diagnosis

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._keeping import Fresh
 from rockref.commands._results import ExperimentFolder, folder_option
 
 
@@ -29,14 +30,15 @@ def fit(
     gates: Annotated[bool, typer.Option("--gates/--no-gates", help="Check the fit; costs as much again.")] = True,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
+    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
+    fresh: Fresh = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
 ) -> None:
     """Fit the baseline to the fit runs of an experiment, check the fit, write the model with its uncertainty.
 
-    Held-out runs are not opened. Without --effect the windows up to the first impact decide whether a sensor error or
-    a shaking base must come along. Exit code 0; 1 if a gate was not passed (the model is written all the same and says
-    so); 2 if the input cannot be used.
+    No fit sees a held-out run. Exit code 0, also where an effect is missing, which the fit and its model say; 1 if a
+    gate was not passed (the model is written all the same and says so); 2 if the input cannot be used.
 
     \b
     Example:
@@ -56,11 +58,12 @@ def fit(
             seed=seed != 0, workers=workers is not None, report=report is not None, **{"no-gates": not gates}
         )
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
+    from rockref.commands._keeping import keeping
     from rockref.commands._models import check_step, known_files, named_model, say_idle
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.commands._stages import stages
-    from rockref.discover.fitting import fit_experiment
-    from rockref.report.fit_text import print_fit
+    from rockref.discover import fit_baseline as engine
+    from rockref.report.fit_text import next_after_fit, print_fit
     from rockref.report.output import usable_folder
 
     usable_files(output)
@@ -69,12 +72,13 @@ def fit(
     given = named_model(model) if model is not None else None
     check_step(given, model)
     say_idle(given, model)
-    with stages("fitting", every_line=verbose) as say:
-        found = fit_experiment(
-            experiment, tuple(effect) if effect else None, given, seed, workers, check=gates, progress=say
+    with keeping(fresh) as store, stages("fitting", every_line=verbose) as say:
+        found = engine.fit_baseline(
+            experiment, tuple(effect or ()), given, seed, workers, check=gates, progress=say, store=store
         )
     say_remarks(found.experiment.notices)
-    with told(as_json, with_files(found), lambda console: print_fit(console, found)) as written:
+    words, then = lambda c: print_fit(c, found, full), lambda: next_after_fit(found, experiment, output)
+    with told(as_json, with_files(found), words, then) as written:
         found.model.save(output)
         written.append(output)
         if folder is not None:

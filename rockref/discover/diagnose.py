@@ -19,7 +19,9 @@ from rockref.discover.evidence.result import model_of
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.problem import END, fit_problem
+from rockref.discover.fit_store import FitStore, has_own, model_from, model_text, options_key
 from rockref.discover.hypotheses.effects import candidate_effects
+from rockref.discover.kept_search import KeptSearch
 from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened, own_effects
 from rockref.discover.selection.search import Search
@@ -58,6 +60,7 @@ class Diagnosis:
     detection_limits: dict[str, dict[str, Any]] = field(default_factory=dict)
     confusion: dict[str, dict[str, float]] = field(default_factory=dict)
     evidence: Evidence | None = field(default=None, repr=False)
+    from_store: bool = False
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers and words."""
@@ -77,6 +80,7 @@ class Diagnosis:
             "detection_limits": self.detection_limits,
             "confusion": self.confusion,
             "gates": self.gates,
+            "from_kept_diagnosis": self.from_store,
             "seconds": round(self.seconds, 1),
             "versions": versions(self.experiment),
         }
@@ -90,6 +94,7 @@ def diagnose(
     end: float = END,
     progress: Callable[[str], None] | None = None,
     own: Sequence[str] = (),
+    store: FitStore | None = None,
 ) -> Diagnosis:
     """Learn which effect is missing from an experiment's fit runs, and prove it on its held-out runs.
 
@@ -98,7 +103,9 @@ def diagnose(
     path : experiment folder; model : starts from it in place of the nominal baseline
     seed : of the starts over the whole prior; workers : threads
     end : seconds used of each run (for the source's block); progress : called with a line at every stage
-    own : effects of the user's own that are tried with the catalogue's, each path/to/file.py:Class.
+    own : effects of the user's own that are tried with the catalogue's, each path/to/file.py:Class
+    store : what is kept of the experiment: a diagnosis with the same options is the answer, an interrupted search goes
+        on, and what is found is kept.
 
     Raises
     ------
@@ -109,11 +116,16 @@ def diagnose(
     known = own_effects(own)
     experiment, whole = opened(path)
     base = baseline_model(experiment, model)
+    key = options_key(base, seed, end, known)
+    if store is not None and (answer := kept_diagnosis(store.open(whole), key, whole)) is not None:
+        return answer
     problem = fit_problem(experiment, experiment.fit_runs(), base, end, workers, seed=seed)
     problem.say = progress or (lambda line: None)
     problem.candidates = candidate_effects(base.points, problem.carried, problem.records, known)
     fitter = Fitter(problem)
-    search = Search(fitter)
+    search = Search(fitter) if store is None else KeptSearch(fitter, store, key)
+    if store is not None:
+        problem.refined = store.note(problem)
     fits = search.run()
     evidence = evidence_of(fitter, fits, whole)
     if search.test is not None:
@@ -122,7 +134,31 @@ def diagnose(
     best = next(h for h in fits if h.effects == decision.best.effects)
     model_found = model_of(fitter, best, decision.best, "rockref diagnose")
     seconds = time.perf_counter() - started
+    if store is not None:
+        keep_diagnosis(store, key, evidence, model_found, end * problem.time_scale, seconds)
     return diagnosis(whole, evidence, decision, model_found, end * problem.time_scale, seconds)
+
+
+def kept_diagnosis(store: FitStore, key: str, experiment: Experiment) -> Diagnosis | None:
+    """Return the diagnosis that is kept under a key, decided again from its evidence; None where there is none."""
+    kept = store.kept["diagnoses"].get(key)
+    if kept is None:
+        return None
+    evidence = Evidence.from_dict(kept["evidence"])
+    decision = decide(evidence)
+    found = diagnosis(experiment, evidence, decision, model_from(kept["model"]), kept["end"], kept["seconds"])
+    found.from_store = True
+    return found
+
+
+def keep_diagnosis(store: FitStore, key: str, evidence: Evidence, model: Model, end: float, seconds: float) -> None:
+    """Keep a diagnosis, but for that of a model with a user's own effect, whose file may move."""
+    store.kept["searches"].pop(key, None)  # the state of its search is no longer needed
+    if not has_own(model):
+        store.kept["diagnoses"][key] = {
+            "evidence": evidence.to_dict(), "model": model_text(model), "end": end, "seconds": seconds,
+        }  # fmt: skip
+    store.save()
 
 
 def diagnosis(

@@ -34,3 +34,7 @@ class NumericalError(RockrefError, ArithmeticError):
     def __init__(self, code: str, where: str, what: str, cure: str):
         self.code, self.where, self.what, self.cure = code, where, what, cure
         super().__init__(f"{where}: {what}. {cure} [{code}]")
+
+
+class Interrupted(RockrefError):
+    """Work that a person has stopped: what was kept of it. The command line prints it and ends with exit code 130."""

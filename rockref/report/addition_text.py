@@ -1,76 +1,82 @@
-"""An effect added, on the terminal: the error before and after, and the history of the model."""
+"""An effect added, on the terminal: its size, and the error before and after."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from rockref.discover.add import Addition, State
+from rockref.discover.add_effect import Addition
 from rockref.discover.compare.stretches import AXES
-from rockref.discover.fit.errors import STRETCH_WORDS, STRETCHES
 from rockref.report import tables
-from rockref.report.fit_text import estimates_table
+from rockref.report.fit_text import effect_lines, estimates_table, say
 from rockref.report.page import Table
 from rockref.report.text import print_table
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+NOTE = (
+    "Innovations of a model that listens to the record with a memory of 40 ms, the worst tenth of blocks of 50 ms left "
+    "out. Two repeated runs are compared whole, and differ by more than one run and its model."
+)
 
-def print_addition(console: Console, a: Addition) -> None:
-    """Print what an effect brings."""
-    for line in lines(a):
-        console.print(line, markup=False, highlight=False, soft_wrap=True)
-    print_table(console, estimates_table([e for e in a.estimates if e.of_effect and e.of_run is None]))
-    print_table(console, cells_table(a))
-    print_table(console, history_table(a))
+
+def print_addition(console: Console, a: Addition, full: bool = False) -> None:
+    """Print what an effect brings, the error last; with the tables of axes and history where `full`."""
+    kept = ", from a kept fit" if a.from_store else ""
+    say(console, f"{a.experiment.name}: {a.effect} added, {a.seconds:.0f} s{kept}.")
+    if full:
+        print_table(console, estimates_table(a.numbers))
+        print_table(console, axes_table(a))
+        print_table(console, history_table(a))
+    for line in effect_lines(a.own_numbers):
+        say(console, line)
+    *rest, last = lines(a)
+    for line in rest:
+        say(console, line)
+    say(console, last, "bold")
 
 
 def lines(a: Addition) -> list[str]:
-    """The error before and after in sentences."""
+    """Return the error before and after in sentences, the held-out runs last."""
     found = []
     for use, words in (("fit", "Fit runs"), ("holdout", "Held-out runs")):
         before, after = getattr(a.before, use), getattr(a.after, use)
         if before is None or after is None:
             continue
-        closed = a.closed(use)
+        closed = a.gap_closed(use)
         tail = "" if closed is None else f"; {100 * closed:.0f} % of the gap to the noise floor closed"
-        found.append(f"{words}: {before.total:.4f} to {after.total:.4f} deg/s RMS with {a.effect}{tail}.")
+        found.append(
+            f"{words}: error {before['total']:.4f} to {after['total']:.4f} deg/s RMS, noise floor {a.noise:.4f}{tail}."
+        )
     return found
 
 
-def cells_table(a: Addition) -> Table:
-    """The error by stretch and axis, before and after, fit and held-out runs."""
-    columns, pairs = ["stretch", "axis"], []
+def axes_table(a: Addition) -> Table:
+    """Return the error by axis, before and after, on fit and held-out runs."""
+    columns, pairs = ["axis"], []
     for use, words in (("fit", "fit"), ("holdout", "held-out")):
         before, after = getattr(a.before, use), getattr(a.after, use)
         if before is not None and after is not None:
             columns += [f"{words}, before", "after"]
-            pairs.append((before.table, after.table))
+            pairs.append((before, after))
     columns += ["noise floor", "two repeats differ by"]
     rows = []
-    for i, stretch in enumerate(STRETCHES):
-        for j, axis in enumerate(AXES):
-            row = [STRETCH_WORDS[stretch], axis]
-            row += [tables.number(float(t[i, j]), 3) for pair in pairs for t in pair]
-            spread = None if a.spread is None else float(a.spread[j])
-            rows.append([*row, tables.number(a.noise, 3), tables.number(spread, 3)])
-    return Table(
-        "Error, deg/s RMS", columns, rows, "Windows restarted from the measured state; the worst tenth left out."
-    )
+    for j, axis in enumerate((*AXES, "total")):
+        row = [axis, *(tables.number(errors[axis], 4) for pair in pairs for errors in pair)]
+        spread = None if a.spread is None or axis == "total" else float(a.spread[j])
+        rows.append([*row, tables.number(a.noise, 4), tables.number(spread, 3)])
+    return Table("Error, deg/s RMS", columns, rows, NOTE)
 
 
 def history_table(a: Addition) -> Table:
-    """The error of the model as it grew."""
+    """Return the error of the model as effects were added."""
     rows = []
     for entry in a.history:
         name = " + ".join(entry["effects"]) or "baseline"
         rows.append([name, *(tables.number(entry.get(f"{use}_deg_s"), 4) for use in ("fit", "holdout"))])
-    return Table("The model as it grew", ("effects", "fit (deg/s)", "held-out (deg/s)"), rows)
+    return Table("History of the model", ("effects", "fit (deg/s)", "held-out (deg/s)"), rows)
 
 
-def cells(state: State, use: str) -> np.ndarray | None:
-    """The nine errors of a state on the runs of one use, or None."""
-    errors = getattr(state, use)
-    return None if errors is None else np.asarray(errors.table).ravel()
+def next_after_addition(a: Addition, experiment: object, model: object) -> str:
+    """Return the command to type next."""
+    return f"rockref compare {experiment} --model table_3_1 --model {model}"

@@ -1,7 +1,7 @@
 """The demonstration: the block rocks, measured runs beside it, where the model fails and why; chapter by chapter.
 
-A chapter takes the story told so far and adds to it: lines for the terminal, sections for the page. The last one tells
-what one experiment lacks: diagnosed, the effect added, the error before and after.
+A chapter takes the story told so far and adds to it: lines for the terminal, sections for the page. The page shows the
+measured and the modelled block first, then where they part, the effect that is missing, and the error falling.
 """
 
 from __future__ import annotations
@@ -14,11 +14,12 @@ import numpy as np
 
 from rockref.api import Model, simulate
 from rockref.discover.compare.finding import Finding
-from rockref.discover.compare.models import Comparison, baseline_model, compare
+from rockref.discover.compare.models import Comparison
 from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import AXES
+from rockref.discover.diagnosis_record import plain
 from rockref.discover.story import Journey, run_story
-from rockref.measure import envelope_shape, envelopes, load_experiment, main_impacts
+from rockref.measure import envelope_shape, envelopes, main_impacts
 from rockref.measure.activity import leakage, onset
 from rockref.measure.experiment import Experiment
 from rockref.measure.noise import noise_floor
@@ -27,50 +28,52 @@ from rockref.model.errors import InputError
 from rockref.model.housner import housner
 from rockref.model.response import Response
 from rockref.report import blocks, style
-from rockref.report.comparison_page import add_comparison
+from rockref.report.addition_page import add_errors
+from rockref.report.addition_text import lines as addition_lines
 from rockref.report.curves import curves
+from rockref.report.diagnosis_page import verdict_words
+from rockref.report.diagnosis_text import amplitudes_table, ranking_table
 from rockref.report.drawing import Line, Panel
 from rockref.report.figures import write_figures
+from rockref.report.fit_text import with_interval
 from rockref.report.page import Page
-from rockref.report.story_page import add_story
 
-# decided: one whose gyroscope shows the difference before the first impact, one whose energy shows it.
-EXPERIMENTS = ("mystery-04", "mystery-05")
+# decided: its effect is physical, and its energy shows it.
+EXPERIMENTS = ("mystery-05",)
 #: Long enough for three arcs of the model alone [s].
 DURATION = 2.2
-# decided: the page holds two experiments; each may use this much for its curves.
-ROOM = 420_000
 
 
 @dataclass
 class Story:
-    """What has been told: ``lines`` for the terminal, ``page``; and what later chapters need: ``folder`` of the
-    experiments, ``out``, ``engine``, ``comparisons`` by name, ``written`` files, ``report`` (called with a line at
-    every stage) and ``detail`` (called with what goes on within a stage)."""
+    """What has been told: ``lines`` for the terminal, ``page``, ``written`` files; ``journey`` is what it tells of."""
 
-    folder: Path
+    journey: Journey
     out: Path
     engine: str
     page: Page
-    report: Callable[[str], None]
-    detail: Callable[[str], None]
     lines: list[str] = field(default_factory=list)
-    comparisons: dict[str, Comparison] = field(default_factory=dict)
     written: list[Path] = field(default_factory=list)
 
+    @property
+    def comparison(self) -> Comparison:
+        """Return the baseline, and the model with the effect, beside the measured runs."""
+        return self.journey.comparison
 
-def the_model(story: Story) -> None:
-    """Chapter 1: Table 3.1 alone, and the features that its authors saw in the measured response."""
-    story.report("the eight-point block of Table 3.1")
+
+def the_block(story: Story) -> None:
+    """Section 1: the measured block and the models in motion, then the model of Table 3.1 alone."""
+    page, c = story.page, story.comparison
     model = Model.table_3_1()
     response = simulate(model, duration=DURATION, output_rate=2000.0, engine=story.engine)
     words = features_in_words(response)
     story.lines += words[:1]
-    page = story.page
     page.add_section("The block rocks")
+    times = c.measured[0].features.impacts.times
+    blocks.add_motion(page, c, 0, float(times[2]) + 0.1 if len(times) > 2 else None)
     page.add_text(
-        "The released block of Table 3.1: 54 kg on eight contact points, tilted by 0.117 rad. It rocks about its main "
-        "axis, and because its feet are not all equally high it also clatters about the other two."
+        "A block of 54 kg on eight contact points, tilted by 0.117 rad and released. It rocks about its main axis, and "
+        "because its feet are not all equally high it also clatters about the other two."
     )
     page.add_sentences(words)
     page.add_curves(model_curves(model, response))
@@ -118,16 +121,15 @@ def model_curves(model: Model, response: Response):
     )
 
 
-def the_runs(story: Story) -> None:
-    """Chapter 2: the shipped experiments beside the model, and where it fails."""
-    for name in EXPERIMENTS:
-        story.report(f"{name}: six measured runs beside the model")
-        experiment = load_experiment(story.folder / name)
-        comparison = compare(experiment, [baseline_model(experiment)], ["table_3_1"], engine=story.engine)
-        story.comparisons[name] = comparison
-        story.lines += telling(experiment, findings(comparison))
-        add_comparison(story.page, comparison, prefix=name, room=ROOM)
-        story.written += write_figures(comparison, story.out)
+def the_misfit(story: Story) -> None:
+    """Section 2: where the baseline leaves the measured runs."""
+    page, c = story.page, story.comparison
+    page.add_section("Where the model fails")
+    found = tuple(f for f in findings(c) if f.model in (None, c.names[0]))
+    story.lines += telling(c.experiment, found)
+    page.add_sentences([f.text for f in found if f.model == c.names[0]])
+    page.add_curves(blocks.run_curves(c, 0))
+    story.written += write_figures(c, story.out)
 
 
 def telling(experiment: Experiment, found: tuple[Finding, ...]) -> list[str]:
@@ -139,43 +141,43 @@ def telling(experiment: Experiment, found: tuple[Finding, ...]) -> list[str]:
 
 
 def the_missing_effect(story: Story) -> None:
-    """Chapter 3: one of the experiments diagnosed, what is missing added, and the error before and after."""
+    """Section 3: the verdict, and what it rests on."""
+    d = story.journey.diagnosis
+    record = plain(d.to_dict())
+    story.lines.append(f"{d.experiment.name}: {d.sentence}")
+    page = story.page
+    page.add_section("The missing effect", verdict_words(record))
+    if record["amplitudes"]:
+        page.add_table(amplitudes_table(record))
+    if record["ranking"]:
+        page.add_details("Alternatives", ranking_table(record))
 
-    def say(line: str) -> None:
-        (story.report if line.startswith(STAGES) else story.detail)(line)
 
-    journey = run_story(story.folder / EXPERIMENTS[0], say, engine=story.engine)
-    story.lines += in_three_lines(journey)
-    add_story(story.page, journey, room=ROOM)
-
-
-def in_three_lines(journey: Journey) -> list[str]:
-    """Return the verdict, the sizes of the effect, and the error before and after; the verdict alone without one."""
-    d, a = journey.diagnosis, journey.addition
-    lines = [f"{d.experiment.name}: {d.sentence}"]
+def the_error(story: Story) -> None:
+    """Section 4: the error before and after, on fit and held-out runs."""
+    a = story.journey.addition
     if a is None:
-        return lines
-    own = [e for e in a.estimates if e.of_effect and e.of_run is None and e.name.startswith(f"{a.effect}.")]
-    sizes = ", ".join(
-        f"{e.name.partition('.')[2]} {e.value:.3g}{'' if e.unit == '1' else ' ' + e.unit} ({e.low:.3g} to {e.high:.3g})"
-        for e in own
-    )
-    lines.append(f"Its size, with 90 % intervals: {sizes}.")
-    falls = [
-        f"on the {words} from {before.total:.3f} to {after.total:.3f}"
-        for use, words in (("fit", "fit runs"), ("holdout", "held-out runs"))
-        if (before := getattr(a.before, use)) is not None and (after := getattr(a.after, use)) is not None
-    ]
-    lines.append(f"With it the error falls {' and '.join(falls)} deg/s RMS; the noise floor is {a.noise:.3f}.")
-    return lines
+        return
+    sizes = [with_interval(name.partition(".")[2], n) for name, n in a.own_numbers.items()]
+    story.lines += [f"Size of {a.effect}, with 90 % intervals: {', '.join(sizes)}.", *addition_lines(a)]
+    add_errors(story.page, a, "The error falls")
 
 
-#: How the lines begin with which the story says that another stage has begun.
-STAGES = ("diagnosing", "adding ", "comparing before and after")
+def the_held_out_run(story: Story) -> None:
+    """Section 5: a run that no fit has seen, before and after; and where the numbers come from."""
+    page, c = story.page, story.comparison
+    held = c.of("holdout")
+    page.add_section("A run that no fit has seen")
+    page.add_curves(blocks.run_curves(c, held[0] if held else 0))
+    page.add_provenance(blocks.provenance(c))
 
 
 #: What the demonstration tells, in order.
-CHAPTERS: tuple[Callable[[Story], None], ...] = (the_model, the_runs, the_missing_effect)
+SECTIONS: tuple[Callable[[Story], None], ...] = (
+    the_block, the_misfit, the_missing_effect, the_error, the_held_out_run,
+)  # fmt: skip
+#: How the lines begin with which the story says that another stage has begun.
+STAGES = ("diagnosing", "adding ", "comparing before and after")
 
 
 def find_experiments(given: Path | None) -> Path:
@@ -211,18 +213,19 @@ def tell(
     report: Callable[[str], None] = silent,
     detail: Callable[[str], None] = silent,
 ) -> Story:
-    """Tell the story: compute every chapter, write page and figures into `out`. Raises InputError, NumericalError."""
-    page = Page(
-        "rockref: the demonstration",
-        "The block rocks, measured runs beside it, where the model fails, and what it lacks.",
-    )
-    story = Story(folder, out, engine, page, report, detail)
-    summary = page.add_section("In short")
-    for chapter in CHAPTERS:
-        chapter(story)
-    summary.blocks.append(("sentences", {"title": "", "sentences": list(story.lines)}))
-    page.add_section("Where the numbers come from")
-    for comparison in story.comparisons.values():
-        page.add_provenance(blocks.provenance(comparison))
+    """Compute the journey of one experiment, write page and figures into `out`. Raises InputError, NumericalError.
+
+    report : called with a line at every stage;  detail : with what goes on within a stage
+    """
+
+    def say(line: str) -> None:
+        (report if line.startswith(STAGES) else detail)(line)
+
+    journey = run_story(folder / EXPERIMENTS[0], say, engine=engine)
+    page = Page("rockref: the demonstration", journey.diagnosis.sentence)
+    story = Story(journey, out, engine, page)
+    report("writing the page")
+    for section in SECTIONS:
+        section(story)
     story.written.insert(0, page.write(out / "index.html"))
     return story

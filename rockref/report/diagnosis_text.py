@@ -1,4 +1,4 @@
-"""A diagnosis on the terminal: the verdict first, then what it rests on."""
+"""A diagnosis on the terminal: what it rests on, the error before and after, and the verdict last."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rockref.effects import catalogue
 from rockref.report import tables
-from rockref.report.fit_text import quantity
+from rockref.report.fit_text import quantity, say
 from rockref.report.page import Table
 from rockref.report.text import print_table
 
@@ -52,16 +52,32 @@ def looks_like(d: dict[str, Any]) -> str:
     return f"The misfit is largest {', '.join(parts)}."
 
 
-def print_diagnosis(console: Console, d: dict[str, Any]) -> None:
-    """Print a diagnosis from its JSON record."""
-    say(console, f"{d['experiment']}: {d['verdict'].upper().replace('_', ' ')}. {sentence_of(d)}", "bold")
-    say(console, MEANINGS.get(d["verdict"], ""))
+def print_diagnosis(console: Console, d: dict[str, Any], full: bool = False) -> None:
+    """Print a diagnosis from its JSON record, the verdict last; with all tables where `full`."""
+    kept = ", kept from an earlier command" if d.get("from_kept_diagnosis") else ""
+    say(console, f"{d['experiment']}: diagnosed in {d['seconds']:.0f} s{kept}.")
+    if full:
+        print_tables(console, d)
+    else:
+        for line in alternative_lines(d):
+            say(console, line)
     if d["verdict"] == "something_else":
         say(console, looks_like(d))
-    if d["effects"]:
-        say(console, "")
-        for id in d["effects"]:
-            say(console, f"  {id}: {effect_words(id)}")
+    for id in d["effects"]:
+        say(console, f"  {id}: {effect_words(id)}")
+    for line in [*size_lines(d), *error_lines(d)]:
+        say(console, line)
+    for sentence in careful(d):
+        say(console, f"With care: {sentence}")
+    if d["separating_experiment"] and (full or d["verdict"] in ("class", "indicated")):
+        say(console, f"To be sure: {d['separating_experiment']}")
+    probability = d.get("probability")
+    sure = "" if probability is None or d["verdict"] in UNSURE else f" (probability {probability:.2f})"
+    say(console, f"{d['verdict'].upper().replace('_', ' ')}{sure}. {sentence_of(d)}", "bold")
+
+
+def print_tables(console: Console, d: dict[str, Any]) -> None:
+    """Print all that a diagnosis rests on."""
     print_table(console, errors_table(d))
     if d["amplitudes"]:
         print_table(console, amplitudes_table(d))
@@ -72,11 +88,54 @@ def print_diagnosis(console: Console, d: dict[str, Any]) -> None:
     if d.get("confusion"):
         print_table(console, confusion_table(d))
     print_table(console, signature_table(d))
-    if d["separating_experiment"]:
-        say(console, f"To be sure: {d['separating_experiment']}")
-    for sentence in careful(d):
-        say(console, f"With care: {sentence}")
-    say(console, f"{d['seconds']:.0f} s.", "dim")
+
+
+#: Verdicts whose probability would say nothing: no hypothesis explains the runs.
+UNSURE = ("something_else", "not_trustworthy")
+#: Alternatives that are shown; decided: what follows has a share below a hundredth.
+SHOWN = 3
+
+
+def alternative_lines(d: dict[str, Any]) -> list[str]:
+    """Return the most probable sets of effects on a line each."""
+    return [
+        f"  {r['effect']}: {tables.number(r['gain'], 0)} nat above the null model, probability {r['weight']:.3f}"
+        for r in d["ranking"][:SHOWN]
+    ]
+
+
+def size_lines(d: dict[str, Any]) -> list[str]:
+    """Return how large each effect is, with its interval."""
+    found = []
+    for name, a in list(d["amplitudes"].items())[:4]:
+        unit = "" if a["unit"] in ("", "1") else f" {a['unit']}"
+        found.append(f"  {name} = {number(a['value'])}{unit} (90 %: {number(a['low'])} to {number(a['high'])})")
+    return found
+
+
+def error_lines(d: dict[str, Any]) -> list[str]:
+    """Return the error before and after, beside the noise."""
+    e, found = d["error"], []
+    for words, use in (("fit", "fit"), ("held-out", "holdout")):
+        before, after = e["baseline"].get(use), e["with_effect"].get(use)
+        if before is None:
+            continue
+        if not d["amplitudes"] or after is None:
+            found.append(f"Error on the {words} runs: {before:.4f} deg/s RMS, noise floor {e['noise_floor']:.4f}.")
+            continue
+        gap = closed(e, use, e["noise_floor"])
+        found.append(
+            f"Error on the {words} runs: {before:.4f} to {after:.4f} deg/s RMS {with_words(d)}, noise floor "
+            f"{e['noise_floor']:.4f}; gap closed: {gap}."
+        )
+    return found
+
+
+def next_after_diagnosis(d: dict[str, Any], experiment: object) -> str:
+    """Return the command to type next."""
+    if d["effects"]:
+        return f"rockref add {experiment} {d['effects'][0]}"
+    return f"rockref diagnose {experiment} --report report"
 
 
 def careful(d: dict[str, Any]) -> list[str]:
@@ -95,11 +154,6 @@ def gates_rows(d: dict[str, Any]) -> list[list[str]]:
     """The checks before the verdict and those of the fit behind it, each with what was found, in words."""
     words = {"passed": "a verdict is given"}
     return [[words.get(key, key.replace("_", " ")), in_words(value)] for key, value in d["gates"].items()]
-
-
-def say(console: Console, text: str, style: str | None = None) -> None:
-    """Print a line as it is."""
-    console.print(text, style=style, markup=False, highlight=False, soft_wrap=True)
 
 
 def effect_words(id: str) -> str:
@@ -162,11 +216,10 @@ def ranking_table(d: dict[str, Any]) -> Table:
         for r in d["ranking"]
     ]
     note = (
-        "Gain: log-likelihood gained over a baseline that was given as many iterations, windows clipped. z: the same "
-        "as a number of standard deviations. Weight: share among the candidates. "
-        "The rest of the catalogue was tried and not led on."
+        "Gain: log posterior gained over the null model [nat]. z: the same as a number of standard deviations. "
+        "Weight: probability. All other effects were tested and dropped."
     )
-    return Table("Fitted in full", ("effect", "gain", "z", "weight"), rows, note)
+    return Table("Alternatives", ("effect", "gain", "z", "weight"), rows, note)
 
 
 def limits_table(d: dict[str, Any]) -> Table:
@@ -176,10 +229,10 @@ def limits_table(d: dict[str, Any]) -> Table:
         for name, row in d["detection_limits"].items()
     ]
     note = (
-        "Each number alone, the others of its effect at none. Numbers of one effect that make up for each other, such "
-        "as sides that are all a little short, can stay unseen together at more."
+        "Each number alone, the others of its effect absent. Numbers of one effect that trade with each other, such "
+        "as sides that are all a little short, can stay undetected together above the limit."
     )
-    return Table("Could have stayed unseen up to", ("number", "limit", "unit"), rows, note)
+    return Table("Would be detected above", ("number", "limit", "unit"), rows, note)
 
 
 #: Cosine from which two candidates are listed as alike; decided: a fifth of either is then left for itself.

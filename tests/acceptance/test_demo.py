@@ -26,25 +26,30 @@ def demo(tmp_path_factory):
 def test_the_lines_that_matter_and_the_place_of_the_page(demo):
     out, printed, _ = demo
     lines = [line for line in printed.splitlines() if line.startswith("- ")]
-    # One about the model, two about each of two experiments; of one the verdict, its sizes, the errors.
-    assert len(lines) == 8
+    # One about the model, two about the experiment, the verdict, its size, the errors on fit and held-out runs.
+    assert len(lines) == 7
     last = printed.split("\n\n")[-1].splitlines()
     assert len(last) == 3 and last[-1] == f"The lab, to find it yourself: {out / 'lab.html'}"
     assert (out / "lab.html").is_file()
     assert "main impacts at 0.5104" in lines[0]
-    for name in EXPERIMENTS:
-        assert any(line.startswith(f"- {name}: The model leaves the band") for line in lines)
-    assert "gyro_misalignment is missing" in printed
-    assert lines[-2].count(" rad (") == 6
-    assert "the error falls on the fit runs from" in lines[-1] and "on the held-out runs from" in lines[-1]
+    assert lines[1].startswith("- mystery-05: The model leaves the band")
+    assert "rolling_resistance is missing" in lines[3] and "lever" in lines[4]
+    assert lines[5].startswith("- Fit runs: error") and lines[6].startswith("- Held-out runs: error")
     assert f"The page: {out / 'index.html'}" in printed
 
 
 def test_without_a_terminal_a_stage_is_a_line(demo):
     said = demo[2].splitlines()
     assert all(line.startswith("... ") for line in said)
-    assert len(said) == 6
-    assert "objective" not in demo[2]
+    assert [line.split()[1] for line in said] == ["diagnosing", "adding", "comparing", "writing"]
+
+
+def test_the_page_tells_five_things_and_begins_with_the_picture(demo):
+    page = (demo[0] / "index.html").read_text(encoding="utf-8")
+    titles = ["The block rocks", "Where the model fails", "The missing effect", "The error falls"]
+    places = [page.index(f'-h">{title}</h2>') for title in [*titles, "A run that no fit has seen"]]
+    assert places == sorted(places)
+    assert page.index('<figure class="player"') < page.index('<figure class="curves"')
 
 
 def test_page_is_whole_small_and_asks_for_nothing(demo):

@@ -22,9 +22,9 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples/my_effect.py"
 COMMANDS = {
     "simulate": ("simulate MODEL", "rockref.api.simulate"),
     "compare": ("compare EXPERIMENT --model table_3_1 --model MODEL", "rockref.discover.compare.models.compare"),
-    "fit": ("fit EXPERIMENT --model MODEL", "rockref.discover.fitting.fit_experiment"),
+    "fit": ("fit EXPERIMENT --model MODEL", "rockref.discover.fit_baseline.fit_baseline"),
     "diagnose": ("diagnose EXPERIMENT --model MODEL", "rockref.discover.diagnose.diagnose"),
-    "add": ("add rolling_resistance EXPERIMENT --model MODEL", "rockref.discover.add.add"),
+    "add": ("add rolling_resistance EXPERIMENT --model MODEL", "rockref.discover.add_effect.add_effect"),
     "identify": ("identify EXPERIMENT --model MODEL", "rockref.identify.from_experiment.question"),
     "plan": ("plan --model MODEL", "rockref.discover.plan.plan"),
     "sensitivity": ("sensitivity --model MODEL", "rockref.identify.sensitivity_study.study"),
@@ -131,7 +131,7 @@ def test_the_effect_that_is_added_names_its_file_too(capsys, monkeypatch, folder
         arrived.append(given)
         raise InputError("E-ARRIVED", "here", "stop", "")
 
-    monkeypatch.setattr("rockref.discover.add.add", work)
+    monkeypatch.setattr("rockref.discover.add_effect.add_effect", work)
     code, err = said(capsys, "add mine.py:Second EXPERIMENT --model MODEL")
     assert code == 2 and "[E-ARRIVED]" in err
     assert arrived[0][0] == "mine.py:Second" and arrived[0][2].effects[0].id == "eddy_brake"

@@ -88,7 +88,7 @@ def test_a_fit_hands_on_what_it_was_given(monkeypatch, short):
             return {"loss": 1.0}
 
     asked = []
-    monkeypatch.setattr("rockref.discover.fitting.fit_experiment", lambda *a, **k: asked.append((a, k)) or Found())
+    monkeypatch.setattr("rockref.discover.fit_baseline.fit_baseline", lambda *a, **k: asked.append((a, k)) or Found())
     monkeypatch.setattr("rockref.report.fit_text.print_fit", lambda console, found: console.print("A good fit."))
     result = rockref.fit(rockref.load(short), effects="gyro_scale", seed=3)
     assert asked == [((short, ("gyro_scale",), None, 3, None), {"check": True, "progress": None})]

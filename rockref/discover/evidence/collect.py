@@ -85,6 +85,10 @@ def numbers_of(parameters: Sequence[Parameter], z: np.ndarray, covariance_: np.n
         ends = sorted(own_value(p, float(np.clip(z[k] + s * half, p.least, p.most))) for s in (-1, 1))
         size = float(z[k]) / p.typical if p.typical else 0.0
         found[p.name] = Number(own_value(p, float(z[k])), ends[0], ends[1], p.unit, float(z[k]), size)
+    if "K_T" in found and "K_N" in found:  # fitted as their ratio
+        by = found["K_N"].value
+        n = found["K_T"]
+        found["K_T"] = replace(n, value=by * n.value, low=by * n.low, high=by * n.high, unit=found["K_N"].unit)
     return found
 
 

@@ -85,9 +85,13 @@ class Evidence:
         """Return the evidence of a set of effects, in any order."""
         return next((h for h in self.hypotheses if frozenset(h.effects) == frozenset(effects)), None)
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain values."""
+        return plain({"format": FORMAT, **asdict(self)})
+
     def save(self, path: Path) -> None:
         """Write the evidence as JSON, whole or not at all."""
-        write_text(path, json.dumps(plain({"format": FORMAT, **asdict(self)}), indent=1) + "\n")
+        write_text(path, json.dumps(self.to_dict(), indent=1) + "\n")
 
     @classmethod
     def load(cls, path: Path) -> Evidence:

@@ -127,6 +127,7 @@ class Fitter:
             h.H, g = self.linearise(h, stage)
             if self.step(h, stage, h.H, g) < least_gain:
                 break
+        self.problem.refined(h, stage)
         return h
 
     def settle(self, h: FittedModel, stage: Stage, most: int, share: float = 0.02) -> FittedModel:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.stages import time_scale
+from rockref.discover.fit.stages import Stage, time_scale
 from rockref.discover.hypotheses.candidates import within_base
 from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters, release_parameters
@@ -27,6 +28,7 @@ class FitProblem:
 
     base : the baseline without effects.  carried : effects of the user's model, part of every hypothesis
     candidates : ids of the effects that may be missing.  tone : frequency [Hz] of a line in the misfit, if there is one
+    say : called with a line at every stage.  refined : called with every hypothesis that was refined, and its stage
     """
 
     experiment: Experiment
@@ -37,6 +39,7 @@ class FitProblem:
     seed: int = 0
     tone: float | None = None
     say: Callable[[str], None] = lambda line: None
+    refined: Callable[[Any, Stage], None] = lambda h, stage: None
     _known: dict = field(default_factory=dict, repr=False)
 
     @property

@@ -22,6 +22,8 @@ HEIGHT_WIDTH = 0.1
 #: Roll of a release against the posture at rest [rad]; decided: feet of twice and half the common stiffness sink 5 to
 #: 10 um apart under half the weight, over 0.1 m.
 ROLL_UNCERTAINTY = 1e-4
+#: Units of the law's parameters as a fit counts them; the others are pure numbers.
+UNITS = {"K_N": "N/m", "delta_diag": "m", **{f"delta_long_{k}": "m" for k in (1, 2, 3, 4)}}
 
 
 def set_parameter(name: str):
@@ -90,7 +92,7 @@ def law_parameters(model: Model) -> tuple[Parameter, ...]:
 
 def bounded(name: str, setter, limits: tuple[float, float], scale: str) -> Parameter:
     """Return a number with a flat prior between two limits."""
-    return Parameter(name, setter, centre=0.0, scale=scale, low=limits[0], high=limits[1])
+    return Parameter(name, setter, centre=0.0, scale=scale, low=limits[0], high=limits[1], unit=UNITS.get(name, "1"))
 
 
 def release_parameters(runs: int, tilt_uncertainty: float) -> tuple[Parameter, ...]:

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from rockref import Model, cli
-from rockref.discover import add as adding
+from rockref.discover import add_effect as adding
 from tests.unit.discover import fakes
 
 
@@ -21,37 +21,37 @@ def run(capsys, *arguments):
 
 
 def test_error_before_and_after_in_words(capsys, monkeypatch, tmp_path, made):
-    monkeypatch.setattr(adding, "add", lambda *a, **k: fakes.addition(made))
+    monkeypatch.setattr(adding, "add_effect", lambda *a, **k: fakes.addition(made))
     code, out, _ = run(capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "m.toml")
-    assert code == 0
+    assert code == 0 and len(out.splitlines()) <= 12
+    assert out.splitlines()[-1].startswith("Next: rockref compare anywhere --model table_3_1 --model ")
     # (0.25 - 0.07) of (0.25 - 0.05); (0.35 - 0.15) of (0.35 - 0.05).
-    assert "0.2500 to 0.0700 deg/s RMS with quadratic_drag; 90 % of the gap" in out
-    assert "0.3500 to 0.1500 deg/s RMS with quadratic_drag; 67 % of the gap" in out
+    assert "Fit runs: error 0.2500 to 0.0700 deg/s RMS, noise floor 0.0500; 90 % of the gap" in out
+    assert "Held-out runs: error 0.3500 to 0.1500 deg/s RMS, noise floor 0.0500; 67 % of the gap" in out
 
 
 def test_history_survives_the_file(capsys, monkeypatch, tmp_path, made):
-    monkeypatch.setattr(adding, "add", lambda *a, **k: fakes.addition(made))
+    monkeypatch.setattr(adding, "add_effect", lambda *a, **k: fakes.addition(made))
     run(capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "m.toml")
     model = Model.load(tmp_path / "m.toml")
     history = model.origin["history"]
     assert [entry["effects"] for entry in history] == [[], ["quadratic_drag"]]
     assert [entry["holdout_deg_s"] for entry in history] == [0.35, 0.15]
-    # Nine numbers by stretch and axis; -1 stands for the stretch without a window.
-    assert history[0]["fit_by_stretch_deg_s"][4] == -1.0 and len(history[0]["fit_by_stretch_deg_s"]) == 9
+    assert history[0]["fit_by_axis_deg_s"] == [0.125, 0.25, 0.375]
     # A second effect keeps what came before the model's own state, and measures that one anew.
     assert [e["effects"] for e in adding.earlier(model, ("quadratic_drag",))] == [[]]
 
 
 def test_page_and_json(capsys, monkeypatch, tmp_path, made):
-    monkeypatch.setattr(adding, "add", lambda *a, **k: fakes.addition(made))
+    monkeypatch.setattr(adding, "add_effect", lambda *a, **k: fakes.addition(made))
     _, out, _ = run(
         capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "m.toml", "--report", tmp_path / "page", "--json"
     )
     record = json.loads(out)
     assert record["error"]["gap_closed"]["fit"] == pytest.approx(0.9)
-    assert record["error"]["before"]["fit"]["by_stretch_and_axis"]["impact"]["transverse"] is None
+    assert record["error"]["before"]["fit"]["transverse"] == 0.25
     page = (tmp_path / "page/index.html").read_text(encoding="utf-8")
-    assert "The model as it grew" in page and page.count("<figure") == 3
+    assert "History of the model" in page and page.count("<figure") == 3
 
 
 def test_unknown_effect_ends_with_2(capsys, tmp_path):
@@ -67,7 +67,7 @@ def test_what_is_refused_leaves_no_folder(capsys, tmp_path):
 
 
 def test_a_model_that_could_not_be_written_is_refused_before_the_work(capsys, monkeypatch, tmp_path):
-    monkeypatch.setattr(adding, "add", lambda *a, **k: pytest.fail("the work was begun"))
+    monkeypatch.setattr(adding, "add_effect", lambda *a, **k: pytest.fail("the work was begun"))
     code, _, err = run(capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "nowhere" / "m.toml")
     assert code == 2 and "[E-WRITE]" in err
 

@@ -52,15 +52,18 @@ def test_exit_code_is_1_only_where_nothing_can_be_trusted(capsys, monkeypatch, m
     assert run(capsys, "anywhere")[0] == code
 
 
-def test_verdict_comes_first_and_errors_before_and_after(capsys, monkeypatch, made):
+def test_the_verdict_comes_last_and_then_what_to_type(capsys, monkeypatch, made):
     answer(monkeypatch, fakes.diagnosis("named", made))
     _, out, _ = run(capsys, "anywhere")
-    assert out.splitlines()[0] == "synthetic: NAMED. quadratic_drag is missing."
+    assert out.splitlines()[-2:] == [
+        "NAMED (probability 1.00). quadratic_drag is missing.", "Next: rockref add anywhere quadratic_drag",
+    ]  # fmt: skip
+    assert len(out.splitlines()) <= 12
     for text in ("0.2500", "0.0600", "0.3500", "0.0800", "0.0500", "0.38", "0.44", "512"):
         assert text in out, text
     # (0.25 - 0.06) of (0.25 - 0.05), and (0.35 - 0.08) of (0.35 - 0.05).
     assert "95 %" in out and "90 %" in out
-    assert "Turn the block <by half a turn> & repeat." in out
+    assert "Turn the block <by half a turn> & repeat." in run(capsys, "anywhere", "--full")[1]
 
 
 def test_a_check_that_the_fit_did_not_pass_is_said_with_the_verdict(capsys, monkeypatch, tmp_path, made):
@@ -86,7 +89,7 @@ def test_the_page_of_the_record_has_every_key(made):
 def test_sizes_come_with_a_caution_where_a_number_is_at_its_bound(capsys, monkeypatch, made):
     found = fakes.diagnosis("named", made)
     answer(monkeypatch, found)
-    assert "with care" not in run(capsys, "anywhere")[1]
+    assert "with care" not in run(capsys, "anywhere", "--full")[1]
     sentence = "gyro_misalignment.xz is farthest from the centre of its prior: 6.7 deviations."
     found.gates["off_bounds"] = {
         "name": "off_bounds",
@@ -95,13 +98,13 @@ def test_sizes_come_with_a_caution_where_a_number_is_at_its_bound(capsys, monkey
         "limit": 3.0,
         "sentence": sentence,
     }
-    out = " ".join(run(capsys, "anywhere")[1].split())
+    out = " ".join(run(capsys, "anywhere", "--full")[1].split())
     assert f"Take them with care: {sentence}" in out
 
 
 def test_nothing_found_shows_no_amplitude(capsys, monkeypatch, made):
     answer(monkeypatch, fakes.diagnosis("none", made))
-    _, out, _ = run(capsys, "anywhere")
+    _, out, _ = run(capsys, "anywhere", "--full")
     assert "How large" not in out and "gap" not in out
 
 

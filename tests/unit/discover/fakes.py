@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 
 from rockref import Model
-from rockref.discover.add import Addition, State
+from rockref.discover.add_effect import Addition, State
+from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnose import Diagnosis
+from rockref.discover.evidence.evidence import HypothesisEvidence, Number
 from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.errors import Errors
-from rockref.discover.fit.fitted import Estimate
-from rockref.discover.fit.gates import Gate
-from rockref.discover.fitting import Fitted
+from rockref.discover.fit_baseline import BaselineFit
+from rockref.discover.fit_gates import Gate
 from rockref.discover.plan import Plan, Release, Says, further, outlook
 from rockref.effects.catalogue import find, parse
 from tests.unit.discover.synthetic import experiment
@@ -66,26 +64,19 @@ def diagnosis(verdict: str = "named", made=None) -> Diagnosis:
     )
 
 
-def errors(scale: float, total: float) -> Errors:
-    """Nine errors of about this size; nothing in one of them."""
-    table = scale * np.arange(1.0, 10.0).reshape(3, 3)
-    table[1, 1] = np.nan
-    return Errors(total, table, 0.05)
+def errors(total: float) -> dict[str, float]:
+    """Errors by axis that are about this large."""
+    return {axis: total * (k + 1) / 2 for k, axis in enumerate(AXES)} | {"total": total}
 
 
-def estimates() -> list[Estimate]:
-    """Three numbers: a shared one, one of the effect, one of a run."""
-    return [
-        Estimate("K_N", 5.9e7, 5.5e7, 6.3e7, "N/m", 0.3, False, None),
-        Estimate("quadratic_drag.c", 0.41, 0.38, 0.44, "N m s2", 0.34, True, None),
-        Estimate("tilt_offset[0]", 1e-4, 0.5e-4, 1.5e-4, "rad", 0.1, False, 0),
-    ]
+LAW = {"K_N": Number(5.9e7, 5.5e7, 6.3e7, "N/m", 0.3, 0.0), "mu_int": Number(0.3, 0.28, 0.32, "1", 0.1, 0.0)}
+DRAG_SIZE = {"quadratic_drag.c": Number(0.41, 0.38, 0.44, "N m s2", 0.34, 1.02)}
 
 
 def addition(made=None) -> Addition:
     """Drag added to the baseline: the gap to the noise closed by nine tenths, by two thirds on the held-out run."""
-    before = State((), errors(0.1, 0.25), errors(0.12, 0.35))
-    after = State(("quadratic_drag",), errors(0.02, 0.07), errors(0.03, 0.15))
+    before = State((), errors(0.25), errors(0.35))
+    after = State(("quadratic_drag",), errors(0.07), errors(0.15))
     history = [before.to_dict(), after.to_dict()]
     return Addition(
         experiment=made or made_experiment(),
@@ -93,28 +84,34 @@ def addition(made=None) -> Addition:
         before=before,
         after=after,
         model=DRAG.replace(origin={"made_by": "rockref add", "history": history}),
-        estimates=estimates(),
+        numbers={**DRAG_SIZE, **LAW},
         spread=np.array([0.2, 0.3, 0.4]),
+        noise=0.05,
         history=history,
         end=3.0,
         seconds=1.0,
-        family=None,
     )
 
 
-def fitted(passed: bool = True, made=None) -> Fitted:
-    """A fit whose first gate passed or not."""
-    return Fitted(
+def fitted(outcome: str = "trustworthy", made=None) -> BaselineFit:
+    """A fit with this outcome."""
+    said = HypothesisEvidence(
+        (), 1000.0, [1.0], 0.95, {"01": [0.95, 0.94, 0.96]}, {"01": 0.0}, 0.3, law=LAW, error=errors(0.051)
+    )
+    gates = [
+        Gate("starts_agree", outcome != "not_trustworthy", 0.2, 1.0, "The fit from another start differs little."),
+        Gate("innovations_white", outcome != "effect_missing", 0.95, 1.05, "The innovations have a mean loss of 0.95."),
+    ]
+    return BaselineFit(
         experiment=made or made_experiment(),
         model=Model.table_3_1(),
         effects=(),
-        estimates=estimates(),
-        gates=[Gate("starts_agree", passed, 1.0, 3.0, "Another start ends 1.0 widths away.")],
-        errors=errors(0.1, 0.25),
-        mean_loss=1.02,
+        evidence=said,
+        gates=gates,
+        outcome=outcome,
+        noise=0.05,
+        end=3.0,
         seconds=1.0,
-        setup=SimpleNamespace(end=3.0),
-        family=None,
     )
 
 

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import pytest
 
 from rockref.discover import story
-from rockref.discover.add import State
-from rockref.discover.fit.fitted import Estimate
+from rockref.discover.add_effect import State
+from rockref.discover.evidence.evidence import Number
 from rockref.discover.story import Journey, run_story
 from tests.unit.discover import fakes
 
@@ -20,14 +20,16 @@ def made():
 @pytest.fixture
 def steps(monkeypatch, made):
     """Steps that only note what they were asked for; the verdict is that in `asked.verdict`."""
-    asked = SimpleNamespace(verdict="named", ends=[], added=[], names=None, models=None)
+    asked = SimpleNamespace(verdict="named", ends=[], added=[], stores=[], names=None, models=None)
 
-    def diagnose(path, seed, end, progress):
+    def diagnose(path, seed, end, progress, store):
         asked.ends.append(end)
+        asked.stores.append(store)
         return fakes.diagnosis(asked.verdict, made)
 
-    def add(effect, path, seed, end, progress):
+    def add_effect(effect, path, seed, end, progress, store):
         asked.ends.append(end)
+        asked.stores.append(store)
         asked.added.append(effect)
         return fakes.addition(made)
 
@@ -36,7 +38,7 @@ def steps(monkeypatch, made):
         return "compared"
 
     monkeypatch.setattr(story, "diagnose", diagnose)
-    monkeypatch.setattr(story, "add", add)
+    monkeypatch.setattr(story, "add_effect", add_effect)
     monkeypatch.setattr(story, "compare", compare)
     monkeypatch.setattr(story, "load_experiment", lambda path: made)
     return asked
@@ -50,6 +52,8 @@ def test_the_first_effect_of_a_verdict_is_added_and_compared(steps, verdict):
     assert steps.models[0].effects == () and steps.models[1] == journey.addition.model
     assert said == ["diagnosing", "adding quadratic_drag", "comparing before and after"]
     assert journey.comparison == "compared"
+    # What the diagnosis has found the addition starts from; a person's own kept fits are left alone.
+    assert steps.stores[0] is steps.stores[1] and not steps.stores[0].on_disk
 
 
 @pytest.mark.parametrize("verdict", ["none", "something_else", "not_trustworthy"])
@@ -82,8 +86,8 @@ def test_the_verdict_alone_where_nothing_was_added(made):
 def test_without_held_out_runs_nothing_is_said_of_them_and_a_pure_number_has_no_unit(made):
     a = fakes.addition(made)
     before, after = (State(s.effects, s.fit, None) for s in (a.before, a.after))
-    a = replace(a, before=before, after=after, effect="gyro_scale",
-                estimates=[Estimate("gyro_scale.x", 1.02, 1.01, 1.03, "1", 2.0, True, None)])  # fmt: skip
+    numbers = {"gyro_scale.x": Number(1.02, 1.01, 1.03, "1", 2.0, 1.0)}
+    a = replace(a, before=before, after=after, effect="gyro_scale", numbers=numbers)
     lines = Journey(fakes.diagnosis("named", made), a, None).lines
     assert lines[1] == "gyro_scale.x = 1.02 (90 %: 1.01 to 1.03)." and len(lines) == 3
     assert "held-out" not in " ".join(lines)

@@ -3,13 +3,12 @@
 import io
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from rich.console import Console
 
-from rockref.discover.add import State
+from rockref.discover.add_effect import State
 from rockref.report.addition_page import addition_page
-from rockref.report.addition_text import cells_table, lines, print_addition
+from rockref.report.addition_text import axes_table, lines, print_addition
 from rockref.report.falling import falling_figure, history_figure
 from tests.unit.discover import fakes
 from tests.unit.report.page_checks import faults_of
@@ -30,16 +29,16 @@ def bare(whole):
 def test_held_out_runs_are_in_lines_and_columns_where_there_are_some(whole, bare):
     assert [line.split(":")[0] for line in lines(whole)] == ["Fit runs", "Held-out runs"]
     assert [line.split(":")[0] for line in lines(bare)] == ["Fit runs"]
-    assert "held-out, before" in cells_table(whole).columns and "held-out, before" not in cells_table(bare).columns
-    assert [len(row) for row in cells_table(bare).rows] == [6] * 9
+    assert "held-out, before" in axes_table(whole).columns and "held-out, before" not in axes_table(bare).columns
+    assert [len(row) for row in axes_table(bare).rows] == [5] * 4
     # Two repeats differ by 0.2, 0.3 and 0.4 about the three axes, by nothing that is known without repeats.
-    assert [row[-1] for row in cells_table(whole).rows[:3]] == ["0.200", "0.300", "0.400"]
-    assert {row[-1] for row in cells_table(bare).rows} == {"–"}
+    assert [row[-1] for row in axes_table(whole).rows[:3]] == ["0.200", "0.300", "0.400"]
+    assert {row[-1] for row in axes_table(bare).rows} == {"–"}
 
 
 def test_a_gap_that_was_none_is_not_said_to_be_closed(whole):
-    at_noise = replace(whole, before=State((), fakes.errors(0.1, whole.noise), whole.before.holdout))
-    assert lines(at_noise)[0].endswith("deg/s RMS with quadratic_drag.") and "% of the gap" in lines(at_noise)[1]
+    at_noise = replace(whole, before=State((), fakes.errors(whole.noise), whole.before.holdout))
+    assert lines(at_noise)[0].endswith("noise floor 0.0500.") and "% of the gap" in lines(at_noise)[1]
 
 
 def test_the_page_has_a_figure_for_each_kind_of_runs_and_the_history(whole, bare):
@@ -53,12 +52,12 @@ def test_printed_it_has_the_size_of_the_effect_and_no_number_of_the_baseline(who
     out = io.StringIO()
     print_addition(Console(file=out, width=200), whole)
     text = out.getvalue()
-    (row,) = [line.split() for line in text.splitlines() if line.startswith("quadratic_drag.c")]
-    assert row[:4] == ["quadratic_drag.c", "0.41", "0.38", "0.44"] and "K_N" not in text and "tilt_offset" not in text
+    assert "quadratic_drag.c 0.41 (0.38 to 0.44) N m s2" in text and "K_N" not in text
+    assert text.splitlines()[-1].startswith("Held-out runs")
 
 
 def test_the_spread_of_repeats_is_drawn_where_it_is_known(whole):
-    states = [("baseline", np.ones(9)), ("with", np.full(9, 0.5))]
+    states = [("baseline", fakes.errors(1.0)), ("with", fakes.errors(0.5))]
     for spread, named in ((whole.spread, True), (None, False)):
         svg, keys = falling_figure("Title", states, 0.05, spread)
         assert ("two repeated runs" in keys) is named and "noise floor" in keys and "Title" in svg

@@ -109,9 +109,9 @@ def test_identify_does_not_search_eight_points_for_a_model_on_four(capsys, tmp_p
 @pytest.mark.parametrize(
     "command, place",
     [
-        ("fit EXPERIMENT", "rockref.discover.fitting.fit_experiment"),
+        ("fit EXPERIMENT", "rockref.discover.fit_baseline.fit_baseline"),
         ("diagnose EXPERIMENT", "rockref.discover.diagnose.diagnose"),
-        ("add gyro_scale EXPERIMENT", "rockref.discover.add.add"),
+        ("add gyro_scale EXPERIMENT", "rockref.discover.add_effect.add_effect"),
         ("plan", "rockref.discover.plan.plan"),
     ],
 )

@@ -10,7 +10,7 @@ from rockref import InputError, Model
 from rockref.discover import plan as planning
 from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.fit.fitted import start_from, z_of
-from rockref.discover.fitting import known_effects
+from rockref.discover.fit_baseline import known_effects
 from rockref.discover.hypotheses import candidates
 from rockref.discover.hypotheses.candidates import (
     FORMS,

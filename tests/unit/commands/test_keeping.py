@@ -1,0 +1,90 @@
+"""Ctrl-C: what was found is kept, and what is said of it is true."""
+
+import pytest
+
+from rockref import cli
+from rockref.commands._keeping import interruption
+from rockref.discover import diagnose as engine
+from rockref.discover.evidence.evidence import Evidence
+from rockref.discover.fit.problem import fit_problem
+from rockref.discover.fit.stages import S3
+from rockref.discover.fit_store import FitStore
+from tests.unit.discover import fakes
+from tests.unit.discover.test_fit_store import TABLE, fitted
+
+
+@pytest.fixture
+def kept(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROCKREF_CACHE", str(tmp_path / "kept"))
+    return tmp_path / "kept"
+
+
+@pytest.fixture(scope="module")
+def made():
+    return fakes.made_experiment(0.7)
+
+
+def run(capsys, *arguments):
+    with pytest.raises(SystemExit) as end:
+        cli.main([str(a) for a in arguments])
+    return end.value.code, *capsys.readouterr()
+
+
+@pytest.mark.parametrize(
+    "words, place",
+    [
+        ("diagnose anywhere", "rockref.discover.diagnose.diagnose"),
+        ("fit anywhere", "rockref.discover.fit_baseline.fit_baseline"),
+    ],
+)
+def test_an_interruption_says_what_was_kept_and_what_goes_on_from_it(
+    capsys, monkeypatch, tmp_path, kept, made, words, place
+):
+    problem = fit_problem(made, made.fit_runs(), TABLE, end=0.6, workers=1)
+
+    def work(*given, store, **options):
+        store.open(made)
+        store.note(problem)(fitted(problem), S3)
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(place, work)
+    code, out, err = run(capsys, *words.split())
+    assert (code, out) == (130, "")
+    assert "Kept: 1 fit; best so far: the baseline, mean loss 1.00 at stage S3" in err
+    assert "The same command, without --fresh, goes on from them" in err
+    assert len(list(kept.glob("*.json"))) == 1 and FitStore().open(made).start(problem, ()) is not None
+    assert not (tmp_path / "model.toml").exists()
+
+
+def test_where_nothing_was_found_nothing_is_said_to_be_kept(made, kept):
+    assert interruption(FitStore().open(made)).startswith("interrupted. Nothing was found yet")
+
+
+def test_a_diagnosis_with_the_same_options_is_answered_from_what_was_kept(monkeypatch, made, kept):
+    said = fakes.fitted().evidence
+    evidence = Evidence("synthetic", made.digest, 1000, {}, [said])
+    computed = []
+
+    def evidence_of(fitter, fits, experiment):
+        computed.append(len(fits))
+        return evidence
+
+    problem = fit_problem(made, made.fit_runs(), TABLE, end=0.6, workers=1)
+    monkeypatch.setattr(engine, "opened", lambda path: (made, made))
+    monkeypatch.setattr(engine.KeptSearch, "run", lambda search: [fitted(problem)])
+    monkeypatch.setattr(engine, "evidence_of", evidence_of)
+
+    def ask(fresh=False, **options):
+        return engine.diagnose("folder", end=0.6, workers=1, store=FitStore(fresh=fresh), **options)
+
+    first, again = ask(), ask()
+    assert len(computed) == 1 and again.from_store and not first.from_store
+    left_out = ("from_kept_diagnosis",)
+    assert {k: v for k, v in again.to_dict().items() if k not in left_out} == {
+        k: v for k, v in first.to_dict().items() if k not in left_out
+    }
+    assert again.model.parameters == first.model.parameters
+    ask(seed=1)
+    ask(fresh=True)
+    assert len(computed) == 3
