@@ -20,6 +20,8 @@ from rockref.discover.selection.tone import tone
 
 #: Mean loss from which innovations contradict a model (white noise: 0.947; right models stay below 1.06 here).
 CONTRADICTED = 1.12
+#: Mean loss at S2 above which S3 is not asked (decided: right models of the stiffest blocks leave 1.2 to 2.0 there).
+HOPELESS = 2.5
 #: Share of the objective that an addition has to take off to join, at each stage (decided: what weak effects gain grows
 #: with the memory).
 JOINS = {"S3": 0.01, "F": 0.006}
@@ -66,19 +68,27 @@ class Search:
         self.problem.say(f"baseline: mean loss {null.loss:.2f}")
         self.problem.tone = tone(self.fitter, null)
         beam = [null]
-        if null.loss > CONTRADICTED:
+        if not self.is_explained(null):
             beam.append(self.anywhere(self.nominal()))
         self.baseline = self.best(beam)
-        while (best := self.best(beam)).loss > CONTRADICTED and len(best.effects) < MOST:
+        while not self.is_explained(best := self.best(beam)) and len(best.effects) < MOST:
             starts = [self.nominal(), best] if best.effects == self.problem.carried else [best]
             added = halving(self.fitter, starts)
             if min(h.objective for h in added) > best.objective:
                 break
             beam += added
             self.fitter.settle(self.best(beam), S2, 4)
-            if (best := self.best(beam)).loss > CONTRADICTED:
+            if not self.is_explained(best := self.best(beam)):
                 beam.append(self.anywhere(best))
         return within(beam, BEAM)
+
+    def is_explained(self, h: FittedModel) -> bool:
+        """Return whether innovations are white at S2, or at S3: at short memories stiff feet leave more than noise."""
+        if h.loss <= CONTRADICTED:
+            return True
+        if h.loss > HOPELESS:
+            return False
+        return self.fitter.refine(h.copy(), S3, 2).loss <= CONTRADICTED
 
     def anywhere(self, h: FittedModel) -> FittedModel:
         """Return a hypothesis whose law starts over the whole prior; releases and effects start as they are in h."""
