@@ -133,10 +133,25 @@ def diagnose(
     decision = decide(evidence)
     best = next(h for h in fits if h.effects == decision.best.effects)
     model_found = model_of(fitter, best, decision.best, "rockref diagnose")
+    if decision.word == "class":
+        problem.say("the run that tells the class apart")
+        evidence.separating = of_class(fitter, fits, decision, end)
     seconds = time.perf_counter() - started
     if store is not None:
         keep_diagnosis(store, key, evidence, model_found, end * problem.time_scale, seconds)
     return diagnosis(whole, evidence, decision, model_found, end * problem.time_scale, seconds)
+
+
+def of_class(fitter: Fitter, fits: Sequence[FittedModel], decision: Verdict, end: float) -> str:
+    """Return the run that tells the members of a class apart best, in a sentence, or ""."""
+    from rockref.discover.separating import separating_run
+
+    null = next(h for h in fits if h.effects == fitter.problem.carried)
+    model = next(m for m in fitter.problem.job(fitter.parameters(null), null.z).models if m is not None)
+    leader = next(h for h in fits if h.effects == decision.best.effects)
+    own = zip(fitter.parameters(leader), leader.z, strict=True)
+    size = [z for p, z in own if p.effect == decision.effects[0] and p.typical > 0 and p.run is None]
+    return separating_run(fitter.problem, model, decision.effects, np.array(size), end)
 
 
 def kept_diagnosis(store: FitStore, key: str, experiment: Experiment) -> Diagnosis | None:
@@ -177,12 +192,17 @@ def diagnosis(
         gates=gates(decision, evidence),
         seconds=seconds,
         model=model,
-        separating_experiment=catalogue.find(decision.effects[0]).experiment if decision.effects else "",
+        separating_experiment=evidence.separating or experiment_of(decision),
         probability=decision.probability,
         detection_limits=evidence.limits,
         confusion=evidence.confusions,
         evidence=evidence,
     )
+
+
+def experiment_of(decision: Verdict) -> str:
+    """Return the experiment that the catalogue advises to confirm the first effect of a verdict, or ""."""
+    return catalogue.find(decision.effects[0]).experiment if decision.effects else ""
 
 
 def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experiment) -> Evidence:

@@ -1,8 +1,8 @@
 """What a campaign could show before it is made: detection limits, confusion, and the run that helps most.
 
-Runs are simulated, seen through the gyroscope, cut into windows and linearised exactly as measured ones are. What a
-run says about shared parameters and candidates adds up, so repeats and further runs cost nothing once each release is
-known.
+Runs are simulated, seen through the gyroscope, and linearised exactly as measured ones are: by a model that listens to
+them. What a run says about shared parameters and candidates adds up, so repeats and further runs cost nothing once each
+release is known.
 """
 
 from __future__ import annotations
@@ -11,40 +11,35 @@ import math
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rockref.api import Model, simulate
-from rockref.discover import window_rules as rules
-from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.information import eliminated, information, own_parameters
-from rockref.discover.fit.least_squares import Fit
-from rockref.discover.fit.search import MIDDLE
-from rockref.discover.hypotheses.candidates import FORMS, LEFT_OUT, SHAPES, is_inverse, kinds, parameters_of, value_of
-from rockref.discover.hypotheses.counted import Parameter
-from rockref.discover.looking.screen import PROBE
-from rockref.discover.windows.series import Cut, Series, refinement, series
+from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.problem import END, fit_problem
+from rockref.discover.fit.stages import F, time_scale
+from rockref.discover.hypotheses.candidates import LEFT_OUT, kinds
+from rockref.discover.hypotheses.effects import effect_parameters
+from rockref.discover.hypotheses.law import law_parameters
+from rockref.discover.hypotheses.parameter import Parameter
+from rockref.discover.verdict.calibration import calibration
+from rockref.discover.verdict.detection import cosines, eliminated, limit
 from rockref.effects.base import Effect
+from rockref.effects.prior import to_scale
 from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment, Gyro, Run
 from rockref.measure.gyroscope import record
-from rockref.measure.impacts import main_impacts
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 
 #: The gyroscope of a plan without an experiment: that of the shipped experiments.
 GYRO = Gyro(sample_rate=1000.0, noise=0.05 / DEGREES, bandwidth=300.0, resolution=0.01 / DEGREES)
 #: Seconds of each run that are simulated and used; decided: what the diagnosis uses.
-DURATION = 3.0
-#: Finite differences over a whole run are smaller by this factor; decided: what is a small change over a window is
-#: a large one after fifteen times as long.
-FINE = 0.1
+DURATION = END
 #: Cosines above which two effects are not told apart; decided: a tenth of either is then left for itself.
 CONFUSED = 0.95
-#: An effect counts as seen when its gain reaches what the diagnosis demands.
-NEEDED_Z = math.sqrt(2 * rules.DETECTED)
 #: Releases that are offered as the next run, as factors on the largest tilt of the plan.
 FURTHER_TILTS = (1.0, 0.85, 0.7)
 
@@ -131,8 +126,6 @@ class Plan:
     outlook: Outlook
     repeats: Outlook
     varied: Outlook
-    unbroken_repeats: Outlook
-    unbroken_varied: Outlook
     further: list[dict[str, Any]]
     seconds: float
 
@@ -161,31 +154,20 @@ class Plan:
         return {a: dict(zip(o.effects, row, strict=True)) for a, row in zip(o.effects, rows, strict=True)}
 
     def comparison(self) -> dict[str, Any]:
-        """Limits of as many repeats of one release and of as many varied ones, and their ratio.
-
-        By restarted windows, and from release to the second main impact without a restart.
-        """
+        """Limits of as many repeats of one release and of as many varied ones, and their ratio."""
         ratio = {id: self.repeats.sizes[id] / self.varied.sizes[id] for id in self.varied.effects}
-        whole = {id: self.unbroken_repeats.sizes[id] / self.unbroken_varied.sizes[id] for id in self.varied.effects}
         return {
             "repeats": [str(r) for r in self.repeats.runs],
             "varied": [str(r) for r in self.varied.runs],
             "ratio_of_limits": ratio,
             "median_ratio": float(np.median(list(ratio.values()))),
-            "without_restarts": {
-                "ratio_of_limits": whole,
-                "median_ratio": float(np.median(list(whole.values()))),
-                "confused_pairs": [len(self.unbroken_repeats.confused()), len(self.unbroken_varied.confused())],
-            },
             "confused_pairs": [len(self.repeats.confused()), len(self.varied.confused())],
         }
 
 
-def switches_of(kind: type[Effect], finer: float = 1.0) -> tuple[Parameter, ...]:
-    """The numbers of an effect that bring it in, with a step that shows laws which do nothing at zero."""
-    return tuple(
-        replace(p, step=finer * PROBE) for p in parameters_of(kind, 1) if tuple(p.name.split(".")) not in SHAPES | FORMS
-    )
+def switches_of(kind: type[Effect]) -> tuple[Parameter, ...]:
+    """Return the numbers of an effect that bring it in."""
+    return tuple(p for p in effect_parameters(kind.id, 1) if p.typical > 0 and p.run is None)
 
 
 def recorded(model: Model, release: Release, gyro: Gyro, seed: int, duration: float) -> Run:
@@ -224,88 +206,55 @@ def says(
     seed: int = 0,
     duration: float = DURATION,
     workers: int | None = None,
-    restarted: bool = True,
 ) -> Says:
-    """Simulate one release, linearise its windows about the truth, eliminate their starts and the run's tilt."""
-    run = recorded(model, release, gyro, seed, duration)
+    """Simulate one release, linearise a listening model about the truth, eliminate the run's tilt and roll."""
+    run = recorded(model, release, gyro, seed, duration * time_scale(model))
     experiment = campaign(model, run, gyro, tilt_uncertainty)
-    own = baseline_parameters(model, 1, tilt_uncertainty)
-    if restarted:
-        windows = series(experiment, (run,), *MIDDLE, duration, refine=refinement(model), workers=workers)
-    else:
-        windows = unbroken(experiment, run, refinement(model), workers)
-        # Over a second and a half a per cent of a stiffness is no small change any more.
-        own = tuple(replace(p, step=FINE * p.step) for p in own)
-    fit = Fit(windows, model, own)
-    point = fit.relax_states(fit.begin(), 2) if restarted else fit.begin()
-    wide = Fit(windows, model, (*own, *(p for kind in effects for p in switches_of(kind, 1.0 if restarted else FINE))))
-    found = information(fit, point, wide, np.zeros(len(wide.parameters)), weighted=False)
-    H, _ = eliminated(found.H[0], found.g[0], own_parameters(wide.parameters), wide.prior)
-    return Says(release, H)
+    problem = fit_problem(experiment, (run,), model, duration, workers)
+    fitter = Fitter(problem)
+    own = problem.parameters(problem.carried)
+    truth = FittedModel(problem.carried, np.array([true_z(p, model) for p in own]))
+    numbers = [p for kind in effects for p in switches_of(kind)]
+    H, _ = fitter.linearise(fitter.evaluate(truth, F), F, numbers)
+    shared = [k for k, p in enumerate((*own, *numbers)) if p.run is None and (not p.effect or k >= len(own))]
+    rest = [k for k in range(len(H)) if k not in shared]
+    order = np.array([*rest, *shared])
+    return Says(release, eliminated(H[np.ix_(order, order)], len(rest)) - np.eye(len(shared)))
 
 
-def unbroken(experiment: Experiment, run: Run, refine: int, workers: int | None) -> Series:
-    """One window from the release to shortly before the second main impact: nothing is restarted."""
-    assert run.t is not None and run.crv is not None and experiment.gyro is not None
-    times = main_impacts(run.t, run.crv).times
-    end = float(times[1]) - 0.02 if len(times) > 1 else float(run.t[-1])
-    cut = Cut(np.array([0]), np.array([int(end * experiment.gyro.sample_rate)]))
-    return Series(experiment, (run,), (cut,), refine, workers)
+def true_z(p: Parameter, model: Model) -> float:
+    """Return the z of a number in a model; a release is as it is stated."""
+    if p.run is not None:
+        return 0.0
+    if p.effect:
+        effect = next(e for e in model.effects if e.id == p.effect)
+        key = p.name.partition(".")[2]
+        return p.z_of(to_scale(type(effect), key, float(getattr(effect, key))))
+    if p.name == "K_T":
+        return p.z_of(model.parameters.K_T / model.parameters.K_N)
+    if p.name.startswith("delta_long_"):
+        return p.z_of(model.parameters.delta_long[int(p.name[-1]) - 1])
+    return p.z_of(getattr(model.parameters, p.name))
 
 
 def outlook(
     model: Model, known: dict[Release, Says], runs: Sequence[Release], effects: Sequence[type[Effect]]
 ) -> Outlook:
     """Add up what the runs say, eliminate the shared nuisances, and read limits and cosines off what is left."""
-    shared = baseline_parameters(model, 0, TILT_UNCERTAINTY)
-    parameters = (*shared, *(p for kind in effects for p in switches_of(kind)))
-    H = sum(count * known[release].H for release, count in Counter(runs).items())
-    nuisance = np.arange(len(parameters)) < len(shared)
-    prior = np.array([p.prior for p in parameters])
-    S, _ = eliminated(np.asarray(H), np.zeros(len(parameters)), nuisance, prior)
-    S = 0.5 * (S + S.T) / rules.INTERVAL**2
+    shared, c = law_parameters(model), calibration()
+    H = np.asarray(sum(count * known[release].H for release, count in Counter(runs).items()))
+    S = eliminated(H + np.eye(len(H)), len(shared))
     limits, sizes, blocks, at = {}, {}, [], 0
     for kind in effects:
         own = switches_of(kind)
         block = np.arange(at, at + len(own))
         at += len(own)
         blocks.append(block)
-        z = NEEDED_Z / np.sqrt(np.maximum(np.diag(S)[block], 1e-12))
-        for p, size in zip(own, z, strict=True):
-            limits[p.name] = {"limit": amplitude(p, float(size)), "unit": p.unit, "in_typical_sizes": float(size)}
-        sizes[kind.id] = float(z.max())
+        found = [limit(p, float(S[k, k]), c) for p, k in zip(own, block, strict=True)]
+        for p, entry in zip(own, found, strict=True):
+            limits[p.name] = {"limit": entry["value"], **{k: v for k, v in entry.items() if k != "value"}}
+        sizes[kind.id] = max(entry["in_typical_sizes"] for entry in found)
     return Outlook(tuple(runs), tuple(k.id for k in effects), limits, sizes, cosines(S, blocks))
-
-
-def amplitude(p: Parameter, size: float) -> float:
-    """How far a number is from its absence at this size; the number itself where it is absent at infinity or rigid."""
-    if p.name == "compliant_support.frequency" or is_inverse(p.name):
-        return value_of(p, size)
-    return abs(p.value(size) - p.value(0.0))
-
-
-def cosines(S: np.ndarray, blocks: Sequence[np.ndarray]) -> np.ndarray:
-    """How alike effects are, (E, E) in 0 to 1: the mean canonical cosine over the numbers of the smaller effect.
-
-    S (C, C): information about the numbers of all effects, everything else eliminated; blocks: whose number is whose.
-    """
-    size = np.sqrt(np.maximum(np.diag(S), 1e-300))
-    S = S / np.outer(size, size)  # units of the numbers must not decide what counts as zero
-    roots = []
-    for b in blocks:
-        value, vector = np.linalg.eigh(S[np.ix_(b, b)])
-        if not value.max() > 0.0:  # it changes nothing here, and is like nothing
-            roots.append(np.zeros_like(vector))
-            continue
-        value = np.maximum(value, 1e-9 * value.max())
-        roots.append(vector / np.sqrt(value) @ vector.T)
-    found = np.eye(len(blocks))
-    for i, a in enumerate(blocks):
-        for j in range(i):
-            b = blocks[j]
-            c = np.linalg.svd(roots[i] @ S[np.ix_(a, b)] @ roots[j], compute_uv=False)
-            found[i, j] = found[j, i] = float(np.clip(c.mean(), 0.0, 1.0))
-    return found
 
 
 def alternatives(runs: Sequence[Release]) -> list[Release]:
@@ -340,22 +289,21 @@ def plan(
     """
     from rockref.effects import catalogue
 
-    begun = time.perf_counter()
+    started = time.perf_counter()
     say = progress or (lambda line: None)
     if not runs:
         raise InputError("E-RUNS", "argument runs", "is empty", "Plan one release at least.")
     has = {e.id for e in model.effects}
     chosen = kinds(model.points, (*LEFT_OUT, *has)) if effects is None else catalogue.of_releases(effects)
-    if any(kind.id == "base_vibration" for kind in chosen):
-        what = "base_vibration has a phase of its own in every run, and no derivative foretells it"
+    if unseen := [kind.id for kind in chosen if kind.id in LEFT_OUT]:
+        what = f"no derivative foretells {unseen[0]}: it has a phase of its own in every run, or cuts samples"
         raise InputError("E-EFFECT", "argument effects", what, "Leave it out.")
     wanted = alternatives(runs)
     every = sorted({*runs, *wanted})
-    known, whole = {}, {}
+    known = {}
     for k, release in enumerate(every):
         say(f"release {release} ({k + 1} of {len(every)})")
-        given = (model, release, chosen, gyro, tilt_uncertainty, seed + k, duration, workers)
-        known[release], whole[release] = says(*given), says(*given, restarted=False)
+        known[release] = says(model, release, chosen, gyro, tilt_uncertainty, seed + k, duration, workers)
     now = outlook(model, known, runs, chosen)
     repeats, varied = against(runs, wanted)
     return Plan(
@@ -363,10 +311,8 @@ def plan(
         outlook=now,
         repeats=outlook(model, known, repeats, chosen),
         varied=outlook(model, known, varied, chosen),
-        unbroken_repeats=outlook(model, whole, repeats, chosen),
-        unbroken_varied=outlook(model, whole, varied, chosen),
         further=further(model, known, runs, wanted, chosen, now),
-        seconds=time.perf_counter() - begun,
+        seconds=time.perf_counter() - started,
     )
 
 

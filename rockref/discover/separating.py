@@ -13,12 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.fit.baseline import baseline_parameters
-from rockref.discover.fit.information import eliminated
-from rockref.discover.fit.search import Setup
+from rockref.discover.fit.problem import FitProblem
 from rockref.discover.hypotheses.candidates import LEFT_OUT
+from rockref.discover.hypotheses.law import law_parameters
 from rockref.discover.plan import Release, alternatives, says, switches_of
-from rockref.discover.windows.on_time import gyro_of
+from rockref.discover.verdict.detection import eliminated
 from rockref.effects import catalogue
 from rockref.measure.experiment import TILT_UNCERTAINTY
 
@@ -66,34 +65,33 @@ def apart(H: np.ndarray, blocks: Sequence[np.ndarray], size: np.ndarray) -> floa
     return least
 
 
-def separating_run(setup: Setup, model: Model, members: Sequence[str], size: np.ndarray) -> str:
-    """The offered run that tells the members of a class apart best, in a sentence; "" where none can be computed.
+def separating_run(problem: FitProblem, model: Model, members: Sequence[str], size: np.ndarray, end: float) -> str:
+    """Return the offered run that tells the members of a class apart best, in a sentence; "" where none can be had.
 
-    model : the baseline as fitted; members : the leading effect first; size : of its switches, in typical sizes.
+    model : the baseline as fitted; members : the leading effect first; size : of its switches [prior deviations]
+    end : seconds used of each run, for the source's block.
     """
     if any(id in LEFT_OUT for id in members):
         return ""
     effects = [catalogue.find(id) for id in members]
-    uncertainty = setup.experiment.tilt_uncertainty or TILT_UNCERTAINTY
-    gyro = gyro_of(setup.experiment)
-    shared = baseline_parameters(model, 0, uncertainty)
+    uncertainty = problem.experiment.tilt_uncertainty or TILT_UNCERTAINTY
+    shared = len(law_parameters(model))
     ends = np.cumsum([0, *(len(switches_of(kind)) for kind in effects)])
     blocks = [np.arange(a, b) for a, b in zip(ends, ends[1:], strict=False)]
-    nuisance = np.arange(len(shared) + ends[-1]) < len(shared)
-    prior = np.array([p.prior for p in (*shared, *(p for kind in effects for p in switches_of(kind)))])
 
     def information(offer: Offer) -> np.ndarray:
         block = replace(model, origin={}).replace(mass=model.mass * (1 + offer.added))
-        H = says(block, offer.release, effects, gyro, uncertainty, workers=setup.workers, duration=setup.end).H
+        workers = problem.listener.workers
+        H = says(block, offer.release, effects, problem.listener.gyro, uncertainty, workers=workers, duration=end).H
         for id in offer.without:
-            own = len(shared) + blocks[members.index(id)]
+            own = shared + blocks[members.index(id)]
             H[own, :] = H[:, own] = 0.0
         return H
 
     def told(H: np.ndarray) -> float:
-        return apart(eliminated(H, np.zeros(len(H)), nuisance, prior)[0], blocks, size)
+        return apart(eliminated(H + np.eye(len(H)), shared), blocks, size)
 
-    done = [Release(round(r.release_tilt, 4), bool(r.block_turned)) for r in setup.runs]
+    done = [Release(round(r.release_tilt or 0.0, 4), bool(r.block_turned)) for r in problem.runs]
     known = {release: information(Offer(release)) for release in sorted(set(done))}
     now = np.sum([known[release] for release in done], axis=0)
     again = max(told(now + H) for H in known.values()) - told(now)

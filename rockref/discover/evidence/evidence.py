@@ -66,7 +66,7 @@ class Evidence:
 
     samples : innovations of the fit runs;  held_out_samples : of each held-out run
     remarks : codes of the remarks on the records;  limits : least detectable amplitudes [typical sizes]
-    confusions : cosines between effects that these runs hardly tell apart
+    confusions : cosines between effects that these runs hardly tell apart;  separating : the run that would, in words
     """
 
     experiment: str
@@ -79,6 +79,7 @@ class Evidence:
     signature: dict[str, Any] = field(default_factory=dict)
     limits: dict[str, dict[str, Any]] = field(default_factory=dict)
     confusions: dict[str, dict[str, float]] = field(default_factory=dict)
+    separating: str = ""
     cost: dict[str, float] = field(default_factory=dict)
 
     def of(self, effects) -> HypothesisEvidence | None:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from rockref.discover.compare.stretches import AXES
+from rockref.discover.evidence.parity import coherence, locked_to, parity, repeats, slopes
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE, loss
 from rockref.discover.listening.listener import record_of
@@ -27,19 +28,21 @@ def misfit(fitter: Fitter, null: FittedModel, best: FittedModel) -> dict[str, An
     assert null.r is not None and best.r is not None
     excess = above_white(null.r, listener.valid)
     rest = above_white(best.r, listener.valid)
-    impacts = [np.asarray(main_impacts(*record_of(run)).times) for run in runs]
+    impacts = [main_impacts(*record_of(run)) for run in runs]
     near = np.zeros(listener.valid.shape, bool)
     first = np.zeros(listener.valid.shape, bool)
-    for i, times in enumerate(impacts):
-        t = listener.t[i]
+    for i, found in enumerate(impacts):
+        t, times = listener.t[i], found.times
         for at in times:
             near[i, : len(t)] |= (t > at - IMPACT[0]) & (t < at + IMPACT[1])
         if len(times):
             first[i, : len(t)] = t < times[0] - IMPACT[0]
     at_release = float(np.median([mean_of(null.r, first, i) for i in range(len(runs))]))
     after = mean_of(null.r, listener.valid & ~first)
+    axis = int(np.argmax(excess))
+    alike, coherent = repeats(listener, null.r[..., axis]), coherence(listener, null.r[..., axis])
     return {
-        "axis": AXES[int(np.argmax(excess))],
+        "axis": AXES[axis],
         "axis_shares": shares(AXES, excess),
         "remaining_axis_shares": shares(AXES, rest),
         "phase": "release" if at_release > RELEASE * max(after, WHITE) else "impacts",
@@ -47,6 +50,10 @@ def misfit(fitter: Fitter, null: FittedModel, best: FittedModel) -> dict[str, An
         "loss_after": after,
         "stretch_shares": shares(("free_arc", "impact"), by_stretch(null.r, listener.valid, near)),
         "frequency_hz": strongest_frequency(null.r, listener.gyro.sample_rate),
+        **parity(slopes(listener, impacts, near, null.r[..., 0])),
+        "repeats": alike,
+        "coherence": coherent,
+        "locked_to": locked_to(alike, coherent),
     }
 
 

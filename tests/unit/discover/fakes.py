@@ -9,9 +9,9 @@ from rockref.discover.add_effect import Addition, State
 from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnose import Diagnosis
 from rockref.discover.evidence.evidence import HypothesisEvidence, Number
-from rockref.discover.fit.baseline import baseline_parameters
 from rockref.discover.fit_baseline import BaselineFit
 from rockref.discover.fit_gates import Gate
+from rockref.discover.hypotheses.law import law_parameters
 from rockref.discover.plan import Plan, Release, Says, further, outlook
 from rockref.effects.catalogue import find, parse
 from tests.unit.discover.synthetic import experiment
@@ -123,7 +123,7 @@ def planned() -> Plan:
 
     def says(release: Release, film: float, rolling: float, together: float) -> Says:
         """A run with this information about two effects, and about their difference."""
-        n = len(baseline_parameters(table, 0, 0.0014))
+        n = len(law_parameters(table))
         H = np.diag([0.0] * n + [film, rolling])
         H[n:, n:] += together * np.array([[1.0, -1.0], [-1.0, 1.0]])
         return Says(release, H)
@@ -132,4 +132,4 @@ def planned() -> Plan:
     now, repeats = (outlook(table, known, [once] * n, effects) for n in (1, 3))
     varied = outlook(table, known, [once, other, turned], effects)
     more = further(table, known, [once], [once, other, turned], effects, now)
-    return Plan(table, now, repeats, varied, repeats, varied, more, 1.0)
+    return Plan(table, now, repeats, varied, more, 1.0)

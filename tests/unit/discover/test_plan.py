@@ -5,14 +5,14 @@ import pytest
 
 from rockref import Model
 from rockref.discover import plan as planning
-from rockref.discover.fit.baseline import baseline_parameters
+from rockref.discover.hypotheses.law import law_parameters
 from rockref.discover.plan import Release, Says, against, alternatives, cosines, further, outlook, releases_from
 from rockref.effects import catalogue
 from rockref.model.errors import InputError
 
 TABLE = Model.table_3_1()
 FILM, ROLLING = catalogue.find("viscous_friction"), catalogue.find("rolling_resistance")
-SHARED = len(baseline_parameters(TABLE, 0, 0.0014))
+SHARED = len(law_parameters(TABLE))
 
 
 def test_releases_from_words():
@@ -46,17 +46,18 @@ def see(*runs):
 
 
 def test_as_many_repeats_average_the_noise_only():
-    KNOWN_FREE = {A: Says(A, np.diag([0.0] * SHARED + [4.0, 9.0]))}
-    one, four = (outlook(TABLE, KNOWN_FREE, [A] * n, (FILM, ROLLING)) for n in (1, 4))
+    free = {A: Says(A, np.diag([0.0] * SHARED + [400.0, 900.0]))}
+    one, four = (outlook(TABLE, free, [A] * n, (FILM, ROLLING)) for n in (1, 4))
     for id in ("viscous_friction", "rolling_resistance"):
-        assert one.sizes[id] / four.sizes[id] == pytest.approx(2.0, rel=1e-12)
-    assert one.sizes["viscous_friction"] / one.sizes["rolling_resistance"] == pytest.approx(1.5, rel=1e-12)
+        # Four times the information halves a limit; Occam's factor, which grows with its logarithm, takes a tenth back.
+        assert 1.75 < one.sizes[id] / four.sizes[id] < 2.0
+    assert 1.3 < one.sizes["viscous_friction"] / one.sizes["rolling_resistance"] < 1.5
 
 
 def test_a_varied_run_frees_effects_from_a_nuisance_that_repeats_leave_in_the_way():
     repeats, varied = see(A, A), see(A, B)
     for id in repeats.effects:
-        assert varied.sizes[id] < 0.1 * repeats.sizes[id]
+        assert varied.sizes[id] < 0.5 * repeats.sizes[id]
 
 
 def test_the_next_run_is_the_varied_one():
@@ -89,15 +90,6 @@ def test_cosines_do_not_depend_on_the_scale_of_a_number():
 def test_what_changes_nothing_is_like_nothing():
     found = cosines(np.diag([1.0, 0.0, 0.0]), [np.array([0]), np.array([1, 2])])
     np.testing.assert_array_equal(found, np.eye(2))
-
-
-def test_a_number_that_is_absent_at_infinity_is_its_own_limit():
-    """Stops at twice the typical rate are half a size; a scale factor is told by how far it is from one."""
-    (stops,) = (p for p in planning.switches_of(catalogue.find("gyro_saturation")) if p.name.endswith("range"))
-    typical = catalogue.find("gyro_saturation").quantities["range"].typical
-    assert planning.amplitude(stops, 0.5) == pytest.approx(2 * typical)
-    scale = planning.switches_of(catalogue.find("gyro_scale"))[0]
-    assert planning.amplitude(scale, 0.5) == pytest.approx(0.5 * abs(scale.spread))
 
 
 def test_a_shaking_base_is_in_no_plan():
@@ -137,27 +129,25 @@ def test_a_plan_without_a_release_is_refused():
         planning.plan(TABLE, [])
 
 
-def test_every_offered_release_is_simulated_once_with_and_once_without_restarts(monkeypatch):
+def test_every_offered_release_is_simulated_once(monkeypatch):
     asked = []
 
-    def made(model, release, effects, gyro, uncertainty, seed, duration, workers, restarted=True):
-        asked.append((release, restarted))
-        return Says(release, np.diag([1.0] * SHARED + [4.0, 9.0]))
+    def made(model, release, effects, gyro, uncertainty, seed, duration, workers):
+        asked.append(release)
+        return Says(release, np.diag([1.0] * SHARED + [400.0, 900.0]))
 
     monkeypatch.setattr(planning, "says", made)
     lines = []
     found = planning.plan(TABLE, [A, A, B], ("viscous_friction", "rolling_resistance"), progress=lines.append)
     every = {A, B, *alternatives([A, B])}
-    assert sorted(asked) == sorted((r, restarted) for r in every for restarted in (True, False))
+    assert sorted(asked) == sorted(every)
     assert len(lines) == len(every) and found.outlook.runs == (A, A, B)
     assert {row["run"] for row in found.further} == {str(r) for r in alternatives([A, B])}
 
 
-def test_what_a_release_says_is_information_with_and_without_restarts():
-    """Either way it is information: symmetric, and never less than none."""
+def test_what_a_release_says_is_information():
+    """It is symmetric, and never less than none."""
     pytest.importorskip("numba")
-    given = (TABLE, A, (FILM,), planning.GYRO, 0.0014, 0, 1.5, 1)
-    cut, whole = planning.says(*given), planning.says(*given, restarted=False)
-    assert cut.H.shape == whole.H.shape == (SHARED + len(planning.switches_of(FILM)),) * 2
-    for says in (cut, whole):
-        assert np.allclose(says.H, says.H.T) and np.linalg.eigvalsh(says.H).min() > -1e-6 * np.abs(says.H).max()
+    says = planning.says(TABLE, A, (FILM,), planning.GYRO, 0.0014, 0, 1.0, 1)
+    assert says.H.shape == (SHARED + len(planning.switches_of(FILM)),) * 2
+    assert np.allclose(says.H, says.H.T) and np.linalg.eigvalsh(says.H).min() > -1e-6 * np.abs(says.H).max()

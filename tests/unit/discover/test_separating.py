@@ -8,12 +8,12 @@ import pytest
 
 from rockref import Model
 from rockref.discover import separating
-from rockref.discover.fit.baseline import baseline_parameters
+from rockref.discover.hypotheses.law import law_parameters
 from rockref.discover.plan import GYRO, Release, Says
 from rockref.discover.separating import Offer, apart, offers, separating_run
 
 TABLE = Model.table_3_1()
-SHARED = len(baseline_parameters(TABLE, 0, 0.0014))
+SHARED = len(law_parameters(TABLE))
 MEMBERS = ("viscous_friction", "rolling_resistance")
 
 
@@ -46,7 +46,7 @@ def test_both_sides_three_tilts_more_mass_and_the_cable_off_where_there_is_one()
 def setup():
     run = SimpleNamespace(release_tilt=0.1, block_turned=0.0)
     experiment = SimpleNamespace(tilt_uncertainty=0.0014, gyro=GYRO, path="made")
-    return SimpleNamespace(experiment=experiment, runs=(run, run), workers=1, end=3.0)
+    return SimpleNamespace(experiment=experiment, runs=(run, run), listener=SimpleNamespace(workers=1, gyro=GYRO))
 
 
 def test_the_offer_whose_traces_differ_is_named(monkeypatch):
@@ -59,15 +59,17 @@ def test_the_offer_whose_traces_differ_is_named(monkeypatch):
         return Says(release, H)
 
     monkeypatch.setattr(separating, "says", says)
-    found = separating_run(setup(), TABLE, MEMBERS, np.array([2.0]))
+    found = separating_run(setup(), TABLE, MEMBERS, np.array([2.0]), 3.0)
     assert "the block turned by half a turn, released at 0.1 rad." in found
     assert found.startswith("To tell viscous_friction from rolling_resistance")
-    # H = 20 v v' + 10 u u' with v = (1, 1), u = (1, -1): 30 - 10 * 10 / 30 is the first's own, half of it times 2 * 2.
-    assert f"adds {0.5 * 4 * (30 - 100 / 30):.0f} units" in found and "adds 0." in found
+    # H = 20 v v' + 10 u u' + 1 (the prior) with v = (1, 1), u = (1, -1): 31 - 10 * 10 / 31 is the first's own, half of
+    # it times 2 * 2; of the runs at hand, H = 20 v v' + 1, it is 21 - 20 * 20 / 21, of three of them 31 - 30 * 30 / 31.
+    now, again, turned = 21 - 400 / 21, 31 - 900 / 31, 31 - 100 / 31
+    assert f"adds {2 * (turned - now):.0f} units" in found and f"adds {2 * (again - now):.0f}." in found
 
 
 def test_a_shaking_base_has_no_derivative_and_no_offer():
-    assert separating_run(setup(), TABLE, ("base_vibration", "quadratic_drag"), np.array([1.0])) == ""
+    assert separating_run(setup(), TABLE, ("base_vibration", "quadratic_drag"), np.array([1.0]), 3.0) == ""
 
 
 def test_taking_the_cable_off_takes_its_trace_out_of_that_run(monkeypatch):
@@ -81,7 +83,7 @@ def test_taking_the_cable_off_takes_its_trace_out_of_that_run(monkeypatch):
         return Says(release, H)
 
     monkeypatch.setattr(separating, "says", says)
-    assert "the cable taken off" in separating_run(setup(), TABLE, members, np.ones(numbers[0]))
+    assert "the cable taken off" in separating_run(setup(), TABLE, members, np.ones(numbers[0]), 3.0)
 
 
 def test_an_offer_with_more_mass_is_a_heavier_block(monkeypatch):
@@ -92,6 +94,6 @@ def test_an_offer_with_more_mass_is_a_heavier_block(monkeypatch):
         return Says(release, np.eye(SHARED + 2))
 
     monkeypatch.setattr(separating, "says", says)
-    separating_run(setup(), TABLE, MEMBERS, np.array([1.0]))
+    separating_run(setup(), TABLE, MEMBERS, np.array([1.0]), 3.0)
     assert TABLE.mass * 1.25 in seen
     assert str(replace(Offer(Release(0.1)), added=0.25)).endswith("25% more mass spread evenly")
