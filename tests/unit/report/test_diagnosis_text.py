@@ -6,7 +6,7 @@ import pytest
 from rich.console import Console
 
 from rockref.discover.diagnosis_record import plain
-from rockref.discover.signature import PARITIES
+from rockref.discover.evidence.parity import PARITIES
 from rockref.report import diagnosis_text
 from tests.unit.discover import fakes
 
