@@ -25,8 +25,9 @@ def halved(problem: Problem) -> Problem:
 
 
 def extrapolated(coarse: dict[str, Any], fine: dict[str, Any]) -> dict[str, Any]:
-    """Rows for a step of nothing, from rows with a step and with half of it. Raises ValueError where shapes differ."""
-    out: dict[str, Any] = {"t": coarse.get("t")}
+    """Rows for a step of nothing, from rows with a step and with half of it; the forces as they are, which tells that
+    they are shown. Raises ValueError where shapes differ."""
+    out: dict[str, Any] = {"t": coarse.get("t"), "F": coarse.get("F")}
     for key in SHOWN:
         if coarse.get(key) is not None and fine.get(key) is not None:
             a, b = np.asarray(coarse[key], float), np.asarray(fine[key], float)

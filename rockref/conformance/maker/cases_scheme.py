@@ -81,7 +81,10 @@ def asked(case: Case) -> Case | None:
     q = case.inputs | {"duration": STEPS * h, "output_rate": 1 / (STEPS * h)}
     rule = next(iter(case.fields.values()))[0]
     fields = {f"{k}@1": (rule, rule) for k in (*SHOWN, "x_T") if k in names}
-    return Case(rule, "LS", "simulate", q, fields, (case.flags[0], f"{STEPS} steps"), set="even feet", place=case.place)
+    # Who shows the forces at the start is judged by them.
+    stand_in = {f"{k.partition('@')[0]}@1": name for k, name in case.instead.items() if name.endswith("@0")}
+    flags = (case.flags[0], f"{STEPS} steps")
+    return Case(rule, "LS", "simulate", q, fields, flags, set="even feet", place=case.place, instead=stand_in)
 
 
 def all_of_them() -> Iterator[tuple[int, Case]]:

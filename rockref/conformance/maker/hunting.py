@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
+from rockref.conformance.asking import as_mapping
 from rockref.conformance.judge import answered
 from rockref.conformance.vectors import Vector
 from rockref.conformance.zoo.mistakes import BY_ID, MISTAKES
+from rockref.model.problem import Problem
 
 #: A mistake counts as caught from here on [bars].
 RESOLVED = 100.0
@@ -16,11 +19,22 @@ RESOLVED_BY_SCHEMES = 10.0
 LARGEST = 1e99
 
 
+class WithoutForces:
+    """Runs that do not show their forces, in the stead of which the next rows are looked at."""
+
+    def __init__(self, backend: Any):
+        self.backend = backend
+
+    def simulate(self, problem: Problem) -> dict[str, Any]:
+        """A run."""
+        return as_mapping(self.backend.simulate(problem), "simulate") | {"F": None}
+
+
 def moves(vector: Vector, rules: set[str]) -> dict[str, float]:
     """By how many bars each mistake of some rules moves the vector; only those that do move it."""
     found, of_schemes = {}, vector.layer == "LS"
     for mistake in [m for m in MISTAKES if m.rule in rules]:
-        backend = mistake.of_another_scheme() if of_schemes else mistake.backend()
+        backend = WithoutForces(mistake.of_another_scheme()) if of_schemes else mistake.backend()
         checks = answered(backend, vector, "scheme" if of_schemes else "float64")
         worst = max(0.0 if c.grade == "negligible" else c.worst for c in checks)
         if worst > 1:

@@ -26,7 +26,7 @@ from rockref.model.simulate import output_steps
 FINE, LESS_FINE = 1e-7, 2e-7
 #: Bar of the profile "scheme": so many times the largest deviation from the converged solution of five schemes at the
 #: stated step, the law's own and `ways.SCHEMES`. Decided: another scheme of the same order may be as much worse again;
-#: three that are not among the five keep within half of it.
+#: two that are not among the five (drift-kick-drift, Heun's) keep within it.
 SCHEME_FACTOR = 2
 #: Least bar of that profile, of the largest value: ten times what storing twelve digits takes away. Decided.
 FLOOR = 1e-11
