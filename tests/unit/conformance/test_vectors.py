@@ -60,7 +60,7 @@ def test_an_altered_file_is_refused(tmp_path, monkeypatch):
         vectors.read_bytes("L0.json")
 
 
-@pytest.mark.parametrize("name", ["MANIFEST", *LAYERS, "LE", *(f"L5/{n}" for n in RUNS)])
+@pytest.mark.parametrize("name", ["MANIFEST", *LAYERS, "LS", "LE", *(f"L5/{n}" for n in RUNS)])
 def test_files_have_the_form_of_the_schema(name):
     jsonschema.validate(json.loads((FOLDER / f"{name}.json").read_text()), SCHEMA)
 
@@ -159,6 +159,15 @@ def test_every_vector_hunts_mistakes_of_its_rules_and_moves_them_by_a_hundred_ba
         assert vector.hunts and set(vector.hunts) == set(vector.resolving), vector.id
         assert min(vector.resolving.values()) >= 100, vector.id
         assert {BY_ID[m].rule for m in vector.hunts} <= rules, vector.id
+
+
+def test_short_runs_of_other_integrators_hunt_mistakes_of_their_rules():
+    """Outside is there what is two bars off: ten tell a mistake from another integrator."""
+    for vector in vectors.layer("LS"):
+        rules = {vector.rule} | {e.rule for e in vector.expect.values()}
+        assert vector.hunts and {BY_ID[m].rule for m in vector.hunts} <= rules, vector.id
+        assert min(vector.resolving.values()) >= 10, vector.id
+        assert all(np.all(e.bar > 0) for e in vector.expect.values()), vector.id
 
 
 @pytest.mark.parametrize("layer", ["L0", "L2", "L3", "L7"])
