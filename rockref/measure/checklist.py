@@ -1,20 +1,25 @@
 """All checks of a release record, in their order: what each looks at, on what evidence, and what follows.
 
-The table of checks in the documentation is made from `CHECKS`.
+The table of checks in the documentation is made from `OTHERS` and `CHECKS`, and from the docstrings of the functions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from rockref.measure import channels, checks
 from rockref.measure.bursts import check_bursts
+from rockref.measure.copies import note_copies
 from rockref.measure.held import check_dropouts, check_hold
 from rockref.measure.notice import Notice
+from rockref.measure.sensor import sensor_faults
 from rockref.measure.signal import Signal
+from rockref.measure.timebase import check_order, regular_samples
+from rockref.measure.toss_axes import check_axes
 from rockref.measure.wraps import check_wraps
 
 
@@ -22,7 +27,7 @@ from rockref.measure.wraps import check_wraps
 class Check:
     """One check of a signal: `look` returns remarks or raises a refusal; what it looks for, and on what evidence."""
 
-    look: Callable[[Signal], list[Notice]]
+    look: Callable[..., Any]
     subject: str
     evidence: str
 
@@ -55,7 +60,7 @@ class Checked:
 def checked(signal: Signal) -> Checked:
     """Check a record: faults of the logger first, then what follows a fall is left out, then the rest.
 
-    Raises InputError: E-WRAP, E-SPIKE, E-DROPOUT, E-HOLD, and those of `CHECKS`.
+    What follows a fall is left out (W-OVERTURNED). Raises InputError: those of the checks.
     """
     check_wraps(signal)
     checks.check_unit(signal)
@@ -72,3 +77,23 @@ def checked(signal: Signal) -> Checked:
         notices += check.look(signal)
     rows = tuple(int(row) for row in np.flatnonzero(drawn[:stands]))
     return Checked(signal.t, signal.crv, rows, notices)
+
+
+#: What is looked at before and after these: the time column, faults of the logger, and all runs together.
+OTHERS = (
+    Check(check_order, "order of the rows", "time stamps that go back or are equal; values of such rows"),
+    Check(
+        regular_samples,
+        "sample rate, holes, jitter",
+        "rows over duration; steps of the stamps that stay; whether rates follow the stamps",
+    ),
+    Check(check_wraps, "numbers that wrap", "leaps of one size from one end of the range to the other"),
+    Check(checks.check_unit, "unit", "size of the rates beside Housner's block"),
+    Check(check_hold, "values that are held", "how often all channels repeat at once beside noise and resolution"),
+    Check(check_bursts, "bursts", "leaps out and back within nine samples beside the first swing's rate"),
+    Check(check_dropouts, "channels that stand still", "chance of repeats beside stated noise and resolution"),
+    Check(checked, "fall", "release tilt less the integral of wx beside the tipping angle"),
+    Check(note_copies, "copies", "equal numbers of two runs, or numbers rounded from the other's"),
+    Check(sensor_faults, "sensor", "means from impact to impact; shocks of three channels; phase of 50 and 60 Hz"),
+    Check(check_axes, "axes and order of tosses", "fall in free flight; corners under the board; faces at rest"),
+)

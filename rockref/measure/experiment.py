@@ -20,6 +20,7 @@ from rockref.measure.keys import BLOCK, FIT, GYRO, HOLDOUT, RELEASE, USES, check
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import shown
 from rockref.measure.schema import read_fields, read_toml
+from rockref.measure.sensor import SensorFault, sensor_faults
 from rockref.measure.signal import Signal
 from rockref.measure.table import read_table
 from rockref.measure.timebase import check_forward, regular_samples
@@ -101,7 +102,8 @@ class Experiment:
 
     Attributes: ``path``; ``name``; ``kind`` (``release`` or ``toss``); ``baseline`` (``eight_points`` or
     ``four_points``); ``mass`` kg; ``width``, ``height`` m; ``tilt_uncertainty`` rad or None; ``gyro`` or None;
-    ``runs`` in the order of the file; ``notices``; ``toml_sha256``.
+    ``runs`` in the order of the file; ``notices``; ``toml_sha256``;
+    ``sensor_faults``, what is no motion of the block: zeros that shift, late channels, hum.
     """
 
     path: Path
@@ -116,6 +118,7 @@ class Experiment:
     runs: tuple[Run, ...]
     notices: tuple[Notice, ...] = field(default=(), repr=False)
     toml_sha256: str = field(default="", repr=False)
+    sensor_faults: tuple[SensorFault, ...] = field(default=(), repr=False)
 
     def __repr__(self) -> str:
         """Return the experiment in a line."""
@@ -191,7 +194,9 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
         experiment, notices = replace(experiment, gyro=gyro), notices + found
     loaded = tuple(_load_run(run, experiment, notices) if run.use in uses else run for run in runs)
     notices.extend(note_copies(loaded, str(source)))
-    return replace(experiment, runs=loaded, notices=tuple(notices))
+    faults, found = sensor_faults(experiment, loaded) if experiment.gyro is not None else ([], [])
+    notices.extend(found)
+    return replace(experiment, runs=loaded, notices=tuple(notices), sensor_faults=tuple(faults))
 
 
 def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:

@@ -40,7 +40,7 @@ def regular_samples(
 
     `sample_rate` is the stated rate in Hz. Holes of up to three samples are filled by linear interpolation. The times
     are the stamps where the rates follow them; where stamps are rounded, late or bunched, those of the even clock.
-    Raises InputError: E-TIME (runs back or stands still), E-RATE, E-GAP, E-START.
+    Remarks: W-JITTER, W-RATE, W-GAP-FILLED, W-START. Raises InputError: E-TIME, E-RATE, E-GAP, E-START, E-SHORT.
     """
     t, name = table.columns["t"], table.names["t"]
     where, notices = f"{table.path}, column {name}", list[Notice]()
