@@ -202,8 +202,18 @@ def test_a_dropped_file_becomes_the_measured_run(browser):
         assert impacts[:2] == pytest.approx([0.508, 1.328], abs=0.02)
         assert "mine" in browser.evaluate(f"{by_id('own-said')}.textContent")
         assert browser.complaints() == []
+        browser.click(by_id("home"))
+        assert browser.evaluate("lab.update(true).then(() => lab.experiment.name)") == "mystery-04"
     finally:
-        browser.evaluate("lab.useExperiment(lab.pack.experiment)")
+        browser.evaluate("lab.home()")
+
+
+@needs_browser
+def test_a_light_block_gets_finer_steps(browser):
+    light = "coarse({ K_N: 6e7, K_T: 5e7, mass: 54 / 4 })"
+    # Contacts are faster by the root of stiffness over mass; rows stay half a millisecond apart.
+    assert browser.evaluate(light) == {"step": 5e-4 / 32, "every": 32}
+    assert browser.evaluate("coarse(lab.pack.start.numbers)") == {"step": 3.125e-5, "every": 16}
 
 
 @needs_browser

@@ -76,7 +76,7 @@ function residuals(problem, items, z, stages) {
         row,
         values,
         gyro: problem.gyro,
-        stage,
+        stage: { ...stage, steps: Math.ceil(stage.steps * (problem.finer || 1)) },
         record: run.record,
         samples: stage.early ? run.early : run.samples,
         sigma: run.sigma,

@@ -5,6 +5,12 @@ const lab = {};
 const EXACT = { step: 1e-5, every: 25 };
 const COARSE = { step: 3.125e-5, every: 16 };
 
+// The coarse step, finer for a block whose feet are stiffer for its mass.
+function coarse(numbers) {
+  const every = Math.ceil(COARSE.every * finer(numbers));
+  return { step: (COARSE.step * COARSE.every) / every, every };
+}
+
 function startLab() {
   const pack = JSON.parse(document.getElementById("pack").textContent);
   const byId = (id) => document.getElementById(id);
@@ -47,7 +53,7 @@ function startLab() {
     document.body.dataset.busy = "true";
     const asked = worker.run(
       {
-        ...question(run, done ? EXACT : COARSE, reach),
+        ...question(run, done ? EXACT : coarse(state.now.numbers), reach),
         samples: Math.floor(Math.min(whole, reach) / run.step + 1e-6) + 1,
       },
       (answer, q) => shown(run, answer, q),
@@ -285,6 +291,7 @@ function startLab() {
       ),
     );
     byId("name").textContent = experiment.name;
+    byId("home").hidden = !pack.experiment || given === pack.experiment;
     zoomTo("second");
     before = state.copy();
     showAll();

@@ -151,6 +151,14 @@ function wireSearch(at) {
 
   byId("fit").addEventListener("click", () => lab.fit());
   byId("rank").addEventListener("click", () => lab.rank());
+  lab.home = () => {
+    lab.seed = 0;
+    byId("guess-box").hidden = true;
+    state.now.releases = {};
+    state.reset();
+    return at.useExperiment(pack.experiment);
+  };
+  byId("home").addEventListener("click", () => lab.home());
   byId("hide").addEventListener("click", () =>
     lab.mystery(Math.min(999999, Math.max(1, Math.floor(Number(byId("seed").value)) || 1))),
   );
