@@ -144,7 +144,7 @@ def say_idle(model: Model | None, where: str | None) -> None:
     """
     if model is None or where is None:
         return
-    from rockref.discover.fit.baseline import moved_parameters
+    from rockref.discover.hypotheses.law import moved_parameters
     from rockref.measure.notice import Notice
 
     with of_file(where):

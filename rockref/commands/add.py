@@ -57,7 +57,7 @@ def add(
     if is_toss_folder(experiment):
         from rockref.commands._tosses import add_to_model_of_tosses, of_releases_only
 
-        of_releases_only(seed=seed != 0, workers=workers is not None)
+        of_releases_only(seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
     from rockref.commands._keeping import keeping
     from rockref.commands._models import check_step, known_files, named_models, say_idle

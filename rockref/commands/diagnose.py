@@ -56,7 +56,7 @@ def diagnose(
     if is_toss_folder(experiment):
         from rockref.commands._tosses import diagnose_tosses, of_releases_only
 
-        of_releases_only(seed=seed != 0, workers=workers is not None)
+        of_releases_only(seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
     from rockref.commands._keeping import keeping
     from rockref.commands._models import check_step, models_and_others, say_idle

@@ -55,7 +55,12 @@ def fit(
         from rockref.commands._tosses import fit_to_tosses, of_releases_only
 
         of_releases_only(
-            seed=seed != 0, workers=workers is not None, report=report is not None, **{"no-gates": not gates}
+            seed=seed != 0,
+            workers=workers is not None,
+            report=report is not None,
+            full=full,
+            fresh=fresh,
+            **{"no-gates": not gates},
         )
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
     from rockref.commands._keeping import keeping
