@@ -29,6 +29,7 @@ from rockref.discover.fit_baseline import (
     added_at_once,
     fitted,
     lengthened,
+    model_start,
     noise_floor,
     number_record,
     prepared,
@@ -158,7 +159,7 @@ def add_effect(
     fitter = prepared(experiment, model, end, workers, seed, progress, store)
     problem = fitter.problem
     before, _, _ = fitted(fitter, problem.carried, base, store)
-    after, known = joined(fitter, before, effect, store)
+    after, known = joined(fitter, before, effect, model_start(problem, base), store)
     problem.say("held-out runs")
     states = [state_of(fitter, h, whole) for h in (before, after)]
     problem.say("intervals")
@@ -180,7 +181,9 @@ def add_effect(
     )
 
 
-def joined(fitter: Fitter, before: FittedModel, effect: str, store: FitStore | None) -> tuple[FittedModel, bool]:
+def joined(
+    fitter: Fitter, before: FittedModel, effect: str, start: np.ndarray, store: FitStore | None
+) -> tuple[FittedModel, bool]:
     """Return a model at F with one more effect, and whether it began at a kept fit."""
     known = None if store is None else store.start(fitter.problem, (*before.effects, effect))
     if known is not None and known[1] is F:
@@ -190,7 +193,7 @@ def joined(fitter: Fitter, before: FittedModel, effect: str, store: FitStore | N
     if known is not None:
         through, _ = lengthened(fitter, known[0], after=known[1].name)
     else:
-        through, _ = lengthened(fitter, with_one_more(fitter, before.copy(), effect))
+        through, _ = lengthened(fitter, with_one_more(fitter, before.copy(), effect, start))
     return min(at_once, through, key=lambda h: h.objective), known is not None
 
 

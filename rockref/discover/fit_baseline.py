@@ -33,6 +33,7 @@ from rockref.discover.listening.records import opened
 from rockref.discover.selection.halving import halving
 from rockref.discover.selection.score_test import proposals
 from rockref.discover.selection.search import CONTRADICTED, STEPS, Search
+from rockref.discover.selection.tone import tone
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.rules import contradicting_run
 from rockref.effects import catalogue
@@ -182,9 +183,19 @@ def prepared(
     """Return the fitter of an experiment's fit runs, which leaves what it finds in the store."""
     problem = fit_problem(experiment, experiment.fit_runs(), baseline_model(experiment, model), end, workers, seed=seed)
     problem.say = progress or (lambda line: None)
+    problem.tone = stated_tone(model)
     if store is not None:
         problem.refined = store.note(problem)
     return Fitter(problem)
+
+
+def stated_tone(model: Model | None) -> float | None:
+    """Return the frequency [Hz] of an effect of a model that has a phase of its own in every run, or None."""
+    for effect in () if model is None else model.active_effects():
+        for key, quantity in effect.quantities.items():
+            if effect.of_run and quantity.unit == "Hz":
+                return float(getattr(effect, key))
+    return None
 
 
 def noise_floor(problem: FitProblem) -> float:
@@ -205,23 +216,17 @@ def fitted(
             h = Search(fitter).settled(h)
             stage = S2
         return (*lengthened(fitter, h, after=stage.name), True)
-    h = begun(fitter, model)
+    start = model_start(fitter.problem, model)
+    h = local_fit(fitter, FittedModel(fitter.problem.carried, start.copy()))
     for effect in effects:
         if effect not in h.effects:
-            h = with_one_more(fitter, h, effect)
-    return (*lengthened(fitter, h), False)
-
-
-def begun(fitter: Fitter, model: Model) -> FittedModel:
-    """Return the baseline with the effects of a model at S2: from the model's numbers, and over the whole prior where
-    the innovations contradict these."""
-    problem, search = fitter.problem, Search(fitter)
-    z = model_start(problem, model)
-    h = local_fit(fitter, FittedModel(problem.carried, z.copy()))
-    problem.say(f"{h.name}: mean loss {h.loss:.2f}")
+            h = with_one_more(fitter, h, effect, start)
+    fitter.problem.say(f"{h.name}: mean loss {h.loss:.2f}")
     if h.loss > CONTRADICTED:
-        h = min(h, search.anywhere(FittedModel(problem.carried, z)), key=lambda k: k.objective)
-    return h
+        begin = FittedModel(h.effects, h.z.copy())
+        begin.z[: len(start)] = start
+        h = min(h, Search(fitter).anywhere(begin), key=lambda k: k.objective)
+    return (*lengthened(fitter, h), False)
 
 
 def local_fit(fitter: Fitter, h: FittedModel) -> FittedModel:
@@ -242,17 +247,20 @@ def model_start(problem: FitProblem, model: Model) -> np.ndarray:
     return z
 
 
-def with_one_more(fitter: Fitter, base: FittedModel, effect: str) -> FittedModel:
+def with_one_more(fitter: Fitter, base: FittedModel, effect: str, start: np.ndarray) -> FittedModel:
     """Return a model, fitted at S2, with one more effect, all numbers fitted together at S2.
 
-    The effect is tried where the base ended and where it started, before it bent towards what it lacks.
+    The effect is tried where the base ended and where it started (z of the carried model), before it bent towards what
+    it lacks.
     """
     problem = fitter.problem
     before, problem.candidates = problem.candidates, (effect,)
     problem.say(f"{base.name}, with {effect}")
+    if problem.tone is None:
+        problem.tone = tone(fitter, fitter.evaluate(base, S2))
     starts = [base]
     if base.effects == problem.carried and base.loss > CONTRADICTED:
-        starts.append(FittedModel(problem.carried, problem.nominal(problem.carried)))
+        starts.append(FittedModel(problem.carried, start.copy()))
     try:
         return min(halving(fitter, starts), key=lambda h: h.objective)
     finally:
@@ -274,7 +282,7 @@ def lengthened(fitter: Fitter, h: FittedModel, after: str = "S2") -> tuple[Fitte
     """Fit a hypothesis through the stages that follow, S3 and F; return it, and z at S3."""
     earlier = None
     fitter.widen()
-    if after == "S2":
+    if after in (S1.name, S2.name):
         fitter.refine(h, S3, STEPS["S3"])
         earlier = h.z.copy()
         fitter.problem.say(f"{h.name} at S3: mean loss {h.loss:.2f}")

@@ -76,6 +76,11 @@ def test_a_model_begins_at_its_own_numbers():
     assert started.parameters.beta_ext == pytest.approx(0.2)
 
 
+def test_the_frequency_of_a_shaking_base_is_the_model_s_own():
+    shaken = TRUE.replace(effects=(parse("base_vibration:amplitude=0.1,frequency=12.5"),))
+    assert engine.stated_tone(shaken) == 12.5 and engine.stated_tone(TRUE) is None
+
+
 def test_another_start_moves_the_law_and_leaves_effects_near(monkeypatch):
     e = made()
     fitter = engine.prepared(e, TRUE.replace(effects=(parse("quadratic_drag:c=0.4"),)), 0.8, 1, 0, None, None)
