@@ -7,16 +7,17 @@ model, an effect that is not needed costs nothing to leave out.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rockref.discover.fit.information import eliminated
 from rockref.discover.plan import cosines
 from rockref.discover.tosses import descent
 from rockref.discover.tosses.first_guess import guessed
 from rockref.discover.tosses.fit import HORIZONS, TossFit, cut
+from rockref.discover.verdict.detection import eliminated
 from rockref.measure.flight import Poses
 
 #: Frames over which the joint fit looks, one stage after the other, and most iterations of each: the first impact, the
@@ -115,17 +116,17 @@ def way_down(full: Stair, keep: Sequence[str], say: Callable[[str], None]) -> li
 def alike(stair: Stair, slopes: descent.Slopes) -> dict[str, dict[str, float]]:
     """Cosines of every two effects, linearised at a model that has them all, the law's own numbers fitted along.
 
-    Near one: these tosses cannot tell the two apart. The same measure as `rockref.discover.on_this_data` has.
+    Near one: these tosses cannot tell the two apart. The same measure as `rockref.discover.verdict.detection` has.
     """
     ids = stair.fit.effects
-    H, g = slopes.normal_equations(stair.z, STEEP[-1])
+    H, _ = slopes.normal_equations(stair.z, STEEP[-1])
     own = [stair.own(id) for id in ids]
-    law = np.setdiff1d(np.arange(len(stair.z)), np.concatenate(own) if own else [])
-    out = np.isin(np.arange(len(stair.z)), law)
-    # The priors are in the normal equations already.
-    S, _ = eliminated(H, g, out, np.full(len(g), np.inf))
-    place = np.cumsum(~out) - 1
-    table = np.round(cosines((S + S.T) / 2, [place[b] for b in own]), 3).tolist()
+    numbers = np.concatenate(own) if own else np.zeros(0, int)
+    law = np.setdiff1d(np.arange(len(stair.z)), numbers)
+    order = np.concatenate([law, numbers])
+    S = eliminated(H[np.ix_(order, order)], len(law))
+    ends = np.cumsum([0, *map(len, own)])
+    table = np.round(cosines((S + S.T) / 2, [np.arange(a, b) for a, b in itertools.pairwise(ends)]), 3).tolist()
     return {a: dict(zip(ids, row, strict=True)) for a, row in zip(ids, table, strict=True)}
 
 
