@@ -28,7 +28,7 @@ from rockref.blind.simulator import posture, recorder
 from rockref.blind.simulator.kernel import ARM
 from rockref.blind.simulator.release import SECONDS
 from rockref.blind.simulator.slots import G, P
-from rockref.blind.simulator.world import TABLE, World, build
+from rockref.blind.simulator.world import REFERENCES, TABLE, World, build
 
 #: decided: half of it moves the rates of a plain block by at most 0.0014 deg/s up to 0.7 s and 0.06 up to 1 s, where
 #: the noise is 0.05.
@@ -98,7 +98,7 @@ def simulate(world: World, tilt: float, turned: bool = False, seconds: float = S
 
 def refuse_unknown(world: World) -> None:
     """Raise ValueError where anything is at work that `script` does not tell."""
-    unknown = [name for name, place in G.items() if world.g[place] and name not in KNOWN]
+    unknown = [name for name, place in G.items() if world.g[place] and name not in (*KNOWN, *REFERENCES)]
     if np.any(world.props[:, [P["slope_x"], P["slope_y"]]]):
         unknown.append("slopes")
     if unknown:

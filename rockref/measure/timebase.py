@@ -80,9 +80,11 @@ def _sampling_times(
         what = f"intervals between samples differ from 1/{stated:g} s by up to {100 * jitter:.0f} %"
         if bunch > 1:
             what = f"time stamps come in bunches of {bunch}, and rows over duration are {1.0 / interval:.6g} Hz"
-        kept = "The time stamps were kept as they are."
-        put = f"No sample is missing for that: rows were put at even intervals, {1.0 / interval:.6g} a second."
-        notices.append(Notice("W-JITTER", where, what, kept if follows else put))
+        if follows:
+            notices.append(Notice("W-JITTER", where, what, "The time stamps were kept as they are."))
+        else:
+            put = f"No sample is missing for that: rows were put at even intervals, {1.0 / interval:.6g} a second."
+            notices.append(Notice("W-JITTER", where, what, put))
     return t if follows else even
 
 
