@@ -30,8 +30,10 @@ ARC = 0.25
 FINE = 1e-4
 # decided: motion of less than a quarter of the largest is handling, or the block being set up.
 LEAST_TURN = 0.25
-# decided: more of the standing than two seconds adds drift and no accuracy.
-STANDING = 2.0
+# decided: the first swing of a block is an arc to a hundredth of its power; a hand's motion is not to a tenth.
+NO_ARC = 0.1
+# decided: more of the standing than a second adds drift and what was left of setting up, and no accuracy.
+STANDING = 1.0
 # decided: between the last calm moment and the release lies at most this, and the fit of the arc begins there.
 BEFORE = 0.2
 # decided: an angle up to rest that differs from the first swing's by more than this has met a fall, or the range.
@@ -92,7 +94,9 @@ def find_motion(recording: Recording, width: float, height: float) -> Motion:
         raise InputError("E-NO-RELEASE", recording.source, "no swing of a released block is found", cure)
     largest = max(abs(float(m.turn[m.main])) for m, _ in found)
     likely = [(m, misfit) for m, misfit in found if abs(m.turn[m.main]) >= LEAST_TURN * largest]
-    return min(likely, key=lambda pair: pair[1])[0]
+    # A record that begins in the middle of a motion may begin with the block being set up.
+    stood = [pair for pair in likely if pair[0].standing > 0.0 and pair[1] < NO_ARC]
+    return min(stood or likely, key=lambda pair: pair[1])[0]
 
 
 def _calmest(t: np.ndarray, chip: np.ndarray) -> np.ndarray:
@@ -131,7 +135,9 @@ def _motion_from(
     stood = last > first
     rows = slice(max(first, int(np.searchsorted(t, t[last] - STANDING))), last + 1)
     bias = chip[rows].mean(axis=0) if stood else _bias_at_the_end(t, chip, calm)
-    scatter = chip[rows].std(axis=0) if stood else noise
+    # Neighbours differ by noise alone, also where the zero still drifts after the block was set up.
+    steps = np.sqrt(0.5 * np.mean(np.diff(chip[rows], axis=0) ** 2, axis=0)) if stood else noise
+    scatter = np.minimum(chip[rows].std(axis=0), steps) if stood else noise
     end = int(np.searchsorted(t, t[last] + LONGEST_SWING))
     v = chip[last:end] - bias
     if len(v) < 16:
@@ -175,7 +181,8 @@ def _bias_at_the_end(t: np.ndarray, chip: np.ndarray, calm: list[tuple[int, int]
 def _release(t: np.ndarray, w: np.ndarray, calm: float, impact: float, p: float) -> tuple[float, float]:
     """Return the instant at which the arc A sinh(p (t - t0)) begins in w (N,), and the share that is no arc.
 
-    The block stands before it. The instant is looked for in steps of 0.1 ms about the last calm moment `calm` s.
+    The block stands before it. The instant is looked for in steps of 0.1 ms about the last calm moment `calm` s; the
+    share is that of the whole swing, up to its impact.
     """
     begin, end = calm - BEFORE, calm + min(ARC, 0.6 * (impact - calm))
     rows = (t >= begin) & (t <= end)
@@ -184,8 +191,11 @@ def _release(t: np.ndarray, w: np.ndarray, calm: float, impact: float, p: float)
     norms = np.maximum((arcs**2).sum(axis=1), 1e-300)
     sizes = arcs @ w[rows] / norms
     rest = ((sizes[:, np.newaxis] * arcs - w[rows]) ** 2).sum(axis=1)
-    best = int(np.argmin(rest))
-    return float(instants[best]), float(rest[best] / max(float((w[rows] ** 2).sum()), 1e-300))
+    release = float(instants[int(np.argmin(rest))])
+    swing = (t >= begin) & (t <= impact - WINDOW)
+    arc = np.sinh(p * np.maximum(t[swing] - release, 0.0))
+    power = max(float(w[swing] @ w[swing]), 1e-300)
+    return release, 1.0 - float(arc @ w[swing]) ** 2 / max(float(arc @ arc), 1e-300) / power
 
 
 def _angle_to_rest(
