@@ -22,7 +22,7 @@ def run(capsys, *arguments):
 
 def test_error_before_and_after_in_words(capsys, monkeypatch, tmp_path, made):
     monkeypatch.setattr(adding, "add_effect", lambda *a, **k: fakes.addition(made))
-    code, out, _ = run(capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "m.toml")
+    code, out, _ = run(capsys, "anywhere", "quadratic_drag", "-o", tmp_path / "m.toml")
     assert code == 0 and len(out.splitlines()) <= 12
     assert out.splitlines()[-1].startswith("Next: rockref compare anywhere --model table_3_1 --model ")
     # (0.25 - 0.07) of (0.25 - 0.05); (0.35 - 0.15) of (0.35 - 0.05).
@@ -32,7 +32,7 @@ def test_error_before_and_after_in_words(capsys, monkeypatch, tmp_path, made):
 
 def test_history_survives_the_file(capsys, monkeypatch, tmp_path, made):
     monkeypatch.setattr(adding, "add_effect", lambda *a, **k: fakes.addition(made))
-    run(capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "m.toml")
+    run(capsys, "anywhere", "quadratic_drag", "-o", tmp_path / "m.toml")
     model = Model.load(tmp_path / "m.toml")
     history = model.origin["history"]
     assert [entry["effects"] for entry in history] == [[], ["quadratic_drag"]]
@@ -45,7 +45,7 @@ def test_history_survives_the_file(capsys, monkeypatch, tmp_path, made):
 def test_page_and_json(capsys, monkeypatch, tmp_path, made):
     monkeypatch.setattr(adding, "add_effect", lambda *a, **k: fakes.addition(made))
     _, out, _ = run(
-        capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "m.toml", "--report", tmp_path / "page", "--json"
+        capsys, "anywhere", "quadratic_drag", "-o", tmp_path / "m.toml", "--report", tmp_path / "page", "--json"
     )
     record = json.loads(out)
     assert record["error"]["gap_closed"]["fit"] == pytest.approx(0.9)
@@ -62,20 +62,20 @@ def test_unknown_effect_ends_with_2(capsys, tmp_path):
 def test_what_is_refused_leaves_no_folder(capsys, tmp_path):
     code, _, _ = run(capsys, "anywhere", "quadratic_dra", "--report", tmp_path / "page")
     assert code == 2 and not (tmp_path / "page").exists()
-    code, _, err = run(capsys, "quadratic_drag", "anywhere", "--report", "")
+    code, _, err = run(capsys, "anywhere", "quadratic_drag", "--report", "")
     assert code == 2 and "is empty" in err
 
 
 def test_a_model_that_could_not_be_written_is_refused_before_the_work(capsys, monkeypatch, tmp_path):
     monkeypatch.setattr(adding, "add_effect", lambda *a, **k: pytest.fail("the work was begun"))
-    code, _, err = run(capsys, "quadratic_drag", "anywhere", "-o", tmp_path / "nowhere" / "m.toml")
+    code, _, err = run(capsys, "anywhere", "quadratic_drag", "-o", tmp_path / "nowhere" / "m.toml")
     assert code == 2 and "[E-WRITE]" in err
 
 
 def test_the_old_order_works_with_a_remark(capsys, monkeypatch, tmp_path):
     """`rockref add EFFECT EXPERIMENT`, as it was spelt before."""
     asked = []
-    monkeypatch.setattr(adding, "add", lambda *a, **k: asked.append(a[:2]) or pytest.fail("far enough"))
+    monkeypatch.setattr(adding, "add_effect", lambda *a, **k: asked.append(a[:2]) or pytest.fail("far enough"))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "folder").mkdir()
     for order, remark in ((("quadratic_drag", "folder"), True), (("folder", "quadratic_drag"), False)):
