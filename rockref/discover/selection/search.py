@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit
 from rockref.discover.selection.halving import halving, say, within
@@ -22,6 +23,9 @@ from rockref.discover.selection.tone import tone
 CONTRADICTED = 1.12
 #: Mean loss at S2 above which S3 is not asked (decided: right models of the stiffest blocks leave 1.2 to 2.0 there).
 HOPELESS = 2.5
+#: Share of the misfit that an effect may leave if one more is looked for beside it (decided: what leaves more is not the
+#: cause, and no second one on top of it is).
+LEAVES = 0.75
 #: Share of the objective that an addition has to take off to join, at each stage (decided: what weak effects gain grows
 #: with the memory).
 JOINS = {"S3": 0.01, "F": 0.006}
@@ -78,8 +82,10 @@ class Search:
                 break
             beam += added
             self.fitter.settle(self.best(beam), S2, 4)
-            if not self.is_explained(best := self.best(beam)):
-                beam.append(self.anywhere(best))
+            if not self.is_explained(now := self.best(beam)):
+                beam.append(self.anywhere(now))
+            if self.best(beam).loss - WHITE > LEAVES * (best.loss - WHITE):
+                break
         return within(beam, BEAM)
 
     def is_explained(self, h: FittedModel) -> bool:
