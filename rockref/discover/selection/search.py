@@ -23,8 +23,8 @@ from rockref.discover.selection.tone import tone
 CONTRADICTED = 1.12
 #: Mean loss at S2 above which S3 is not asked (decided: right models of the stiffest blocks leave 1.2 to 2.0 there).
 HOPELESS = 2.5
-#: Share of the misfit that an effect may leave if one more is looked for beside it (decided: what leaves more is not the
-#: cause, and no second one on top of it is).
+#: Share of the misfit that an effect may leave if one more is looked for beside it (decided: what leaves more is not
+#: the cause, and no second one on top of it is).
 LEAVES = 0.75
 #: Share of the objective that an addition has to take off to join, at each stage (decided: what weak effects gain grows
 #: with the memory).
