@@ -24,8 +24,8 @@ from rockref.model.errors import InputError
 TICK = 0.5e-3
 #: Rate that stands for a motion that lost its numbers [rad/s].
 LOST = 50.0
-#: Rows that are simulated at a time; decided: their rates at the ticks stay below 100 MB.
-ROWS = 384
+#: Rows that are simulated at a time; decided: their rates at the ticks stay below 30 MB, which allocators keep at hand.
+ROWS = 128
 #: Innovations count no further than this many noise widths; decided: the robust loss is flat there.
 FARTHEST = 1e3
 #: Samples over which the steepest change about a sample is taken, and what of it is noise, in noise widths of a
@@ -141,7 +141,8 @@ class Listener:
         batch = stacked(problems, h) if all(map(pack.has_twin, problems)) else [replace(p, step=h) for p in problems]
         self.simulated += len(problems) * (K - 1) * every
         rates = run_listening(batch, listening, self.workers)
-        return np.clip(np.nan_to_num(rates, nan=LOST, posinf=LOST, neginf=-LOST), -LOST, LOST)
+        np.nan_to_num(rates, copy=False, nan=LOST, posinf=LOST, neginf=-LOST)
+        return np.clip(rates, -LOST, LOST, out=rates)
 
     def innovations(self, predicted: np.ndarray, jitter: float = 0.0) -> np.ndarray:
         """Return (measured - predicted) in noise widths, (..., R, N, 3) as `predicted`; zero where there is no sample.
