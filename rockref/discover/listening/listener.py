@@ -122,6 +122,16 @@ class Listener:
 
     def listened(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> np.ndarray:
         """Return body rates (B, K, 3) [rad/s] of released problems that listen to the runs `which`."""
+        rates = np.empty((len(problems), ticks.count, 3))
+        numbers = np.array([p.points.n for p in problems])
+        for n in np.unique(numbers):
+            rows = np.flatnonzero(numbers == n)
+            rates[rows] = self._alike([which[k] for k in rows], [problems[k] for k in rows], memory, ticks)
+        np.nan_to_num(rates, copy=False, nan=LOST, posinf=LOST, neginf=-LOST)
+        return np.clip(rates, -LOST, LOST, out=rates)
+
+    def _alike(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> np.ndarray:
+        """Return the rates (B, K, 3) [rad/s] of problems with as many points each."""
         every = math.ceil(memory.steps * ticks.interval / TICK - 1e-9)
         keys = [(i, sensor_effects(p)) for i, p in zip(which, problems, strict=True)]
         distinct = list(dict.fromkeys(keys))
@@ -140,9 +150,7 @@ class Listener:
         h = ticks.interval / every
         batch = stacked(problems, h) if all(map(pack.has_twin, problems)) else [replace(p, step=h) for p in problems]
         self.simulated += len(problems) * (K - 1) * every
-        rates = run_listening(batch, listening, self.workers)
-        np.nan_to_num(rates, copy=False, nan=LOST, posinf=LOST, neginf=-LOST)
-        return np.clip(rates, -LOST, LOST, out=rates)
+        return run_listening(batch, listening, self.workers)
 
     def innovations(self, predicted: np.ndarray, jitter: float = 0.0) -> np.ndarray:
         """Return (measured - predicted) in noise widths, (..., R, N, 3) as `predicted`; zero where there is no sample.

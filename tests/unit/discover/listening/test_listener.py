@@ -102,3 +102,12 @@ def test_a_clipped_record_is_not_heard():
     at = int(np.argmax(np.abs(e.runs[0].crv[:, 0])) * 2)
     assert target.heard[at, 0] == 0 and target.heard[0].all()
     assert target.heard[-1, 3] == 0  # the turn since the release is not known any more
+
+
+def test_blocks_on_four_and_on_eight_points_run_side_by_side():
+    e, model = made()
+    listener = Listener(e, e.runs, END, workers=1)
+    four = model.replace(points="four_points")
+    alone = [listener.predict([Job((m, None))], LONG)[0, 0] for m in (model, four)]
+    together = listener.predict([Job((model, None)), Job((four, None))], LONG)[:, 0]
+    assert np.array_equal(together, np.stack(alone))
