@@ -125,7 +125,7 @@ class Listener:
         rates = np.empty((len(problems), ticks.count, 3))
         numbers = np.array([p.points.n for p in problems])
         for n in np.unique(numbers):
-            rows = np.flatnonzero(numbers == n)
+            rows = np.flatnonzero(numbers == n).tolist()
             rates[rows] = self._alike([which[k] for k in rows], [problems[k] for k in rows], memory, ticks)
         np.nan_to_num(rates, copy=False, nan=LOST, posinf=LOST, neginf=-LOST)
         return np.clip(rates, -LOST, LOST, out=rates)
