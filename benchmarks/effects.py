@@ -1,7 +1,7 @@
 """What each effect costs in the compiled engine: nanoseconds a step, and how many times those of the plain law.
 
-Two uses are measured: one release, to the second main impact, and a batch of short windows that begin along that
-motion, as fits have them. Law and effect take turns in short pieces of work, and the least processor time of each
+Two uses are measured: one release, to the second main impact, and a batch of short runs that begin along that
+motion. Law and effect take turns in short pieces of work, and the least processor time of each
 counts: what else runs on the machine then hits both, or counts little.
 
     python benchmarks/effects.py [--repeat 60] [effect ...]
@@ -91,7 +91,7 @@ def table(rows: list[dict]) -> list[str]:
     """The rows in Markdown, the cheapest first."""
     law = min(row["release"]["law_ns"] for row in rows)
     lines = [
-        "| effect | ns a step | times the law | in short windows |",
+        "| effect | ns a step | times the law | in short runs |",
         "| --- | ---: | ---: | ---: |",
         f"| the plain law | {law:.0f} | 1 | 1 |",
     ]

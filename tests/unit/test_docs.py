@@ -63,6 +63,14 @@ def test_the_table_of_blind_sets_is_up_to_date():
             assert not row[hits] or not row[n] or int(row[hits]) <= int(row[n]), row["set"]
 
 
+def test_the_numbers_of_verdicts_are_those_of_the_calibration():
+    """`python docs/make_verdict_numbers.py` writes them anew."""
+    numbers = program("docs/make_verdict_numbers.py")
+    text = numbers.PAGE.read_text(encoding="utf-8")
+    assert numbers.table() in text
+    assert numbers.page(text) == text
+
+
 def test_the_tables_are_those_of_the_measured_figures(figures):
     """`python docs/make_figures.py` writes it anew."""
     text = figures.README.read_text(encoding="utf-8")
