@@ -31,8 +31,8 @@ def test_nothing_hidden_nothing_found(tmp_path):
 @pytest.mark.parametrize(
     "effect, size",
     [
-        pytest.param("cable_restraint", 2.0, id="load"),
-        pytest.param("stribeck_friction", 2.0, id="friction"),
+        pytest.param("cable_restraint", 2.0, id="load", marks=pytest.mark.slow),
+        pytest.param("stribeck_friction", 2.0, id="friction", marks=pytest.mark.slow),
         pytest.param("gyro_misalignment", 1.0, id="sensor"),
     ],
 )
@@ -44,6 +44,7 @@ def test_hidden_effect_is_named_or_in_a_class_that_holds_it(tmp_path, effect, si
     assert closed is None or closed > 0.8
 
 
+@pytest.mark.slow
 def test_an_effect_in_no_list_is_something_else(tmp_path):
     found = verdict(tmp_path, ("rotor", 1.0))
     assert (found["verdict"], found["effects"]) == ("something_else", [])

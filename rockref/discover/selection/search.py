@@ -31,6 +31,8 @@ LEAVES = 0.75
 JOINS = {"S3": 0.01, "F": 0.006}
 #: Models that go on, additions that are refined, effects at most.
 BEAM, ADDED, MOST = 4, 3, 3
+#: Hypotheses within the margin beside which one more effect is tried.
+EQUALS = 2
 #: Steps at the later stages.
 STEPS = {"S3": 3, "F": 4}
 
@@ -76,7 +78,7 @@ class Search:
             beam.append(self.anywhere(self.nominal()))
         self.baseline = self.best(beam)
         while not self.is_explained(best := self.best(beam)) and len(best.effects) < MOST:
-            starts = [self.nominal(), best] if best.effects == self.problem.carried else [best]
+            starts = [self.nominal(), best] if best.effects == self.problem.carried else self.equals(beam, best)
             added = halving(self.fitter, starts)
             if min(h.objective for h in added) > best.objective:
                 break
@@ -87,6 +89,10 @@ class Search:
             if self.best(beam).loss - WHITE > LEAVES * (best.loss - WHITE):
                 break
         return within(beam, BEAM)
+
+    def equals(self, beam: Sequence[FittedModel], best: FittedModel) -> list[FittedModel]:
+        """Return the best hypotheses with as many effects as the best, within the margin: what explains alike goes on."""
+        return within([h for h in beam if len(h.effects) == len(best.effects)], EQUALS)
 
     def is_explained(self, h: FittedModel) -> bool:
         """Return whether innovations are white at S2, or at S3: at short memories stiff feet leave more than noise."""
