@@ -91,7 +91,7 @@ class Search:
         return within(beam, BEAM)
 
     def equals(self, beam: Sequence[FittedModel], best: FittedModel) -> list[FittedModel]:
-        """Return the best hypotheses with as many effects as the best, within the margin: what explains alike goes on."""
+        """Return the best hypotheses with as many effects as the best, within the margin."""
         return within([h for h in beam if len(h.effects) == len(best.effects)], EQUALS)
 
     def is_explained(self, h: FittedModel) -> bool:
