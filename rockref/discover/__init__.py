@@ -1,1 +1,1 @@
-"""From a measured run to a named missing effect: compare, screen, confirm, verdict."""
+"""From a measured run to a named missing effect: listening, fit, search, evidence, verdict."""

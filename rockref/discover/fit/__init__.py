@@ -1,1 +1,1 @@
-"""Least squares over windows: what may move, where a fit begins, how it ends, how sure it is."""
+"""The fit: objective, wide differences, Gauss-Newton, stages, starts."""
