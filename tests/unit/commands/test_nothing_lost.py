@@ -5,7 +5,7 @@ import json
 import pytest
 
 from rockref import cli
-from rockref.discover import add, diagnose, fitting, plan
+from rockref.discover import add_effect, diagnose, fit_baseline, plan
 from rockref.model import storage
 from rockref.model.errors import InputError
 from tests.unit.discover import fakes
@@ -13,8 +13,8 @@ from tests.unit.discover import fakes
 #: Command, the engine behind it, and a word that its result is known by.
 COMMANDS = {
     "diagnose": (diagnose, "diagnose", ["anywhere"], "quadratic_drag is missing"),
-    "fit": (fitting, "fit_experiment", ["anywhere"], "quadratic_drag.c"),
-    "add": (add, "add", ["quadratic_drag", "anywhere"], "90 % of the gap"),
+    "fit": (fit_baseline, "fit_baseline", ["anywhere"], "quadratic_drag.c"),
+    "add": (add_effect, "add_effect", ["anywhere", "quadratic_drag"], "90 % of the gap"),
     "plan": (plan, "plan", [], "viscous_friction"),
 }
 

@@ -89,7 +89,7 @@ def test_a_late_main_impact_is_seen_even_where_rows_are_right():
     run = vectors.trajectory("table_3_1")
     rows = Shifted("W", 10**6, 0).out(run)
     i = int(np.searchsorted(rows["t"], run.meta["impacts"][0]["t_s"]))
-    rows["Lambda"][i - 1, 2, 1] += 1e-9
+    rows["Lambda"][i - 1, 2, 1] += 1e-7
     judged = judge_rows(run, rows, "float64")
     assert judged.impacts[0]["grade"] == "outside" and judged.impacts[1]["grade"] == "bitwise"
 

@@ -33,8 +33,9 @@ def test_what_nothing_follows_from_passes(mistake):
 
 
 def test_ways_are_counted_apart():
-    right, wrong = {"detected": True, "named": True, "alike": True}, {"detected": True, "named": False, "alike": True}
+    right = {"detected": True, "named": True, "top two": True, "alike": True}
+    wrong = {"detected": True, "named": False, "top two": True, "alike": True}
     found = [{"ways": {"pieces": right}}, {"ways": {"pieces": wrong, "runs": wrong}}]
     table = counted(found)
-    assert table["pieces"] == {"asked": 2, "detected": 2, "named": 1, "alike": 2}
-    assert table["runs"] == {"asked": 1, "detected": 1, "named": 0, "alike": 1}
+    assert table["pieces"] == {"asked": 2, "detected": 2, "named": 1, "top two": 2, "alike": 2}
+    assert table["runs"] == {"asked": 1, "detected": 1, "named": 0, "top two": 1, "alike": 1}

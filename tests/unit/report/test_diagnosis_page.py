@@ -70,22 +70,22 @@ def test_gains_are_drawn_where_there_are_some_to_compare(named, number, drawn):
     page = diagnosis_page(replace(d, ranking=d.ranking[:number]), c)
     (tried,) = [s for s in page.sections if s.title == "What was tried"]
     assert [kind for kind, _ in tried.blocks].count("figure") == drawn
-    assert "Fitted in full" in page.html()
+    assert "Alternatives" in page.html()
 
 
 def test_candidates_that_nobody_refitted_have_no_table(named):
     d, c = named
     text = diagnosis_page(replace(d, ranking=[]), c).html()
-    assert "No candidate was refitted." in text and "Fitted in full" not in text
+    assert "No candidate was refitted." in text and "Alternatives" not in text
 
 
 def test_limits_and_confusion_stand_where_they_are_known(named):
     d, c = named
-    assert "Could have stayed unseen" not in diagnosis_page(d, c).html()
+    assert "Would be detected above" not in diagnosis_page(d, c).html()
     limits = {"adhesion.force": {"value": 4.5, "unit": "N"}}
     confusion = {"adhesion": {"plate_tilt": 0.97}}
     text = diagnosis_page(replace(d, detection_limits=limits, confusion=confusion), c).html()
-    assert "Could have stayed unseen" in text and "Hardly told apart" in text and "0.970" in text
+    assert "Would be detected above" in text and "Hardly told apart" in text and "0.970" in text
 
 
 @pytest.mark.parametrize("after, dots", [(None, 1), ({"main": 0.2, "transverse": 0.5, "longitudinal": 0.3}, 2)])
