@@ -86,7 +86,7 @@ def _zeros(run: Run, experiment: Experiment) -> list[SensorFault]:
     assert run.t is not None and run.crv is not None and run.release_tilt is not None and experiment.gyro is not None
     t, crv, gyro = run.t, run.crv, experiment.gyro
     impacts = main_impacts(t, crv)
-    if len(impacts) <= LEAST_ARCS:
+    if len(impacts) <= LEAST_ARCS:  # the last half of three arcs has two
         return []
     rate = rocking_rate(run.release_tilt, experiment.width, experiment.height)
     before = _zeros_before(run, experiment, impacts)
@@ -94,7 +94,11 @@ def _zeros(run: Run, experiment: Experiment) -> list[SensorFault]:
     found = []
     for axis in range(3):
         means = np.diff(np.interp(impacts.times, t, turned_angle(t, crv[:, axis]))) / spans
-        change = float(np.median(means[len(means) // 2 :])) - before[axis]
+        last = means[len(means) // 2 :] - before[axis]
+        change = float(np.median(last))
+        # Clatter about an apex may pass for an impact: two such arcs turn the block away and back.
+        if np.abs(last - change).max() > 0.5 * abs(change):
+            continue
         # An impact is known to a sample or two, in which the block turns on.
         slack = 2.0 * sample_step(t) * rate / float(np.median(spans)) + gyro.noise + gyro.resolution
         if abs(change) <= ZERO_SHARES[axis] * rate + ZERO_LEAST + slack:
