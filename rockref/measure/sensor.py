@@ -34,6 +34,8 @@ MOST_LAG, LEAST_LAG, SAME_LAG = 4, 0.6, 0.35
 # decided: a late channel fits better by a third at its lag than at none; of one run alone, by six tenths, which one of
 # 320 simulated records without a lag did.
 CLEARER, CLEARER_ALONE = 1.3, 1.6
+# decided: steps of more than twice the noise, and samples of more than 2.5 ms, leave shocks that are alike by chance.
+COARSE, SLOW = 2.0, 2.5e-3
 # decided: mains of 50 and 60 Hz and their first harmonics, which are kept to 0.3 Hz.
 MAINS, OFF_MAINS, MAINS_STEP = (50.0, 60.0, 100.0, 120.0), 0.3, 0.1
 # decided: six windows of 50 Hz; a quartic follows the motion in them.
@@ -61,7 +63,9 @@ def sensor_faults(experiment: Experiment, runs: Sequence[Run]) -> tuple[list[Sen
     """Return the faults of the gyroscope that the runs show, and the remarks on them (W-ZERO, W-LAG, W-HUM)."""
     opened = [run for run in runs if run.t is not None and run.crv is not None and run.release_tilt is not None]
     faults = [fault for run in opened for fault in (*_zeros(run, experiment), *_hums(run, experiment))]
-    faults += _lags(opened)
+    gyro = experiment.gyro
+    if gyro is not None and gyro.resolution <= COARSE * gyro.noise and 1.0 / gyro.sample_rate <= SLOW:
+        faults += _lags(opened)
     return faults, [_remark(fault, experiment, runs) for fault in faults]
 
 
