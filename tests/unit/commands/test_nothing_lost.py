@@ -13,7 +13,7 @@ from tests.unit.discover import fakes
 #: Command, the engine behind it, and a word that its result is known by.
 COMMANDS = {
     "diagnose": (diagnose, "diagnose", ["anywhere"], "quadratic_drag is missing"),
-    "fit": (fit_baseline, "fit_baseline", ["anywhere"], "quadratic_drag.c"),
+    "fit": (fit_baseline, "fit_baseline", ["anywhere"], "K_N"),
     "add": (add_effect, "add_effect", ["anywhere", "quadratic_drag"], "90 % of the gap"),
     "plan": (plan, "plan", [], "viscous_friction"),
 }
