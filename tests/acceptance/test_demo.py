@@ -81,7 +81,7 @@ def test_page_runs_without_complaint_and_asks_for_nothing_else(browser, demo):
     assert browser.complaints() == []
     assert browser.requests() == [(demo[0] / "index.html").as_uri()]
     states = browser.evaluate("[...document.querySelectorAll('.curves, .player')].map(f => f.dataset.state)")
-    assert len(states) > 4 and set(states) == {"ready"}
+    assert len(states) >= 4 and set(states) == {"ready"}
 
 
 @needs_browser
@@ -130,8 +130,8 @@ def test_player_turns_the_block_as_the_model_does(browser):
 def test_feet_light_up_where_the_model_touches(browser):
     browser.evaluate("rockref.players[0].seek(0)")
     bits = browser.evaluate("rockref.players[0].bodies.map(b => b.bits[0])")
-    # The wire lets go of a block that leans on corners 1 and 2, measured and modelled.
-    assert bits == [0b11, 0b11]
+    # The wire lets go of a block that leans on corners 1 and 2, measured and in each model.
+    assert len(bits) >= 2 and set(bits) == {0b11}
 
 
 @needs_browser

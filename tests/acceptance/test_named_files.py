@@ -67,7 +67,8 @@ def reads_models(command) -> bool:
 
 def test_no_command_that_reads_a_model_is_forgotten():
     commands = typer.main.get_command(cli.application()).commands
-    found = {name for name, command in commands.items() if reads_models(command)}
+    # The lab's page runs no Python: a user's own effect has no place in it, and its file is never asked for.
+    found = {name for name, command in commands.items() if reads_models(command)} - {"lab"}
     assert found == {words.split()[0] for words, _ in COMMANDS.values()}
     # one common way for all of them
     assert all("--effect" in [o for p in commands[name].params for o in p.opts] for name in found)
