@@ -13,7 +13,7 @@ from rockref.api import Model
 from rockref.discover.listening.target import Grid, Target, grid, target_of
 from rockref.effects.base import Effect
 from rockref.engines.compiled import pack
-from rockref.engines.compiled.batch import Batch
+from rockref.engines.compiled.batch import batch_of
 from rockref.engines.listening import Listening, run_listening
 from rockref.measure.experiment import Experiment, Gyro, Run
 from rockref.measure.gyroscope import expected, limited, sample
@@ -147,8 +147,8 @@ class Listener:
             gain_attitude=np.full(len(problems), gains[1]),
             every=every,
         )
-        h = ticks.interval / every
-        batch = stacked(problems, h) if all(map(pack.has_twin, problems)) else [replace(p, step=h) for p in problems]
+        stepped = [replace(p, step=ticks.interval / every) for p in problems]
+        batch = batch_of(stepped, np.zeros(1, np.int64)) if all(map(pack.has_twin, problems)) else stepped
         self.simulated += len(problems) * (K - 1) * every
         return run_listening(batch, listening, self.workers)
 
@@ -198,17 +198,3 @@ def released(model: Model, run: Run):
     roll = float(model.origin.get("roll_offset", 0.0))
     problem = model.problem(duration=1.0, theta_0=tilt, turned=bool(run.block_turned), out_of_plane=roll)
     return pack.with_memory(problem)
-
-
-def stacked(problems: Sequence, h: float) -> Batch:
-    """Return problems as one batch with this step [s]."""
-    return Batch(
-        body=np.stack([pack.body_row(p) for p in problems]),
-        P=np.stack([np.asarray(p.points.P, float) for p in problems]),
-        props=np.stack([pack.props_rows(p) for p in problems]),
-        memory=np.stack([pack.memory_rows(p.start) for p in problems]),
-        effects=np.stack([pack.effects_row(p) for p in problems]),
-        state=np.stack([pack.state_row(p) for p in problems]),
-        h=h,
-        wanted=np.zeros(1, np.int64),
-    )
