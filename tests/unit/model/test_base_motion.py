@@ -1,0 +1,63 @@
+"""The plate's acceleration: linear between samples, zero outside; scaled and turned records; what is no record."""
+
+import numpy as np
+import pytest
+
+from rockref.model.base_motion import BaseMotion, inertial_force, plate_acceleration
+from rockref.model.errors import InputError
+
+RECORD = BaseMotion(t_0=0.25, dt=0.125, a=[[1.0, -2.0, 0.5], [3.0, 4.0, -1.5], [-5.0, 0.0, 2.0]])
+
+
+def test_samples_are_met_at_their_times_and_joined_by_lines():
+    for k, row in enumerate(RECORD.a):
+        assert plate_acceleration(RECORD, 0.25 + k * 0.125).tolist() == row.tolist()
+    # a quarter of the way, in numbers that are exact in binary
+    assert plate_acceleration(RECORD, 0.25 + 0.03125).tolist() == [1.5, -0.5, 0.0]
+    assert RECORD.end == 0.5
+
+
+@pytest.mark.parametrize("t", [0.0, np.nextafter(0.25, 0), np.nextafter(0.5, 1), 7.0])
+def test_the_plate_has_no_acceleration_outside_of_the_record(t):
+    assert plate_acceleration(RECORD, t).tolist() == [0.0, 0.0, 0.0]
+
+
+def test_a_turn_goes_from_x_to_y_and_leaves_z():
+    assert RECORD.rotated(90).a[0].tolist() == [2.0, 1.0, 0.5]
+    assert RECORD.rotated(-180).a.tolist() == (RECORD.a * [-1, -1, 1]).tolist()
+    assert RECORD.rotated(360) == RECORD
+    turned = RECORD.rotated(30)
+    # one rounding of each product and sum
+    np.testing.assert_allclose(turned.a[0, :2], [np.sqrt(0.75) + 1, 0.5 - 2 * np.sqrt(0.75)], rtol=4e-16)
+    np.testing.assert_allclose(turned.rotated(-30).a, RECORD.a, rtol=0, atol=2e-15)
+
+
+def test_a_factor_multiplies_all_three_components_and_keeps_times_and_name():
+    record = BaseMotion(0.25, 0.125, RECORD.a, name="station")
+    doubled = record.scaled(2)
+    assert doubled.a.tolist() == (2 * RECORD.a).tolist()
+    assert (doubled.t_0, doubled.dt, doubled.name) == (0.25, 0.125, "station")
+    assert record == RECORD and doubled != RECORD and hash(record) == hash(RECORD)
+
+
+def test_the_force_is_opposite_to_the_acceleration_and_as_large_as_the_mass():
+    assert inertial_force(2.0, np.array([1.0, -2.0, 0.5])).tolist() == [-2.0, 4.0, -1.0]
+    assert inertial_force(np.array([1.0, 3.0]), RECORD.a[0]).tolist() == [[-1.0, 2.0, -0.5], [-3.0, 6.0, -1.5]]
+
+
+@pytest.mark.parametrize(
+    "changes, code",
+    [
+        ({"a": np.zeros((4, 2))}, "E-SHAPE"),
+        ({"a": np.zeros((0, 3))}, "E-SHAPE"),
+        ({"a": [[0.0, np.nan, 0.0]]}, "E-RANGE"),
+        ({"a": "none"}, "E-TYPE"),
+        ({"dt": 0.0}, "E-RANGE"),
+        ({"dt": float("inf")}, "E-RANGE"),
+        ({"t_0": float("nan")}, "E-RANGE"),
+    ],
+)
+def test_what_is_no_record_is_refused(changes, code):
+    with pytest.raises(InputError) as error:
+        BaseMotion(**{"t_0": 0.0, "dt": 0.01, "a": RECORD.a, **changes})
+    assert error.value.code == code
