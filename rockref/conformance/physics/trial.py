@@ -24,11 +24,19 @@ SOFT = 0.005
 SETTLING = 2.0  # s, decided: ten times the decay time of a contact with a hundredth of critical damping at 50 Hz
 
 
+#: The end of settling that is watched: five periods of a contact of 50 Hz. Decided.
+WATCHED = 0.1  # s
+
+
 class Rest(NamedTuple):
-    """A settled body: its state, and how far it sank below the touching pose [m]; negative where a gap remains."""
+    """A settled body: its state, how far it sank below the touching pose [m], and its largest speed at the end [m/s].
+
+    The sink is negative where a gap remains.
+    """
 
     start: Start
     sink: float
+    speed: float
 
 
 class Trial:
@@ -42,8 +50,10 @@ class Trial:
         """Let a body settle on the plate from the touching pose, turned about z by `R`."""
         height = float(scene.half[2])
         start = Start.at_rest((0.0, 0.0, height), R)
-        motion = self.engine.run(scene, start, np.array([SETTLING]), down(G))
-        return Rest(motion.start(0), height - float(motion.x[0, 2]))
+        times = np.append(SETTLING - self.rows(WATCHED, 1e-3)[:0:-1], SETTLING)
+        motion = self.engine.run(scene, start, times, down(G))
+        speed = float(np.max(np.linalg.norm(motion.v, axis=1)))
+        return Rest(motion.start(-1), height - float(motion.x[-1, 2]), speed)
 
     @cached_property
     def rest(self) -> Rest:

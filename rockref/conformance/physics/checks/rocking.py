@@ -42,30 +42,42 @@ def period(trial: Trial) -> Finding:
     return judged("rocking period", not seen, measured, reference, percent(bar)[1:], seen, cause, {"off": off})
 
 
-#: Heights of two apexes compare to a thousandth of the first (decided); energies gained at impacts show as percents.
+#: What an apex may lie above another one: a thousandth (decided). A parabola through three rows a millisecond apart
+#: finds an apex to 1e-6 of itself, single precision to 1e-5; a swing of the right settings loses a tenth.
 APEX = 1e-3
+#: Decided: a settled block that is faster still vibrates; sound engines tremble with half of it at most.
+VIBRATING = 1e-3  # m/s
 
 
 def energy(trial: Trial) -> Finding:
-    """Check that no apex lies above the last one, and that no apex has more energy than the start."""
+    """Check that no apex lies above the last one, and that no apex has more energy than the start.
+
+    The start is set by hand: the spring of its edge may hold the weight times the sink too much. Later apexes are free
+    motion, and allow for the error of an apex alone. A contact without damping stores what an impact takes as
+    vibration, and a later impact may give it back: a rise is not judged where the settled block vibrates.
+    """
     swing, sink = trial.swing, max(trial.rest.sink, 0.0)
     sizes = swing.amplitudes()
     if len(sizes) < 2:
         return Finding("apex energy", "not judged", "no second apex", "falling", "", "the block does not rock on")
     heights = swing.motion.x[swing.apexes(), 2]
     scale = trial.theory.R * (np.cos(0.5 * trial.theory.alpha) - np.cos(trial.theory.alpha))
-    gain = float(np.max((heights - heights[0]) / scale))
-    allowed = APEX + sink / scale
-    rise = float(np.max(sizes[1:] / sizes[:-1]))
+    gain, allowed = float(np.max((heights - heights[0]) / scale)), APEX + sink / scale
+    rises = sizes[1:] / sizes[:-1]
     text = ", ".join(f"{a / trial.theory.alpha:.3f}" for a in sizes[:4])
     seen = ""
     if gain > allowed:
         seen = f"an apex lies {100 * gain:.2g} % of the first one's energy above the start (apexes {text} of alpha)"
-    elif rise > 1 + APEX + sink / scale:
+    elif rises[0] > 1 + allowed or np.any(rises[1:] > 1 + APEX):
         seen = f"an apex lies above the last one (apexes {text} of alpha)"
     cause = "few_contacts" if seen and trial.is_soft else "energy"
-    return judged("apex energy", not seen, f"apexes {text} of alpha", "falling", f"{allowed:.2g} of the first apex's "
-                  "energy", seen, cause, {"gain": gain, "rise": rise})  # fmt: skip
+    bar = f"{allowed:.2g} of the first apex's energy; {APEX:g} of an apex, from the second on"
+    facts = (f"apexes {text} of alpha", "falling", bar)
+    numbers = {"gain": gain, "rise": float(np.max(rises))}
+    if seen and trial.rest.speed > VIBRATING:
+        seen += f"; the settled block vibrates with {1e3 * trial.rest.speed:.2g} mm/s, from which a swing may gain"
+        return Finding("apex energy", "not judged", *facts, seen, "rattling", numbers)
+    return judged("apex energy", not seen, *facts, seen, cause, numbers)
 
 
 #: Rounding of two amplitudes, each good to a thousandth.

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rockref import engines
-from rockref.conformance.physics.adapter import Engine
+from rockref.conformance.physics.adapter import Engine, load
 from rockref.conformance.physics.checks import CHECKS
 from rockref.conformance.physics.trial import Trial
 from rockref.model import contact as law
@@ -81,6 +81,15 @@ class TestContact:
         assert (energy.verdict, energy.cause) == ("fail", "energy")
         assert (ratio.verdict, ratio.numbers["ratio"] > 1) == ("fail", True)
 
+    def test_a_soft_contact_that_only_takes_energy_is_not_accused(self):
+        (energy,) = asked(seeded.contact(K=1e5, beta=0.05), "apex energy")
+        assert energy.verdict == "pass" and energy.numbers["rise"] < 0.95
+
+    def test_vibration_that_lifts_an_apex_is_not_judged(self):
+        """A contact without damping gives back what an earlier impact took: 0.500, 0.458, 0.474 of alpha."""
+        (energy,) = asked(seeded.contact(K=1e6, beta=0.0, step=5e-5), "apex energy")
+        assert (energy.verdict, energy.cause) == ("not judged", "rattling") and energy.numbers["rise"] > 1.02
+
     def test_soft_contact_is_not_judged(self):
         found = asked(seeded.contact(K=2e5), "rocking period", "balance on an edge", "half step", "toppling")
         assert {(f.verdict, f.cause) for f in found} == {("not judged", "soft")}
@@ -100,3 +109,17 @@ class TestContact:
         (found,) = asked(adapter, "slide")
         assert (found.verdict, found.cause) == ("fail", cause)
         assert way in found.seen and "along the diagonal" in found.seen
+
+
+class TestPyBulletOnSoftContact:
+    """Soft contact at 1e5 N/m: the engine's plane finds two of four corners, and its apexes rise; a box finds four."""
+
+    KNOBS = {"damping": 0.0, "stiffness": 1e5, "contact_damping": 1000.0}
+
+    @pytest.mark.parametrize("ground, verdict, cause", [("plane", "fail", "few_contacts"), ("box", "pass", "")])
+    def test_apexes(self, ground, verdict, cause):
+        pytest.importorskip("pybullet")
+        adapter = load("pybullet")
+        adapter.settings = {"default": self.KNOBS | {"ground": ground}}
+        (energy,) = asked(adapter, "apex energy")
+        assert (energy.verdict, energy.cause) == (verdict, cause), energy
