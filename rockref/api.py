@@ -263,15 +263,18 @@ class Model:
         turned: bool = False,
         out_of_plane: float = 0.0,
         theta_0: float | None = None,
+        body: tuple[Block, ContactPoints] | None = None,
     ) -> Problem:
         """What the engines take. Without `start`, the release posture at theta_0 (by default the model's) [rad].
+
+        body : what `body()` returns, where it is known already.
 
         >>> from rockref import Model
         >>> problem = Model.table_3_1().problem(duration=0.5, turned=True)
         >>> problem.duration, len(problem.points.names), problem.effects
         (0.5, 8, ())
         """
-        block, points = self.body()
+        block, points = self.body() if body is None else body
         effects = self.active_effects()
         if start is None:
             tilt = self.parameters.theta_0 if theta_0 is None else theta_0

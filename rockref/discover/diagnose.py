@@ -30,6 +30,7 @@ from rockref.discover.verdict.detection import detection
 from rockref.discover.verdict.rules import Verdict, alternatives, decide
 from rockref.discover.verdict.sentences import sentence
 from rockref.effects import catalogue
+from rockref.engines import compiled_ahead
 from rockref.measure.experiment import Experiment
 
 #: Hypotheses whose evidence is stored, and sets of effects that are asked of the held-out runs beside the baseline.
@@ -126,7 +127,8 @@ def diagnose(
     search = Search(fitter) if store is None else KeptSearch(fitter, store, key)
     if store is not None:
         problem.refined = store.note(problem)
-    fits = search.run()
+    with compiled_ahead():
+        fits = search.run()
     evidence = evidence_of(fitter, fits, whole)
     if search.test is not None:
         evidence.limits, evidence.confusions = detection(problem, search.test, calibration())

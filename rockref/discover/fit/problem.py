@@ -12,7 +12,7 @@ from rockref.api import Model
 from rockref.discover.fit.stages import Stage, time_scale
 from rockref.discover.hypotheses.candidates import within_base
 from rockref.discover.hypotheses.effects import effect_parameters
-from rockref.discover.hypotheses.law import law_parameters, release_parameters
+from rockref.discover.hypotheses.law import law_parameters, release_parameters, with_law
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.discover.listening.listener import Job, Listener, record_of
 from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment, Run
@@ -71,20 +71,28 @@ class FitProblem:
 
     def job(self, parameters: Sequence[Parameter], z: np.ndarray, only: Sequence[int] | None = None) -> Job:
         """Return the models of the runs at z; of the runs `only`, where that is given."""
-        shared = self.base
-        for p, value in zip(parameters, z, strict=True):
+        values = [p.value(float(at)) for p, at in zip(parameters, z, strict=True)]
+        law, own = {}, []
+        releases: list[dict[str, float]] = [{} for _ in self.runs]
+        own_of: list[list[tuple[Parameter, float]]] = [[] for _ in self.runs]
+        for p, value in zip(parameters, values, strict=True):
             if p.run is None:
-                shared = p.set(shared, p.value(float(value)))
+                if p.effect:
+                    own.append((p, value))
+                else:
+                    law[p.name] = value
+            elif p.effect:
+                own_of[p.run].append((p, value))
+            else:
+                releases[p.run][p.kind] = value
+        shared = with_values(with_law(self.base, law) if law else self.base, own)
         models: list[Model | None] = []
         for i in range(len(self.runs)):
             if only is not None and i not in only:
                 models.append(None)
                 continue
-            model = shared
-            for p, value in zip(parameters, z, strict=True):
-                if p.run == i:
-                    model = p.set(model, p.value(float(value)))
-            models.append(model)
+            released = replace(shared, origin={**shared.origin, **releases[i]})
+            models.append(with_values(released, own_of[i]))
         return Job(tuple(models))
 
     def nominal(self, effects: Sequence[str] = ()) -> np.ndarray:
@@ -95,6 +103,13 @@ class FitProblem:
             if p.run is None and not p.effect:
                 z[k] = p.z_of(nominal_value(self.base, p.name))
         return z
+
+
+def with_values(model: Model, values: Sequence[tuple[Parameter, float]]) -> Model:
+    """Return a model with numbers of its effects."""
+    for p, value in values:
+        model = p.set(model, value)
+    return model
 
 
 def nominal_value(model: Model, name: str) -> float:

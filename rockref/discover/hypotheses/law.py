@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from rockref.api import Model
@@ -53,6 +54,17 @@ def set_roll_offset(model: Model, value: float) -> Model:
 def set_tangential_ratio(model: Model, value: float) -> Model:
     """Set the tangential stiffness by its ratio to the normal one."""
     return model.replace(K_T=value * model.parameters.K_N)
+
+
+def with_law(model: Model, values: Mapping[str, float]) -> Model:
+    """Return a model with several of the law's numbers, by their names in a fit; K_T is a ratio to K_N."""
+    given = dict(values)
+    heights = list(model.parameters.delta_long)
+    for k in range(len(heights)):
+        heights[k] = given.pop(f"delta_long_{k + 1}", heights[k])
+    if "K_T" in given:
+        given["K_T"] *= given.get("K_N", model.parameters.K_N)
+    return model.replace(parameters=model.parameters.replace(delta_long=tuple(heights), **given))
 
 
 def moved_parameters(model: Model) -> tuple[str, ...]:

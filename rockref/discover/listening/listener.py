@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from rockref.api import Model
 from rockref.discover.listening.target import Grid, Target, grid, target_of
+from rockref.discover.threads import on_threads, threads_left
 from rockref.effects.base import Effect
 from rockref.engines.compiled import pack
 from rockref.engines.compiled.batch import batch_of
+from rockref.engines.compiled.lanes import LANES
 from rockref.engines.listening import Listening, run_listening
 from rockref.measure.experiment import Experiment, Gyro, Run
 from rockref.measure.gyroscope import expected, limited, sample
@@ -26,6 +28,8 @@ TICK = 0.5e-3
 LOST = 50.0
 #: Rows that are simulated at a time; decided: their rates at the ticks stay below 30 MB, which allocators keep at hand.
 ROWS = 128
+#: What the body of a model is made of: all but the notes.
+MADE_OF = tuple(f.name for f in fields(Model) if f.name not in ("uncertainty", "origin"))
 #: Innovations count no further than this many noise widths; decided: the robust loss is flat there.
 FARTHEST = 1e3
 #: Samples over which the steepest change about a sample is taken, and what of it is noise, in noise widths of a
@@ -101,15 +105,20 @@ class Listener:
         out = np.zeros((len(jobs), len(self.runs), N, 3))
         rows = [(j, i, model) for j, job in enumerate(jobs) for i, model in enumerate(job.models) if model is not None]
         rows.sort(key=lambda row: [e.id for e in row[2].effects])  # stable: blocks with the same effects side by side
-        for first in range(0, len(rows), ROWS):
-            self._predict_rows(rows[first : first + ROWS], memory, N, out)
+        threads = threads_left(len(rows), self.workers)
+        size = min(ROWS, LANES * math.ceil(len(rows) / (LANES * threads)))
+        pieces = [rows[k : k + size] for k in range(0, len(rows), size)]
+        steps = on_threads(lambda piece: self._predict_rows(piece, memory, N, out), pieces, threads)
+        self.simulated += sum(steps)
         return out
 
-    def _predict_rows(self, rows, memory: Memory, N: int, out: np.ndarray) -> None:
+    def _predict_rows(self, rows, memory: Memory, N: int, out: np.ndarray) -> int:
+        """Write what is seen of some rows (job, run, model) to `out`; return the number of block-steps."""
         last = max(float(t[min(N, len(t)) - 1]) for t in self.t)
         ticks = Grid(self.ticks.interval, min(self.ticks.count, int(last / self.ticks.interval * 1.03) + 40))
-        problems = [released(model, self.runs[i]) for _, i, model in rows]
-        rates = self.listened([i for _, i, _ in rows], problems, memory, ticks)
+        bodies: dict[tuple[int, ...], tuple] = {}
+        problems = [released(model, self.runs[i], bodies) for _, i, model in rows]
+        rates, steps = self.listened([i for _, i, _ in rows], problems, memory, ticks)
         groups: dict[tuple[Effect, ...], list[int]] = {}
         for k, (_, _, model) in enumerate(rows):
             groups.setdefault(sensor_effects(model), []).append(k)
@@ -119,19 +128,21 @@ class Listener:
                 j, i, _ = rows[k]
                 t = self.t[i][:N]
                 out[j, i, : len(t)] = limited(t, sample(ticks.t, seen, t), self.gyro, effects)
+        return steps
 
-    def listened(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> np.ndarray:
-        """Return body rates (B, K, 3) [rad/s] of released problems that listen to the runs `which`."""
-        rates = np.empty((len(problems), ticks.count, 3))
+    def listened(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> tuple[np.ndarray, int]:
+        """Return body rates (B, K, 3) [rad/s] of released problems that listen to the runs `which`, and block-steps."""
+        rates, steps = np.empty((len(problems), ticks.count, 3)), 0
         numbers = np.array([p.points.n for p in problems])
         for n in np.unique(numbers):
             rows = np.flatnonzero(numbers == n).tolist()
-            rates[rows] = self._alike([which[k] for k in rows], [problems[k] for k in rows], memory, ticks)
+            rates[rows], more = self._alike([which[k] for k in rows], [problems[k] for k in rows], memory, ticks)
+            steps += more
         np.nan_to_num(rates, copy=False, nan=LOST, posinf=LOST, neginf=-LOST)
-        return np.clip(rates, -LOST, LOST, out=rates)
+        return np.clip(rates, -LOST, LOST, out=rates), steps
 
-    def _alike(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> np.ndarray:
-        """Return the rates (B, K, 3) [rad/s] of problems with as many points each."""
+    def _alike(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> tuple[np.ndarray, int]:
+        """Return the rates (B, K, 3) [rad/s] of problems with as many points each, and block-steps."""
         every = math.ceil(memory.steps * ticks.interval / TICK - 1e-9)
         keys = [(i, sensor_effects(p)) for i, p in zip(which, problems, strict=True)]
         distinct = list(dict.fromkeys(keys))
@@ -149,8 +160,7 @@ class Listener:
         )
         stepped = [replace(p, step=ticks.interval / every) for p in problems]
         batch = batch_of(stepped, np.zeros(1, np.int64)) if all(map(pack.has_twin, problems)) else stepped
-        self.simulated += len(problems) * (K - 1) * every
-        return run_listening(batch, listening, self.workers)
+        return run_listening(batch, listening, workers=1), len(problems) * (K - 1) * every
 
     def innovations(self, predicted: np.ndarray, jitter: float = 0.0) -> np.ndarray:
         """Return (measured - predicted) in noise widths, (..., R, N, 3) as `predicted`; zero where there is no sample.
@@ -192,9 +202,17 @@ def sensor_effects(thing) -> tuple[Effect, ...]:
     return tuple(e for e in thing.effects if type(e).sensor is not Effect.sensor and not e.is_absent())
 
 
-def released(model: Model, run: Run):
-    """Return the problem of a run's release: stated tilt and roll with the offsets that the model's origin notes."""
+def released(model: Model, run: Run, bodies: dict[tuple[int, ...], tuple]):
+    """Return the problem of a run's release: stated tilt and roll with the offsets that the model's origin notes.
+
+    bodies : block and points of the models so far, by what they are made of; models of one job share them.
+    """
+    key = tuple(id(getattr(model, name)) for name in MADE_OF)
+    if key not in bodies:
+        bodies[key] = model.body()
     tilt = float(run.release_tilt or 0.0) + float(model.origin.get("tilt_offset", 0.0))
     roll = float(model.origin.get("roll_offset", 0.0))
-    problem = model.problem(duration=1.0, theta_0=tilt, turned=bool(run.block_turned), out_of_plane=roll)
+    problem = model.problem(
+        duration=1.0, theta_0=tilt, turned=bool(run.block_turned), out_of_plane=roll, body=bodies[key]
+    )
     return pack.with_memory(problem)

@@ -73,10 +73,13 @@ def from_problems(problems: Sequence[Problem]) -> Batch:
 def batch_of(problems: Sequence[Problem], wanted: np.ndarray) -> Batch:
     """The arrays of problems of one step and number of points, their memories begun, that want these rows."""
     given = [np.zeros((p.points.n, 3)) if p.start.F is None else np.asarray(p.start.F, float) for p in problems]
+    bodies, feet = {id(p.block): p for p in problems}, {id(p.points): p for p in problems}
+    body_rows = {key: pack.body_row(p) for key, p in bodies.items()}
+    props_rows = {key: pack.props_rows(p) for key, p in feet.items()}
     return Batch(
-        body=np.stack([pack.body_row(p) for p in problems]),
+        body=np.stack([body_rows[id(p.block)] for p in problems]),
         P=np.stack([np.asarray(p.points.P, float) for p in problems]),
-        props=np.stack([pack.props_rows(p) for p in problems]),
+        props=np.stack([props_rows[id(p.points)] for p in problems]),
         memory=np.stack([pack.memory_rows(p.start) for p in problems]),
         effects=np.stack([pack.effects_row(p) for p in problems]),
         state=np.stack([pack.state_row(p) for p in problems]),
