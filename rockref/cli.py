@@ -18,7 +18,6 @@ from rockref.model.errors import Interrupted, RockrefError
 
 # What is kept of a command that was interrupted, and what goes on from it; of the others nothing is.
 KEPT = {
-    "identify": "Checkpoints are kept in the output folder: the same command with --resume goes on from them.",
     "blind make": "Finished cases are kept: the same command goes on with the next one.",
     "blind score": "Verdicts that were reached are kept: the same command goes on with the next case.",
 }

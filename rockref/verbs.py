@@ -10,9 +10,10 @@ from rockref.results import Result, printed
 
 if TYPE_CHECKING:
     from rockref.api import Model
+    from rockref.discover.progress import StageReport
     from rockref.measure.experiment import Experiment
 
-Progress = Callable[[str], None] | None
+Progress = Callable[["StageReport"], None] | None
 
 
 def load(folder: str | Path) -> Experiment:

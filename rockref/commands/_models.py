@@ -86,6 +86,11 @@ def has(model: Model, words: str) -> bool:
     return any(os.path.realpath(p) == os.path.realpath(path) and n == name for p, _, n in own)
 
 
+def carried_by(model: Model | None) -> set[str]:
+    """Return the ids of the effects that a fit from a model carries; none for the baseline."""
+    return set() if model is None else {effect.id for effect in model.active_effects()}
+
+
 def named_models(texts: Iterable[str], effects: Iterable[str] | None) -> list[Model]:
     """The models, which may have the user's own effects that are named. Raises InputError (E-EFFECT) for other ones."""
     models, others = models_and_others(texts, effects)

@@ -94,7 +94,7 @@ def told(
 
     It is told even where a file cannot be written: minutes of work are not lost.
     """
-    from rockref.commands._stages import console
+    from rockref.commands._terminal import console
 
     written: list[Path] = []
     try:

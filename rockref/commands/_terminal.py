@@ -4,6 +4,13 @@ from __future__ import annotations
 
 import codecs
 import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+# decided: where no terminal sets a width, tables of seven columns fit without being cut.
+WIDE = 120
 
 #: What stands for a sign in a smaller alphabet; every other one becomes a question mark.
 PLAIN = {
@@ -31,3 +38,10 @@ def show_what_can_be_shown() -> None:
         # The alphabet of UTF-8 has everything but halves of pairs, which come from names of files.
         if reconfigure is not None and stream.errors in ("strict", "backslashreplace"):
             reconfigure(errors="rockref")
+
+
+def console() -> Console:
+    """Return where words and tables go: standard output, as wide as the terminal, or WIDE where there is none."""
+    from rich.console import Console
+
+    return Console() if sys.stdout.isatty() else Console(width=WIDE)

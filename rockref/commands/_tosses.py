@@ -42,7 +42,7 @@ def compare_tosses(
 ) -> None:
     """Print models beside tosses, and write the page where it is wanted."""
     from rockref.commands._models import labels, named_models
-    from rockref.commands._stages import console
+    from rockref.commands._terminal import console
     from rockref.discover.tosses.compare import compare
     from rockref.report.toss_text import print_toss_comparison
 
@@ -70,7 +70,7 @@ def diagnose_tosses(
 ) -> None:  # fmt: skip
     """Print what is missing in the model of tosses; exit code 1 if a gate fails."""
     from rockref.commands._models import models_and_others
-    from rockref.commands._stages import stages
+    from rockref.commands._progress import stages
     from rockref.discover.tosses.diagnose import diagnose
     from rockref.model.errors import InputError
     from rockref.report.toss_text import print_toss_diagnosis
@@ -82,7 +82,7 @@ def diagnose_tosses(
     if others:
         raise InputError("E-EFFECT", "--effect", "of tosses only the catalogue is tried", "Leave it out.")
     given = models[0] if models else None
-    with stages(f"diagnosing {path}", every_line=verbose) as say:
+    with stages(f"diagnosing {path}", verbose=verbose) as say:
         found = diagnose(tosses, given, progress=say)
     record = found.to_dict()
     text = in_json(record)
@@ -102,7 +102,7 @@ def fit_to_tosses(
 ) -> None:
     """Fit the law and effects to the fit tosses, print the numbers, write the model; exit code 1 if a gate fails."""
     from rockref.commands._models import models_and_others
-    from rockref.commands._stages import stages
+    from rockref.commands._progress import stages
     from rockref.discover.tosses.fitting import fit_tosses
     from rockref.report.toss_text import print_toss_fit
 
@@ -110,7 +110,7 @@ def fit_to_tosses(
     tosses = read(path)
     models, more = models_and_others([model] if model else [], effects)
     given = models[0] if models else None
-    with stages(f"fitting {path}", every_line=verbose) as say:
+    with stages(f"fitting {path}", verbose=verbose) as say:
         found = fit_tosses(tosses, tuple(more), given, progress=say)
     with told(as_json, with_files(found), lambda console: print_toss_fit(console, found.to_dict())) as written:
         found.model.save(output)
@@ -131,7 +131,7 @@ def add_to_model_of_tosses(
 ) -> None:
     """Fit an effect into a model of tosses, print the errors before and after, write the model."""
     from rockref.commands._models import known_files, named_models
-    from rockref.commands._stages import stages
+    from rockref.commands._progress import stages
     from rockref.discover.tosses.fitting import add_to_tosses
     from rockref.report.toss_text import print_toss_addition
 
@@ -140,7 +140,7 @@ def add_to_model_of_tosses(
     tosses = read(path)
     known_files([effect])
     given = next(iter(named_models([model] if model else [], own)), None)
-    with stages(f"adding {effect}", every_line=verbose) as say:
+    with stages(f"adding {effect}", verbose=verbose) as say:
         found = add_to_tosses(effect, tosses, given, progress=say)
     with told(as_json, with_files(found), lambda console: print_toss_addition(console, found.to_dict())) as written:
         found.after.model.save(output)

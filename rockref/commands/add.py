@@ -59,11 +59,12 @@ def add(
 
         of_releases_only(seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
-    from rockref.commands._keeping import keeping
-    from rockref.commands._models import check_step, known_files, named_models, say_idle
+    from rockref.commands._keeping import keeping, kept
+    from rockref.commands._models import carried_by, check_step, known_files, named_models, say_idle
+    from rockref.commands._progress import stages
     from rockref.commands._results import say_remarks, told, usable_files, with_files
-    from rockref.commands._stages import stages
     from rockref.discover import add_effect as engine
+    from rockref.discover.fit_baseline import known_effects
     from rockref.report.addition_text import next_after_addition, print_addition
     from rockref.report.output import made_folder, usable_folder
 
@@ -73,11 +74,15 @@ def add(
     say_idle(given, model)
     folder = usable_folder(report) if report is not None else None
     usable_files(output)
-    with keeping(fresh) as store, stages(f"adding {effect}", every_line=verbose) as say:
+
+    def fitted() -> list[set[str]]:
+        return [carried_by(given), {*carried_by(given), *known_effects((effect,))}]
+
+    with keeping(fresh, fitted) as store, stages(f"adding {effect}", verbose=verbose) as say:
         found = engine.add_effect(effect, experiment, given, seed, workers, progress=say, store=store)
     say_remarks(found.experiment.notices)
     words, then = lambda c: print_addition(c, found, full), lambda: next_after_addition(found, experiment, output)
-    with told(as_json, with_files(found), words, then) as written:
+    with kept(store), told(as_json, with_files(found), words, then) as written:
         found.model.save(output)
         written.append(output)
         if folder is not None:

@@ -57,7 +57,7 @@ def compare(
         of_releases_only(engine=engine != "auto", check=check)
         return compare_tosses(experiment, model, effect, report, as_json)
     from rockref.commands._models import labels, named_models
-    from rockref.commands._progress import progress
+    from rockref.commands._progress import stages
     from rockref.commands._results import say_remarks, say_written
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
@@ -68,14 +68,14 @@ def compare(
     models = named_models(model or (), effect) or [baseline_model(loaded)]
     names = labels(model) if model else [f"baseline ({loaded.baseline})"]
     folder = usable_folder(report) if report is not None else None
-    with progress("simulating the runs") as ahead:
-        comparison = run_comparison(loaded, models, names, engine=engine, progress=ahead)
+    with stages("simulating the runs") as say:
+        comparison = run_comparison(loaded, models, names, engine=engine, progress=say)
     written = write_report(comparison, folder) if folder is not None else []
     say_remarks(loaded.notices)
     if as_json:
         typer.echo(in_json(comparison.to_dict() | {"written": [str(path) for path in written]}))
     else:
-        from rockref.commands._stages import console
+        from rockref.commands._terminal import console
         from rockref.report.text import print_comparison
 
         print_comparison(console(), comparison)

@@ -1,6 +1,5 @@
 """`rockref demo`: the block rocks, measured runs beside it, and where the model fails."""
 
-import sys
 import time
 from pathlib import Path
 from typing import Annotated
@@ -31,7 +30,7 @@ def demo(
       rockref demo --out somewhere
     """
     from rockref.api import Model
-    from rockref.commands._stages import stages
+    from rockref.commands._progress import stages
     from rockref.discover.compare.models import baseline_model
     from rockref.engines import chosen, compiled_ahead
     from rockref.lab.page import write_page
@@ -43,10 +42,8 @@ def demo(
     chosen(Model.table_3_1().problem(), engine)  # refused before the folder is made
     folder = find_experiments(data)
     made_folder(out)
-    with compiled_ahead(), stages("the demonstration") as show:
-        # A terminal has one line that changes; elsewhere a line a stage is left.
-        report = show if sys.stderr.isatty() else lambda text: typer.echo(f"... {text}", err=True)
-        story = tell(folder, out, engine, report, show)
+    with compiled_ahead(), stages("the demonstration") as report:
+        story = tell(folder, out, engine, report)
     experiment = load_experiment(folder / EXPERIMENTS[0])
     lab = write_page(out / "lab.html", baseline_model(experiment), experiment)
     for line in story.lines:

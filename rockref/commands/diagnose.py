@@ -58,10 +58,10 @@ def diagnose(
 
         of_releases_only(seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
-    from rockref.commands._keeping import keeping
+    from rockref.commands._keeping import keeping, kept
     from rockref.commands._models import check_step, models_and_others, say_idle
+    from rockref.commands._progress import stages
     from rockref.commands._results import in_json, keep, say_remarks, told, usable_files
-    from rockref.commands._stages import stages
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
     from rockref.engines import compiled_ahead
@@ -74,13 +74,13 @@ def diagnose(
     say_idle(given, model)
     folder = usable_folder(report) if report is not None else None
     usable_files(output, save_model)
-    with keeping(fresh) as store, compiled_ahead(), stages(f"diagnosing {experiment}", every_line=verbose) as say:
+    with keeping(fresh) as store, compiled_ahead(), stages(f"diagnosing {experiment}", verbose=verbose) as say:
         found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates, store=store)
     record = plain(found.to_dict())
     text = in_json(record)
     say_remarks(found.experiment.notices)
     words, then = lambda c: print_diagnosis(c, record, full), lambda: next_after_diagnosis(record, experiment)
-    with told(as_json, lambda written: text, words, then) as written:
+    with kept(store), told(as_json, lambda written: text, words, then) as written:
         written += keep(text, output, found.model, save_model)
         if folder is not None:
             from rockref.report.diagnosis_page import write_diagnosis

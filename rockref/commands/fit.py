@@ -63,10 +63,10 @@ def fit(
             **{"no-gates": not gates},
         )
         return fit_to_tosses(experiment, output, effect or (), model, verbose, as_json)
-    from rockref.commands._keeping import keeping
-    from rockref.commands._models import check_step, known_files, named_model, say_idle
+    from rockref.commands._keeping import keeping, kept
+    from rockref.commands._models import carried_by, check_step, known_files, named_model, say_idle
+    from rockref.commands._progress import stages
     from rockref.commands._results import say_remarks, told, usable_files, with_files
-    from rockref.commands._stages import stages
     from rockref.discover import fit_baseline as engine
     from rockref.report.fit_text import next_after_fit, print_fit
     from rockref.report.output import usable_folder
@@ -77,13 +77,17 @@ def fit(
     given = named_model(model) if model is not None else None
     check_step(given, model)
     say_idle(given, model)
-    with keeping(fresh) as store, stages("fitting", every_line=verbose) as say:
+
+    def fitted() -> list[set[str]]:
+        return [{*carried_by(given), *engine.known_effects(tuple(effect or ()))}]
+
+    with keeping(fresh, fitted) as store, stages("fitting", verbose=verbose) as say:
         found = engine.fit_baseline(
             experiment, tuple(effect or ()), given, seed, workers, check=gates, progress=say, store=store
         )
     say_remarks(found.experiment.notices)
     words, then = lambda c: print_fit(c, found, full), lambda: next_after_fit(found, experiment, output)
-    with told(as_json, with_files(found), words, then) as written:
+    with kept(store), told(as_json, with_files(found), words, then) as written:
         found.model.save(output)
         written.append(output)
         if folder is not None:

@@ -50,9 +50,10 @@ def identify(
       rockref identify data/experiments/mystery-08 -o identified --resume
       rockref identify data/experiments/mystery-08 --dask tcp://127.0.0.1:8786
     """
+    from rockref.commands._keeping import checkpoints_in
     from rockref.commands._models import named_models, say_left_out, say_other_points
+    from rockref.commands._progress import of_search, stages
     from rockref.commands._results import say_remarks, say_written
-    from rockref.commands._searching import searching
     from rockref.identify.alone import alone_in
     from rockref.identify.campaign import campaign
     from rockref.identify.from_experiment import answered, question
@@ -67,9 +68,10 @@ def identify(
     say_other_points(asked.stated, experiment)
     say_remarks(asked.notices)
     folder = made_folder(output)
-    with alone_in(folder), searching(verbose) as say, campaign(workers, dask) as work:
+    resumable = checkpoints_in(folder)
+    with resumable, alone_in(folder), stages("identifying", verbose=verbose) as say, campaign(workers, dask) as work:
         settings = Settings(population, generations, seed)
-        result, found = answered(asked, settings, work, folder, resume=resume, report=say)
+        result, found = answered(asked, settings, work, folder, resume=resume, report=of_search(say))
         files = files_in(folder)
         text = in_json(result)
         write_text(files["result"], text + "\n")

@@ -38,8 +38,8 @@ def plan(
       rockref plan --model model.toml --runs 0.117,0.1,0.117t --json > plan.json
     """
     from rockref.commands._models import models_and_others, say_idle
+    from rockref.commands._progress import stages
     from rockref.commands._results import in_json, told, usable_files
-    from rockref.commands._stages import stages
     from rockref.discover.plan import plan as run_plan
     from rockref.discover.plan import releases_from
     from rockref.engines import compiled_ahead
@@ -50,7 +50,7 @@ def plan(
     planned = releases_from(runs)
     (given,), candidates = models_and_others([model], effect)
     say_idle(given, model)
-    with compiled_ahead(), stages("planning", every_line=verbose) as say:
+    with compiled_ahead(), stages("planning", verbose=verbose) as say:
         found = run_plan(given, planned, candidates or None, seed=seed, workers=workers, progress=say)
     text = in_json(found.to_dict())
     with told(as_json, lambda written: text, lambda console: print_plan(console, found)) as written:

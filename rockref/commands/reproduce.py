@@ -52,7 +52,7 @@ def reproduce(
       rockref reproduce reproduced --only twins
       rockref reproduce cube explained --data tosses
     """
-    from rockref.commands._stages import stages
+    from rockref.commands._progress import stages
     from rockref.model.errors import InputError
 
     name, into = (what, folder) if folder is not None else ("source", folder_name(what))
@@ -61,7 +61,7 @@ def reproduce(
     if name not in STUDIES:
         raise InputError("E-KEY", "STUDY", f"is {name!r}", f"Use one of {', '.join(STUDIES)}.")
     begun = time.monotonic()
-    with stages(f"reproduce {name}", every_line=not as_json) as say:
+    with stages(f"reproduce {name}", verbose=not as_json) as say:
         page = STUDIES[name](into, data, workers, quick, say, only or ())
     seconds, computed = time.monotonic() - begun, processor_seconds()
     if as_json:

@@ -45,7 +45,8 @@ def sensitivity(
       rockref sensitivity --model identified/model.toml --step 1e-5 --step 1e-6 --json
     """
     from rockref.commands._models import named_models
-    from rockref.commands._stages import console, stages
+    from rockref.commands._progress import stages
+    from rockref.commands._terminal import console
     from rockref.identify.sensitivity import STEPS
     from rockref.identify.sensitivity_study import record, study
     from rockref.model.storage import write_bytes, write_text

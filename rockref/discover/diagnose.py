@@ -24,6 +24,7 @@ from rockref.discover.hypotheses.effects import candidate_effects
 from rockref.discover.kept_search import KeptSearch
 from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened, own_effects
+from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.selection.search import Search
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.detection import detection
@@ -35,6 +36,8 @@ from rockref.measure.experiment import Experiment
 
 #: Hypotheses whose evidence is stored, and sets of effects that are asked of the held-out runs beside the baseline.
 STORED, ASKED = 8, 3
+#: Stages of a diagnosis, each with its share of the time (measured on a shipped experiment that needs them all).
+STAGES = {"baseline": 1.0, "starts": 3.0, "effects": 3.0, "S3": 2.0, "F": 2.0, "without": 2.0, "evidence": 2.0}
 STRETCH = (
     "innovations of a model that listens to the record with a memory of 40 ms, over the first {end:.2g} s of each run; "
     "the worst tenth of blocks of 50 ms left out"
@@ -93,7 +96,7 @@ def diagnose(
     seed: int = 0,
     workers: int | None = None,
     end: float = END,
-    progress: Callable[[str], None] | None = None,
+    progress: Callable[[StageReport], None] | None = None,
     own: Sequence[str] = (),
     store: FitStore | None = None,
 ) -> Diagnosis:
@@ -103,7 +106,7 @@ def diagnose(
     ----------
     path : experiment folder; model : starts from it in place of the nominal baseline
     seed : of the starts over the whole prior; workers : threads
-    end : seconds used of each run (for the source's block); progress : called with a line at every stage
+    end : seconds used of each run (for the source's block); progress : called with every stage and optimiser line
     own : effects of the user's own that are tried with the catalogue's, each path/to/file.py:Class
     store : what is kept of the experiment: a diagnosis with the same options is the answer, an interrupted search goes
         on, and what is found is kept.
@@ -121,7 +124,7 @@ def diagnose(
     if store is not None and (answer := kept_diagnosis(store.open(whole), key, whole)) is not None:
         return answer
     problem = fit_problem(experiment, experiment.fit_runs(), base, end, workers, seed=seed)
-    problem.say = progress or (lambda line: None)
+    problem.progress = StageCounter(STAGES, progress)
     problem.candidates = candidate_effects(base.points, problem.carried, problem.records, known)
     fitter = Fitter(problem)
     search = Search(fitter) if store is None else KeptSearch(fitter, store, key)
@@ -136,7 +139,7 @@ def diagnose(
     best = next(h for h in fits if h.effects == decision.best.effects)
     model_found = model_of(fitter, best, decision.best, "rockref diagnose")
     if decision.word == "class":
-        problem.say("the run that tells the class apart")
+        problem.progress.begin("evidence", "looking for the run that tells the class apart")
         evidence.separating = of_class(fitter, fits, decision, end)
     seconds = time.perf_counter() - started
     if store is not None:
@@ -212,7 +215,7 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     problem = fitter.problem
     null = next(h for h in fits if h.effects == problem.carried)
     kept = list(dict.fromkeys([*fits[:STORED], null]))
-    problem.say("evidence of each hypothesis")
+    problem.progress.begin("evidence", "weighing the evidence", fits[0].name)
     said = {h.effects: hypothesis_evidence(fitter, h) for h in kept}
     listener = problem.listener
     runs = experiment.holdout_runs()
@@ -229,7 +232,7 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     )
     ranked = alternatives(evidence, calibration())
     if held is not None:
-        problem.say("held-out runs")
+        problem.progress.begin("evidence", "checking on held-out runs")
         for effects in dict.fromkeys([null.effects, *(a.evidence.effects for a in ranked[:ASKED])]):
             add_held_out(said[effects], fitter, next(h for h in kept if h.effects == effects), held)
     best = next(h for h in kept if h.effects == ranked[0].evidence.effects)

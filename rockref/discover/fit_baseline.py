@@ -30,6 +30,7 @@ from rockref.discover.fit_gates import Gate, innovations_white, off_bounds, stag
 from rockref.discover.fit_store import FitStore
 from rockref.discover.hypotheses import candidates
 from rockref.discover.listening.records import opened
+from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.selection.halving import halving
 from rockref.discover.selection.score_test import proposals
 from rockref.discover.selection.search import CONTRADICTED, STEPS, Search
@@ -45,6 +46,8 @@ from rockref.measure.experiment import Experiment
 STARTS = 3
 #: Spread of another start in prior deviations; decided: half of what is expected, in the same region of valleys.
 OTHER_START = 0.5
+#: Stages of a fit, each with its share of the time (measured on shipped experiments).
+STAGES = {"baseline": 1.0, "starts": 4.0, "effects": 1.0, "memory": 1.0, "gates": 0.5, "starts again": 2.0}
 #: What a fit may be: believed; right but for an effect that is missing; not to be believed; not asked.
 OUTCOMES = ("trustworthy", "effect_missing", "not_trustworthy", "not_checked")
 
@@ -109,7 +112,7 @@ def fit_baseline(
     workers: int | None = None,
     end: float = END,
     check: bool = True,
-    progress: Callable[[str], None] | None = None,
+    progress: Callable[[StageReport], None] | None = None,
     store: FitStore | None = None,
 ) -> BaselineFit:
     """Find the parameters of the baseline on the fit runs; no fit sees a held-out run.
@@ -119,7 +122,8 @@ def fit_baseline(
     path : experiment folder; model : starts from it in place of the nominal baseline
     effects : fitted along with those that `model` has, ids or file.py:Class
     seed : of the other starts; workers : threads; end : seconds used of each run (for the source's block)
-    check : go through the gates (costs about as much as the fit); progress : called with a line at every stage
+    check : go through the gates (costs about as much as the fit)
+    progress : called with every stage and every line of the optimiser
     store : what is kept of the experiment, to start from and to add to.
 
     Raises
@@ -132,7 +136,7 @@ def fit_baseline(
     experiment, whole = opened(path)
     if store is not None:
         store.open(whole)
-    fitter = prepared(experiment, model, end, workers, seed, progress, store)
+    fitter = prepared(experiment, model, end, workers, seed, StageCounter(STAGES, progress), store)
     problem = fitter.problem
     own = problem.carried
     wanted = (*own, *(e for e in asked if e not in own))
@@ -178,11 +182,11 @@ def known_effects(effects: tuple[str, ...]) -> tuple[str, ...]:
 
 def prepared(
     experiment: Experiment, model: Model | None, end: float, workers: int | None, seed: int,
-    progress: Callable[[str], None] | None, store: FitStore | None,
+    progress: StageCounter | None, store: FitStore | None,
 ) -> Fitter:  # fmt: skip
     """Return the fitter of an experiment's fit runs, which leaves what it finds in the store."""
     problem = fit_problem(experiment, experiment.fit_runs(), baseline_model(experiment, model), end, workers, seed=seed)
-    problem.say = progress or (lambda line: None)
+    problem.progress = progress or problem.progress
     problem.tone = stated_tone(model)
     if store is not None:
         problem.refined = store.note(problem)
@@ -217,12 +221,14 @@ def fitted(
             stage = S2
         return (*lengthened(fitter, h, after=stage.name), True)
     start = model_start(fitter.problem, model)
+    fitter.problem.progress.begin("baseline", f"fitting {FittedModel(fitter.problem.carried, start).name}")
     h = local_fit(fitter, FittedModel(fitter.problem.carried, start.copy()))
     for effect in effects:
         if effect not in h.effects:
             h = with_one_more(fitter, h, effect, start)
     fitter.problem.say(f"{h.name}: mean loss {h.loss:.2f}")
     if h.loss > CONTRADICTED:
+        fitter.problem.progress.begin("starts", "fitting from other starts", h.name)
         begin = FittedModel(h.effects, h.z.copy())
         begin.z[: len(start)] = start
         h = min(h, Search(fitter).anywhere(begin), key=lambda k: k.objective)
@@ -255,7 +261,7 @@ def with_one_more(fitter: Fitter, base: FittedModel, effect: str, start: np.ndar
     """
     problem = fitter.problem
     before, problem.candidates = problem.candidates, (effect,)
-    problem.say(f"{base.name}, with {effect}")
+    problem.progress.begin("effects", f"adding {effect}", base.name)
     if problem.tone is None:
         problem.tone = tone(fitter, fitter.evaluate(base, S2))
     starts = [base]
@@ -281,6 +287,7 @@ def added_at_once(fitter: Fitter, base: FittedModel, effect: str) -> FittedModel
 def lengthened(fitter: Fitter, h: FittedModel, after: str = "S2") -> tuple[FittedModel, np.ndarray | None]:
     """Fit a hypothesis through the stages that follow, S3 and F; return it, and z at S3."""
     earlier = None
+    fitter.problem.progress.begin("memory", "refining at longer memories", h.name)
     fitter.widen()
     if after in (S1.name, S2.name):
         fitter.refine(h, S3, STEPS["S3"])
@@ -298,7 +305,7 @@ def checked(
 
     Where the innovations are not white the model is wrong: stages and starts then need not agree, and are not asked.
     """
-    fitter.problem.say("gates: innovations")
+    fitter.problem.progress.begin("gates", "checking the innovations", h.name)
     said = hypothesis_evidence(fitter, h)
     white = innovations_white(said, calibration())
     if not white.passed:
@@ -334,7 +341,7 @@ def other_starts(
         earlier = fitter.refine(h.copy(), S3, STEPS["S3"]).z
     ends = [(h, earlier)]
     for k in range(1, STARTS):
-        fitter.problem.say("gates: another start")
+        fitter.problem.progress.begin("starts again", "checking from another start", h.name)
         start = FittedModel(h.effects, other_start(fitter, h, seed + k))
         other, at_s3 = lengthened(fitter, local_fit(fitter, start))
         assert at_s3 is not None

@@ -25,6 +25,7 @@ from rockref.discover.hypotheses.candidates import LEFT_OUT, kinds
 from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters
 from rockref.discover.hypotheses.parameter import Parameter
+from rockref.discover.progress import StageReport
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.detection import cosines, eliminated, limit
 from rockref.effects.base import Effect
@@ -272,7 +273,7 @@ def plan(
     seed: int = 0,
     workers: int | None = None,
     duration: float = DURATION,
-    progress: Callable[[str], None] | None = None,
+    progress: Callable[[StageReport], None] | None = None,
 ) -> Plan:
     """Foretell what a campaign of releases could show.
 
@@ -290,7 +291,7 @@ def plan(
     from rockref.effects import catalogue
 
     started = time.perf_counter()
-    say = progress or (lambda line: None)
+    tell = progress or (lambda report: None)
     if not runs:
         raise InputError("E-RUNS", "argument runs", "is empty", "Plan one release at least.")
     has = {e.id for e in model.effects}
@@ -302,7 +303,9 @@ def plan(
     every = sorted({*runs, *wanted})
     known = {}
     for k, release in enumerate(every):
-        say(f"release {release} ({k + 1} of {len(every)})")
+        spent = time.perf_counter() - started
+        left = spent * (len(every) - k) / k if k else None
+        tell(StageReport(k + 1, len(every), f"simulating the release {release} rad", seconds_left=left))
         known[release] = says(model, release, chosen, gyro, tilt_uncertainty, seed + k, duration, workers)
     now = outlook(model, known, runs, chosen)
     repeats, varied = against(runs, wanted)

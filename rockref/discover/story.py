@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,10 +11,14 @@ from rockref.discover.add_effect import Addition, add_effect
 from rockref.discover.compare.models import Comparison, baseline_model, compare
 from rockref.discover.diagnose import Diagnosis, diagnose
 from rockref.discover.fit_store import FitStore
+from rockref.discover.progress import StageReport
 from rockref.measure.experiment import load_experiment
 
 #: Verdicts after which an effect is added.
 ADDED = ("named", "indicated", "pair", "class")
+#: Steps of the story, with the page that follows it, and how long what follows a diagnosis takes, as a share of it
+#: (measured on a shipped experiment).
+STEPS, AFTER = 4, 0.4
 #: Seconds of each run: what a diagnosis uses, and about half of it.
 WHOLE_END, QUICK_END = 3.0, 1.6
 
@@ -46,12 +51,31 @@ class Journey:
         return found
 
 
+def step(
+    number: int, name: str, report: Callable[[StageReport], None], after: float = 0.0
+) -> Callable[[StageReport], None]:
+    """Return what passes the stages of one step on as those of the story; after : time of what follows, as a share."""
+    begun = time.monotonic()
+
+    def tell(inner: StageReport) -> None:
+        left, spent = inner.seconds_left, time.monotonic() - begun
+        if left is not None:
+            left += after * (spent + left)
+        report(StageReport(number, STEPS, f"{name}: {inner.name}", inner.best, left, inner.line))
+
+    return tell
+
+
 def run_story(
-    experiment: str | Path, say: Callable[[str], None], engine: str = "auto", seed: int = 0, quick: bool = True
+    experiment: str | Path,
+    report: Callable[[StageReport], None],
+    engine: str = "auto",
+    seed: int = 0,
+    quick: bool = True,
 ) -> Journey:
     """Diagnose, add the first effect of the verdict, and compare: the nominal baseline and what was found.
 
-    say : called with a line at every stage; quick : about half the seconds of each run are used, which is enough for an
+    report : called with every stage; quick : about half the seconds of each run are used, which is enough for an
     effect of its typical size. The addition starts from the fits of the diagnosis.
 
     Raises
@@ -59,14 +83,13 @@ def run_story(
     InputError, NumericalError
     """
     end, store = QUICK_END if quick else WHOLE_END, FitStore(fresh=True, on_disk=False)
-    say("diagnosing")
-    found = diagnose(experiment, seed=seed, end=end, progress=say, store=store)
+    found = diagnose(experiment, seed=seed, end=end, progress=step(1, "diagnosing", report, AFTER), store=store)
     addition = None
     if found.verdict in ADDED:
         effect = found.effects[0]
-        say(f"adding {effect}")
-        addition = add_effect(effect, experiment, seed=seed, end=end, progress=say, store=store)
-    say("comparing before and after")
+        adding = step(2, f"adding {effect}", report)
+        addition = add_effect(effect, experiment, seed=seed, end=end, progress=adding, store=store)
+    report(StageReport(3, STEPS, "comparing before and after"))
     loaded = load_experiment(experiment)
     models, names = [baseline_model(loaded)], ["baseline"]
     if addition is not None:

@@ -18,7 +18,8 @@ from rockref.discover.compare.models import Comparison
 from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnosis_record import plain
-from rockref.discover.story import Journey, run_story
+from rockref.discover.progress import StageReport
+from rockref.discover.story import STEPS, Journey, run_story
 from rockref.measure import envelope_shape, envelopes, main_impacts
 from rockref.measure.activity import leakage, onset
 from rockref.measure.experiment import Experiment
@@ -176,8 +177,6 @@ def the_held_out_run(story: Story) -> None:
 SECTIONS: tuple[Callable[[Story], None], ...] = (
     the_block, the_misfit, the_missing_effect, the_error, the_held_out_run,
 )  # fmt: skip
-#: How the lines begin with which the story says that another stage has begun.
-STAGES = ("diagnosing", "adding ", "comparing before and after")
 
 
 def find_experiments(given: Path | None) -> Path:
@@ -202,29 +201,20 @@ def find_experiments(given: Path | None) -> Path:
     raise InputError("E-DEMO", str(places[0]), what, cure)
 
 
-def silent(text: str) -> None:
-    """Say nothing."""
-
-
 def tell(
     folder: Path,
     out: Path,
     engine: str = "auto",
-    report: Callable[[str], None] = silent,
-    detail: Callable[[str], None] = silent,
+    report: Callable[[StageReport], None] = lambda report: None,
 ) -> Story:
     """Compute the journey of one experiment, write page and figures into `out`. Raises InputError, NumericalError.
 
-    report : called with a line at every stage;  detail : with what goes on within a stage
+    report : called with every stage
     """
-
-    def say(line: str) -> None:
-        (report if line.startswith(STAGES) else detail)(line)
-
-    journey = run_story(folder / EXPERIMENTS[0], say, engine=engine)
+    journey = run_story(folder / EXPERIMENTS[0], report, engine=engine)
     page = Page("rockref: the demonstration", journey.diagnosis.sentence)
     story = Story(journey, out, engine, page)
-    report("writing the page")
+    report(StageReport(STEPS, STEPS, "writing the page"))
     for section in SECTIONS:
         section(story)
     story.written.insert(0, page.write(out / "index.html"))

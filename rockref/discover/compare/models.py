@@ -26,6 +26,7 @@ from rockref.discover.compare.features import (
     spectrum_differences,
 )
 from rockref.discover.compare.stretches import StretchError, noise_of, stretch_errors
+from rockref.discover.progress import StageReport
 from rockref.measure.experiment import Experiment, Run
 from rockref.measure.impacts import main_impacts
 from rockref.measure.ledger import rocking_block
@@ -189,7 +190,7 @@ def compare(
     engine: str = "auto",
     step: float = STEP,
     releases: Mapping[str, Mapping[str, Any]] | None = None,
-    progress: Callable[[float], None] | None = None,
+    progress: Callable[[StageReport], None] | None = None,
 ) -> Comparison:
     """Compare models with every loaded run of an experiment, fit and holdout alike: there is no verdict here.
 
@@ -200,7 +201,7 @@ def compare(
     engine : "auto", "numpy" or "numba".
     step : of the simulation, s.
     releases : by run id, values that replace the stated release (``theta_0``, ``out_of_plane``, rad).
-    progress : called with the fraction done.
+    progress : called with a stage for each model, and with the seconds left within it.
 
     Raises
     ------
@@ -219,7 +220,8 @@ def compare(
     measured = measured_runs(experiment, runs)
     results = []
     for number, (name, model) in enumerate(zip(names, models, strict=True)):
-        half = [_part(progress, 2 * number + k, 2 * len(models)) for k in (0, 1)]
+        said = f"simulating {len(runs)} runs with {name}"
+        half = [_part(progress, said, 2 * number + k, 2 * len(models), began) for k in (0, 1)]
         given = dict(releases or {})
         with _named(name, step):
             stated = predict(model, runs, gyro, engine=engine, releases=given, step=step, progress=half[0])
@@ -264,10 +266,20 @@ def _check_names(names: tuple[str, ...], models: Sequence[Model]) -> None:
         raise InputError("E-MODELS", "argument names", what, "Give every model a name of its own.")
 
 
-def _part(progress: Callable[[float], None] | None, number: int, count: int) -> Callable[[float], None] | None:
+def _part(
+    progress: Callable[[StageReport], None] | None, name: str, number: int, count: int, began: float
+) -> Callable[[float], None] | None:
+    """Return what takes the share of half a model that is done, and reports the model as a stage."""
     if progress is None:
         return None
-    return lambda share: progress((number + share) / count)
+
+    def report(share: float) -> None:
+        done = (number + share) / count
+        left = (time.perf_counter() - began) * (1 - done) / done if done > 0 else None
+        progress(StageReport(number // 2 + 1, count // 2, name, seconds_left=left))
+
+    report(0.0)
+    return report
 
 
 def measured_runs(experiment: Experiment, runs: Sequence[Run]) -> tuple[MeasuredRun, ...]:

@@ -29,7 +29,7 @@ def held_out_fit(fitter: Fitter, h: FittedModel, listener: Listener) -> tuple[Fi
     base = next(m for m in problem.job(fitter.parameters(h), h.z).models if m is not None)
     own = {k: v for k, v in base.origin.items() if k not in ("tilt_offset", "roll_offset")}
     released = ReleaseProblem(
-        problem.experiment, listener, base.replace(origin=own), tone=problem.tone, say=problem.say
+        problem.experiment, listener, base.replace(origin=own), tone=problem.tone, progress=problem.progress
     )
     inner = Fitter(released)
     k = FittedModel(h.effects, np.zeros(len(released.parameters(h.effects))))

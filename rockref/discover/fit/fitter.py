@@ -48,7 +48,7 @@ class FittedModel:
     @property
     def name(self) -> str:
         """Return the effects in words."""
-        return " + ".join(self.effects) or "nothing"
+        return " + ".join(self.effects) or "the baseline"
 
     def copy(self) -> FittedModel:
         """Return a copy that a fit may move."""

@@ -15,6 +15,7 @@ from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters, release_parameters, with_law
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.discover.listening.listener import Job, Listener, record_of
+from rockref.discover.progress import StageCounter
 from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment, Run
 from rockref.model.parameters import BLOCK, Parameters
 
@@ -28,7 +29,7 @@ class FitProblem:
 
     base : the baseline without effects.  carried : effects of the user's model, part of every hypothesis
     candidates : ids of the effects that may be missing.  tone : frequency [Hz] of a line in the misfit, if there is one
-    say : called with a line at every stage.  refined : called with every hypothesis that was refined, and its stage
+    progress : counts the stages.  refined : called with every hypothesis that was refined, and its stage
     """
 
     experiment: Experiment
@@ -38,9 +39,13 @@ class FitProblem:
     carried: tuple[str, ...] = ()
     seed: int = 0
     tone: float | None = None
-    say: Callable[[str], None] = lambda line: None
+    progress: StageCounter = field(default_factory=lambda: StageCounter({}), repr=False)
     refined: Callable[[Any, Stage], None] = lambda h, stage: None
     _known: dict = field(default_factory=dict, repr=False)
+
+    def say(self, line: str) -> None:
+        """Report a line of the optimiser."""
+        self.progress.say(line)
 
     @property
     def runs(self) -> tuple[Run, ...]:

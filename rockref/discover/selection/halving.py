@@ -77,5 +77,6 @@ def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
 
 
 def say(fitter: Fitter, stage: str, field: Sequence[FittedModel]) -> None:
-    """Tell how a field stands."""
+    """Report how a field stands."""
+    fitter.problem.progress.note(min(field, key=lambda h: h.objective).name)
     fitter.problem.say(f"{stage}: " + ", ".join(f"{h.name} {h.objective:.0f} ({h.loss:.2f})" for h in field))

@@ -35,6 +35,8 @@ BEAM, ADDED, MOST = 4, 3, 3
 EQUALS = 2
 #: Steps at the later stages.
 STEPS = {"S3": 3, "F": 4}
+#: Words for the stages of longer memory.
+MEMORY = {"S3": "refining the best models", "F": "testing every effect again at the longest memory"}
 
 
 class Search:
@@ -70,15 +72,19 @@ class Search:
 
     def begin(self) -> list[FittedModel]:
         """Return the hypotheses that explain the runs at S2, or come nearest to it."""
+        progress = self.problem.progress
+        progress.begin("baseline", "fitting the baseline")
         null = self.null()
         self.problem.say(f"baseline: mean loss {null.loss:.2f}")
         self.problem.tone = tone(self.fitter, null)
         beam = [null]
         if not self.is_explained(null):
+            progress.begin("starts", "fitting the baseline from other starts", null.name)
             beam.append(self.anywhere(self.nominal()))
         self.baseline = self.best(beam)
         while not self.is_explained(best := self.best(beam)) and len(best.effects) < MOST:
             starts = [self.nominal(), best] if best.effects == self.problem.carried else self.equals(beam, best)
+            progress.begin("effects", f"comparing {self.compared(best)}", best.name)
             added = halving(self.fitter, starts)
             if min(h.objective for h in added) > best.objective:
                 break
@@ -89,6 +95,12 @@ class Search:
             if self.best(beam).loss - WHITE > LEAVES * (best.loss - WHITE):
                 break
         return within(beam, BEAM)
+
+    def compared(self, best: FittedModel) -> str:
+        """Return what the forward step compares, in words."""
+        beside = [e for e in best.effects if e not in self.problem.carried]
+        more = f" beside {' and '.join(beside)}" if beside else ""
+        return f"{len(set(self.problem.candidates) - set(best.effects))} effects{more}"
 
     def equals(self, beam: Sequence[FittedModel], best: FittedModel) -> list[FittedModel]:
         """Return the best hypotheses with as many effects as the best, within the margin."""
@@ -119,6 +131,7 @@ class Search:
 
     def lengthen(self, beam: list[FittedModel], stage: Stage) -> list[FittedModel]:
         """Fit a beam at a longer memory; let the score test add to the best."""
+        self.problem.progress.begin(stage.name, MEMORY[stage.name], self.best(beam).name)
         self.fitter.widen()
         for h in beam:
             self.fitter.refine(h, stage, STEPS[stage.name])
@@ -140,6 +153,7 @@ class Search:
     def eliminate(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Take each effect of the best model out, try the best replacements, and return all at F."""
         best = self.best(beam)
+        self.problem.progress.begin("without", "leaving out each effect in turn", best.name)
         found: list[FittedModel] = []
         for e in best.effects:
             if e in self.problem.carried:

@@ -94,7 +94,8 @@ class TestTheEnd:
     @pytest.mark.parametrize("floor, code", [(True, 0), (False, 1)])
     def test_the_exit_code_is_1_above_the_noise_floor_and_both_files_are_written(self, ended, here, floor, code):
         found, out, err, _ = ended(floor=floor)
-        assert found == code and err == "" and ("Above the noise floor nothing is determined" in out) is not floor
+        assert found == code and err.startswith("searching on features of the runs") and err.count("\n") == 1
+        assert ("Above the noise floor nothing is determined" in out) is not floor
         assert out.endswith("wrote found/identification.json\nwrote found/model.toml\n")
         record = json.loads((here / "found/identification.json").read_text())
         assert record["least_squares"]["at_noise_floor"] is floor and record["runs"] == IDENTIFICATION["runs"]
@@ -102,11 +103,11 @@ class TestTheEnd:
 
     def test_json_is_what_is_in_the_file(self, ended, here):
         code, out, err, _ = ended("--json")
-        assert (code, err) == (0, "") and out == (here / "found/identification.json").read_text()
+        assert (code, err.count("\n")) == (0, 1) and out == (here / "found/identification.json").read_text()
 
     def test_generations_are_told_where_they_are_wanted(self, ended):
         _, _, err, _ = ended("--verbose")
-        assert err.startswith("search cost 0.5000  K_N ") and err.count("\n") == 1
+        assert "search cost 0.5000  K_N " in err and err.count("\n") == 2
 
     def test_what_was_asked_for_reaches_the_search(self, ended):
         *_, asked = ended("--generations", "7", "--population", "8", "--seed", "3", "--resume")

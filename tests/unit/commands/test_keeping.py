@@ -31,14 +31,16 @@ def run(capsys, *arguments):
 
 
 @pytest.mark.parametrize(
-    "words, place",
+    "words, place, goes_on",
     [
-        ("diagnose anywhere", "rockref.discover.diagnose.diagnose"),
-        ("fit anywhere", "rockref.discover.fit_baseline.fit_baseline"),
+        ("diagnose anywhere", "diagnose.diagnose", "The same command begins its search anew; rockref fit"),
+        ("fit anywhere", "fit_baseline.fit_baseline", "The same command, without --fresh, starts from"),
+        ("fit anywhere -e adhesion", "fit_baseline.fit_baseline", "The same command starts anew, for"),
+        ("add anywhere adhesion", "add_effect.add_effect", "The same command, without --fresh, starts"),
     ],
 )
 def test_an_interruption_says_what_was_kept_and_what_goes_on_from_it(
-    capsys, monkeypatch, tmp_path, kept, made, words, place
+    capsys, monkeypatch, tmp_path, kept, made, words, place, goes_on
 ):
     problem = fit_problem(made, made.fit_runs(), TABLE, end=0.6, workers=1)
 
@@ -48,13 +50,20 @@ def test_an_interruption_says_what_was_kept_and_what_goes_on_from_it(
         raise KeyboardInterrupt
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(place, work)
+    monkeypatch.setattr(f"rockref.discover.{place}", work)
     code, out, err = run(capsys, *words.split())
     assert (code, out) == (130, "")
-    assert "Kept: 1 fit; best so far: the baseline, mean loss 1.00 at stage S3" in err
-    assert "The same command, without --fresh, goes on from them" in err
+    assert "Kept: 1 fit, the best of the baseline; no file was written." in err and goes_on in err
     assert len(list(kept.glob("*.json"))) == 1 and FitStore().open(made).start(problem, ()) is not None
     assert not (tmp_path / "model.toml").exists()
+
+
+def test_a_search_goes_on_after_the_stage_that_was_kept(made, kept):
+    store = FitStore().open(made)
+    problem = fit_problem(made, made.fit_runs(), TABLE, end=0.6, workers=1)
+    store.note(problem)(fitted(problem), S3)
+    store.kept["searches"]["key"] = {"stage": "S2"}
+    assert interruption(store).endswith("The same command, without --fresh, goes on with the search after stage S2.")
 
 
 def test_where_nothing_was_found_nothing_is_said_to_be_kept(made, kept):

@@ -8,6 +8,7 @@ from rockref import cli
 from rockref.discover import plan as engine
 from rockref.discover.diagnosis_record import plain
 from rockref.discover.plan import Release
+from rockref.discover.progress import StageReport
 from tests.unit.discover import fakes
 
 
@@ -22,7 +23,7 @@ def calls(monkeypatch, found):
     made = []
 
     def plan(*a, progress, **k):
-        progress("release 0.117"), progress("limits")
+        progress(StageReport(1, 2, "simulating the release 0.117 rad")), progress(StageReport(2, 2, "limits"))
         made.append((a, k))
         return found
 
@@ -39,7 +40,11 @@ def run(capsys, *words):
 def test_words_and_the_file_with_the_record(capsys, calls, found, tmp_path):
     path = tmp_path / "plan.json"
     code, out, err = run(capsys, "-o", path)
-    assert (code, err) == (0, "") and "Smallest amplitude that would be seen" in out
+    assert (
+        code == 0
+        and err == "1/2 simulating the release 0.117 rad\n2/2 limits\n"
+        and "Smallest amplitude that would be seen" in out
+    )
     assert out.endswith(f"wrote {path}\n") and json.loads(path.read_text()) == plain(found.to_dict())
 
 
@@ -60,4 +65,7 @@ def test_releases_and_candidates_are_those_that_were_named(capsys, calls):
 
 def test_stages_are_told_where_they_are_wanted(capsys, calls):
     _, _, err = run(capsys, "--verbose")
-    assert [line.split(" s  ")[1] for line in err.splitlines()] == ["release 0.117", "limits"]
+    assert [line.split(" s  ")[1] for line in err.splitlines()] == [
+        "1/2 simulating the release 0.117 rad",
+        "2/2 limits",
+    ]

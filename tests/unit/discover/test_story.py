@@ -8,6 +8,7 @@ import pytest
 from rockref.discover import story
 from rockref.discover.add_effect import State
 from rockref.discover.evidence.evidence import Number
+from rockref.discover.progress import StageReport
 from rockref.discover.story import Journey, run_story
 from tests.unit.discover import fakes
 
@@ -25,6 +26,7 @@ def steps(monkeypatch, made):
     def diagnose(path, seed, end, progress, store):
         asked.ends.append(end)
         asked.stores.append(store)
+        progress(StageReport(2, 7, "fitting from other starts", "the baseline", 10.0))
         return fakes.diagnosis(asked.verdict, made)
 
     def add_effect(effect, path, seed, end, progress, store):
@@ -50,7 +52,11 @@ def test_the_first_effect_of_a_verdict_is_added_and_compared(steps, verdict):
     journey = run_story("folder", said.append)
     assert steps.added == ["quadratic_drag"] and steps.names == ["baseline", "with quadratic_drag"]
     assert steps.models[0].effects == () and steps.models[1] == journey.addition.model
-    assert said == ["diagnosing", "adding quadratic_drag", "comparing before and after"]
+    assert [(report.step, report.of, report.name) for report in said] == [
+        (1, 4, "diagnosing: fitting from other starts"), (3, 4, "comparing before and after"),
+    ]  # fmt: skip
+    # What follows a diagnosis takes its time, too.
+    assert said[0].best == "the baseline" and said[0].seconds_left > 10.0
     assert journey.comparison == "compared"
     # What the diagnosis has found the addition starts from; a person's own kept fits are left alone.
     assert steps.stores[0] is steps.stores[1] and not steps.stores[0].on_disk
@@ -61,12 +67,12 @@ def test_without_an_effect_nothing_is_added(steps, verdict):
     steps.verdict, said = verdict, []
     journey = run_story("folder", said.append)
     assert journey.addition is None and steps.added == [] and steps.names == ["baseline"]
-    assert said == ["diagnosing", "comparing before and after"]
+    assert [report.step for report in said] == [1, 3]
 
 
 @pytest.mark.parametrize("quick, end", [(True, story.QUICK_END), (False, story.WHOLE_END)])
 def test_a_quick_story_looks_at_half_of_the_seconds(steps, quick, end):
-    run_story("folder", lambda line: None, quick=quick)
+    run_story("folder", lambda report: None, quick=quick)
     assert steps.ends == [end, end] and story.QUICK_END < 0.6 * story.WHOLE_END
 
 
