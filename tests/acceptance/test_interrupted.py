@@ -37,7 +37,7 @@ def interrupted(folder, after, *words):
     "after, words",
     [
         ("1/1 simulating", ("compare", EXPERIMENT, "--engine", "numpy", "--report", "page")),
-        ("1/8 simulating", ("plan", "--runs", "0.117x2,0.09", "-e", "gyro_scale", "-o", "plan.json")),
+        ("1/7 simulating", ("plan", "--runs", "0.117x2,0.09", "-e", "gyro_scale", "-o", "plan.json")),
     ],
 )
 def test_what_keeps_nothing_says_so_and_leaves_no_file(tmp_path, after, words):
