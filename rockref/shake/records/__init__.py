@@ -1,0 +1,1 @@
+"""Recorded ground motion as engineers have it: a file a format, and one door."""
