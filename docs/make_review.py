@@ -49,6 +49,8 @@ EQUATIONS = {
     "T4": r"s \leftarrow u_t + \bigl(F^{(T)} + C^{(T)} v_s\bigr) / K^{(T)}"
     r" \quad\Longleftrightarrow\quad -K^{(T)}(u_t - s) - C^{(T)} v_s = F^{(T)}",
     "A1": r"m\,a = \sum_i F_i - m g\,e_z",
+    "B1": r"F_{B1} = -m\,a(t), \quad a(t) = a_k + (a_{k+1} - a_k)\tfrac{t - t_k}{\Delta t},"
+    r" \quad t_k = t_0 + k\,\Delta t; \quad 0\ \text{outside of the record}",
     "A2": r"M = \sum_i (u_i - x) \times F_i",
     "A3": r"T = \Lambda^{\mathsf T} M",
     "I4": r"v_{n+1} = v_n + \tfrac h2 (a_n + a_{n+1})",
@@ -68,6 +70,7 @@ SOURCES = {
     "T1": 'before (3.6): "a trial friction force corresponding to a sticking condition"',
     "T4": 'after (3.6): "both the friction force amplitude and the contact point position are updated"',
     "A1": "nothing; statics of a rigid body",
+    "B1": "nothing; the second law of motion in axes that translate with the plate",
     "S2": "nothing; how a run is begun and recorded",
     "M1": "the axes of Fig. 3.4: convected rotational velocities (crv) in deg/s",
 }

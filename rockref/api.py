@@ -13,6 +13,7 @@ from rockref import model_file
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import in_step_order, parse
 from rockref.engines import run
+from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
 from rockref.model.geometry import (
     EXTERNAL,
@@ -30,6 +31,7 @@ from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, State
 from rockref.model.release import check_tilt, release_posture
 from rockref.model.response import Response
 from rockref.model.simulate import check_names, check_points
+from rockref.model.standing import standing_posture
 
 POINT_SETS = ("eight_points", "four_points", "custom")
 
@@ -264,10 +266,15 @@ class Model:
         out_of_plane: float = 0.0,
         theta_0: float | None = None,
         body: tuple[Block, ContactPoints] | None = None,
+        base: BaseMotion | None = None,
+        standing: bool | None = None,
+        heading: float = 0.0,
     ) -> Problem:
         """What the engines take. Without `start`, the release posture at theta_0 (by default the model's) [rad].
 
-        body : what `body()` returns, where it is known already.
+        body : what `body()` returns, where it is known already.  base : how the plate moves.
+        standing : the block stands still on its feet, turned by `heading` [rad] about the vertical, and is not
+        released; by default where the plate moves. Effects on the release are then left aside.
 
         >>> from rockref import Model
         >>> problem = Model.table_3_1().problem(duration=0.5, turned=True)
@@ -276,12 +283,14 @@ class Model:
         """
         block, points = self.body() if body is None else body
         effects = self.active_effects()
-        if start is None:
+        if start is None and (base is not None if standing is None else standing):
+            start = standing_posture(block, points, heading)
+        elif start is None:
             tilt = self.parameters.theta_0 if theta_0 is None else theta_0
             start = release_posture(block, points, tilt, turned, out_of_plane)
             for effect in effects:
                 start = effect.release(block, points, start)
-        return Problem(block, points, start, step, duration, output_rate, effects)
+        return Problem(block, points, start, step, duration, output_rate, effects, base=base)
 
 
 def effects_of(given: Any) -> tuple[Effect, ...]:
@@ -336,7 +345,8 @@ def simulate(
     engine : "auto" (the fastest that is there), "numpy" (the law), "numba" (compiled, extra `fast`); the same bits.
     progress : called with the fraction done.
     dtype : float32, float64, longdouble (numpy engine).
-    start : `start=` a State, or `turned=`, `out_of_plane=`, `theta_0=` of the release.
+    start : `start=` a State, or `turned=`, `out_of_plane=`, `theta_0=` of the release; `base=` a BaseMotion of the
+        plate, on which the block stands, and `standing=`, `heading=` (see `Model.problem`).
 
     Raises
     ------

@@ -47,9 +47,15 @@ RULES: tuple[Rule, ...] = (
     Rule("T3", "sliding: mu F_N along the trial force", "(3.6b)", "rockref.model.contact:radial_return", ("T2", "T6")),
     Rule("T4", "after sliding the anchor is moved", "after (3.6)", "rockref.model.contact:move_anchor", ("T3",)),
     Rule("A1", "sum of point forces and weight", "A1", "rockref.model.assembly:resultant_force", ("N1", "N2", "T3")),
+    Rule(
+        "B1",
+        "F = -m a(t) at the centre of mass, in axes that move with the plate",
+        "B1",
+        "rockref.model.base_motion:inertial_force",
+    ),
     Rule("A2", "moment about the centre of mass", "A2", "rockref.model.assembly:resultant_moment", ("N1", "N2", "T3")),
     Rule("A3", "the moment in body axes", "A3", "rockref.model.assembly:body_moment", ("A2",)),
-    Rule("I4", "v+ = v + h/2 (a + a+)", "I4", "rockref.model.integrator:update_velocity", ("A1",)),
+    Rule("I4", "v+ = v + h/2 (a + a+)", "I4", "rockref.model.integrator:update_velocity", ("A1", "B1")),
     Rule(
         "I5",
         "J W+ = exp(-Theta^)[J W + h/2 T] + h/2 T+",

@@ -69,7 +69,8 @@ class Effect:
     `quantities` (one Quantity per parameter), `switches` (the parameters that bring the effect in; None: all of them),
     `sentence` (the physics), `equation` (LaTeX), `source` (with DOI where there is one), `confounder` (id),
     `experiment` (what would tell them apart), `stage` (where in the measured channel it stands), `only_on` (the points
-    that a model must have, "four_points"; empty: any).
+    that a model must have, "four_points"; empty: any), `not_shaken` (why it cannot act on a plate that moves,
+    after "it"; empty: it can).
     For fits: `priors` (what `rockref.effects.prior` does not get from a Quantity), `seeds` (values, the others typical,
     to start from beside zero, where a small step shows nothing), `of_run` (a size and its phase that every run has of
     its own: a fit finds their cosine and sine parts).
@@ -106,6 +107,7 @@ class Effect:
     experiment: ClassVar[str] = ""
     stage: ClassVar[str] = "electronics"
     only_on: ClassVar[str] = ""
+    not_shaken: ClassVar[str] = ""
     priors: ClassVar[dict[str, Prior]] = {}
     seeds: ClassVar[tuple[dict[str, float], ...]] = ()
     of_run: ClassVar[tuple[str, str] | tuple[()]] = ()

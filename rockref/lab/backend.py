@@ -117,6 +117,8 @@ class WasmBackend:
         """
         problem = pack.with_memory(as_arrays(problem, np.float64))
         check(problem)
+        if problem.base is not None:
+            raise InputError("E-TWIN", "base motion", "has no twin in the C text", pack.NUMPY)
         return self._run(problem, pack.props_rows(problem), pack.effects_row(problem), pack.state_row(problem))
 
     def _run(self, problem: Problem, props: np.ndarray, e: np.ndarray, start: np.ndarray) -> Response:

@@ -34,7 +34,7 @@ OF_POINTS = "K_N K_T C_N C_T MU_0 MU RADIUS FOOT PROPS".split()
 OF_MEMORY = "S_X S_Y ANCHORED SLIDING XI_LARGEST YAW ROLL_X ROLL_Y MEMORY".split()
 OF_SLOTS = (
     "HERTZ HYSTERESIS HUNT ORIENTATION STRIBECK LOAD ADHESION VISCOUS NORMALS SPIN ROLLING DRAG CABLE WIRE VIBRATION "
-    "TILT SUPPORT SLOTS CONTACT FORCES MOMENTS LOADS PLATE"
+    "TILT SUPPORT OF_EFFECTS CONTACT FORCES MOMENTS LOADS PLATE"
 ).split()
 
 
@@ -104,7 +104,8 @@ def header() -> str:
     for title, names in groups.items():
         of = [f"C_{name.rstrip('_')} = {getattr(columns, name)}" for name in names]
         lines.append(f"enum {{ {', '.join(of)} }}; // {title}")
-    lines.append(f"enum {{ {', '.join(f'S_{name} = {getattr(slots, name)}' for name in OF_SLOTS)} }}; // effects")
+    of_slots = {"SLOTS" if name == "OF_EFFECTS" else name: getattr(slots, name) for name in OF_SLOTS}
+    lines.append(f"enum {{ {', '.join(f'S_{name} = {at}' for name, at in of_slots.items())} }}; // effects")
     lines.append(f"enum {{ {', '.join(f'M_{name}' for name in MODEL)}, M_COUNT }}; // model")
     for id, places in value_places().items():
         lines.append(f"enum {{ {', '.join(f'E_{id}_{name} = {at}' for name, at in places.items())} }};")

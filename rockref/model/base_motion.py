@@ -36,8 +36,8 @@ class BaseMotion:
     def __post_init__(self) -> None:
         """Refuse what is no record."""
         try:
-            a = np.array(self.a, order="C")
-            a = a if a.dtype in (np.float32, np.longdouble) else a.astype(np.float64)
+            a = np.asarray(self.a, order="C")
+            a = a if a.dtype in (np.float32, np.longdouble) else np.asarray(a, np.float64)
             times = {"t_0": float(self.t_0), "dt": float(self.dt)}
         except (TypeError, ValueError):
             cure = "Give t_0 and dt as numbers [s], a as n rows of three numbers [m/s2]."
@@ -94,17 +94,19 @@ def plate_acceleration(base: BaseMotion, t: float) -> np.ndarray:
     if not 0 <= place <= last:
         return np.zeros(3, base.a.dtype)
     k = math.floor(place)
-    if k == last:
-        return base.a[k].copy()
-    return base.a[k] + (base.a[k + 1] - base.a[k]) * base.a.dtype.type(place - k)
+    return base.a[k] + (base.a[min(k + 1, last)] - base.a[k]) * base.a.dtype.type(place - k)
 
 
 def inertial_force(mass: Any, a: np.ndarray) -> np.ndarray:
-    """Return the force -m a [N] at the centre of mass, without moment, in axes that translate with the plate.
+    """Rule B1: F = -m a(t) [N] at the centre of mass, without moment, in axes that translate with the plate.
 
     mass : (...) [kg];  a : (3,) acceleration of the plate [m/s2]  ->  (..., 3).
 
     Exact for a plate that translates: contact depends on relative motion only, and the rotation is that seen from the
     ground. A plate that turns would need the forces of Coriolis, Euler and the centrifugal one too.
+
+    Decided: a step from n to n+1 reads a(t) at n+1, as its one force evaluation does everything else. Positions then
+    feel a(t_n), and velocities (I4) the mean of both ends, which integrates a record that is linear within the step
+    exactly.
     """
-    return -np.asarray(mass)[..., None] * a
+    return -np.asarray(mass)[..., None] * a  # B1

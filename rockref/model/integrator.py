@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rockref.model import assembly, contact
+from rockref.model.base_motion import inertial_force, plate_acceleration
 from rockref.model.contact import Kinematics
 from rockref.model.problem import Block, Problem, State, complete_state
 from rockref.model.rotation import apply, apply_transposed, cross, empty, exp_minus_identity, inverse, product
@@ -162,10 +163,12 @@ def evaluate_contact(problem: Problem, state: State, x, Lambda, v, W, turn, t, m
 
 
 def resultants(problem: Problem, c: Contact, x, Lambda, v, W, memory) -> tuple[np.ndarray, np.ndarray]:
-    """Rules A1 to A3 with the effects that add loads: acceleration (..., 3) [m/s2] and body moment (..., 3) [N m]."""
+    """Rules A1 to A3 and B1 with the effects that add loads: acceleration [m/s2], body moment [N m], (..., 3)."""
     block = problem.block
     force = assembly.resultant_force(c.F, block.mass, block.g)
     moment = assembly.resultant_moment(c.k.r, c.F)
+    if problem.base is not None:
+        force = force + inertial_force(block.mass, plate_acceleration(problem.base, c.t))
     for effect, m in acting(problem, memory):
         for load in (effect.point_wrench(problem, c, m), effect.body_wrench(problem, c, x, Lambda, v, W, m)):
             if load is not None:

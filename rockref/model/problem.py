@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
 from rockref.model.rotation import empty
 
@@ -111,7 +112,8 @@ def complete_state(**fields) -> State:
 class Problem:
     """One run, or a batch of runs side by side (leading axes): what `simulate` of every engine takes.
 
-    step, duration [s]; output_rate [Hz]; effects in the order in which they act (empty: the law alone).
+    step, duration [s]; output_rate [Hz]; effects in the order in which they act (empty: the law alone); base: how the
+    plate moves, the same for the runs of a batch (None: it stands still).
     """
 
     block: Block
@@ -122,6 +124,7 @@ class Problem:
     output_rate: float
     effects: tuple[Any, ...] = ()
     labels: dict[str, Any] = field(default_factory=dict)
+    base: BaseMotion | None = None
 
     def replace(self, **changes: Any) -> Problem:
         """A copy with some fields changed."""
@@ -187,6 +190,7 @@ def as_arrays(problem: Problem, dtype=None) -> Problem:
         block=_convert(problem.block, ARRAYS_OF_BLOCK, batch, dtype),
         points=_convert(problem.points, ARRAYS_OF_POINTS, batch, dtype),
         start=_convert(problem.start, ARRAYS_OF_STATE, batch, dtype),
+        base=None if problem.base is None else replace(problem.base, a=np.asarray(problem.base.a, dtype, order="C")),
     )
 
 
@@ -199,7 +203,7 @@ def _stack(things, axes: dict[str, int]):
 
 
 def stack(problems: list[Problem]) -> Problem:
-    """Many single problems side by side as one batch; step, duration, rate and effects must be the same.
+    """Many single problems side by side as one batch; step, duration, rate, effects and base motion must be the same.
 
     Raises
     ------
@@ -208,7 +212,7 @@ def stack(problems: list[Problem]) -> Problem:
     """
     first = problems[0]
     for p in problems[1:]:
-        for key in ("step", "duration", "output_rate", "effects"):
+        for key in ("step", "duration", "output_rate", "effects", "base"):
             if getattr(p, key) != getattr(first, key):
                 raise InputError("E-STACK", key, "differs between the problems of a batch", "Run them one by one.")
     return replace(

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError, NumericalError
 from rockref.model.geometry import check_inertia
 from rockref.model.integrator import (
@@ -72,8 +73,9 @@ def check(problem: Problem) -> None:
     Raises
     ------
     InputError
-        E-STEP, E-DURATION, E-RATE, E-SIZE, E-RANGE, E-TYPE: which value, why, and what to do.
+        E-STEP, E-DURATION, E-RATE, E-SIZE, E-RANGE, E-TYPE, E-BASE: which value, why, and what to do.
     """
+    check_base(problem)
     for key in ("step", "duration", "output_rate"):
         value = getattr(problem, key)
         if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
@@ -102,6 +104,20 @@ def check(problem: Problem) -> None:
             f"{problem.step:g} s is too large for the stiffest contact, {stiffest(problem)}",
             f"Use a step of at most {rounded_down(limit):.2g} s.",
         )
+
+
+def check_base(problem: Problem) -> None:
+    """Refuse effects that cannot act on a plate that moves, beside a motion of the plate (E-TYPE, E-BASE)."""
+    if problem.base is None:
+        return
+    if not isinstance(problem.base, BaseMotion):
+        raise InputError("E-TYPE", "base", f"is {problem.base!r}"[:80], "Give a BaseMotion, or None.")
+    for effect in problem.effects:
+        if effect.not_shaken and not effect.is_absent():
+            cure = "Leave the effect out, or the motion of the plate."
+            raise InputError(
+                "E-BASE", f"effect {effect.id}", f"cannot act on a plate that moves: it {effect.not_shaken}", cure
+            )
 
 
 #: No run is longer. Decided: 1e10 steps take the compiled engine some twenty minutes and the law weeks; a run of the

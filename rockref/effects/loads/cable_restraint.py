@@ -27,6 +27,7 @@ class CableRestraint(Effect):
     sentence = "The cable to the sensor is slack at release; then it pulls the top back to where it was, and damps it."
     equation = r"F_{xy} = -k\,(p_{xy} - p_{xy}(0)) - c\,\dot p_{xy},\quad p = x + \Lambda\,(0,0,z_c)"
     source = "Linear spring and damper, as in any textbook of vibrations: no DOI"
+    not_shaken = "hangs from the room, so needs the place and the velocity of the plate too"
     confounder = "quadratic_drag"
     experiment = "Take the cable off (a logger on the block), or lead it another way: only this effect changes."
 

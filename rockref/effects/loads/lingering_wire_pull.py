@@ -38,6 +38,7 @@ class LingeringWirePull(Effect):
         r"F_y = F_w \max(1 - q\,t/\tau,\ 0)^{1/q} \to F_w\,e^{-t/\tau}\ (q \to 0)\ \text{at}\ x + \Lambda(0,0,h/2)"
     )
     source = "A load decided here: no DOI; the release by a wire is in the model's source, section 3.3"
+    not_shaken = "is pulled from the room, towards which the plate moves"
     confounder = "release_velocity"
     experiment = (
         "Film the release: with this the block begins at rest, and its acceleration grows as the pull dies away; with "

@@ -36,6 +36,7 @@ class QuadraticDrag(Effect):
         "T. I. Fossen (2011), Handbook of Marine Craft Hydrodynamics and Motion Control, doi:10.1002/9781119994138 "
         "(quadratic damping); G. K. Batchelor (1967), An Introduction to Fluid Dynamics, doi:10.1017/CBO9780511800955"
     )
+    not_shaken = "needs the speed through air that stands still in the room, so the velocity of the plate too"
     confounder = "cable_restraint"
     experiment = (
         "Fix a sail of cardboard, ten times the face; or compare large with small swings: drag goes with speed cubed."

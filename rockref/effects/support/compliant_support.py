@@ -56,6 +56,7 @@ class CompliantSupport(Effect):
         "I. N. Psycharis, P. C. Jennings (1983), Rocking of slender rigid bodies allowed to uplift, "
         "Earthquake Eng. Struct. Dyn. 11:57-76, doi:10.1002/eqe.4290110106"
     )
+    not_shaken = "has a mass of its own, which a moving table would shake too: the law has no term for that"
     confounder = "hertzian_contact"
     experiment = (
         "Put an accelerometer on the plate, or the plate on the floor: its ringing after an impact goes or stays."

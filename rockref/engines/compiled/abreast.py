@@ -131,8 +131,8 @@ def _make_loop(groups: int, lanes: int, source: int):
     """The loop for packs of runs with these groups of effects; `lanes` and `source` only mark the stored code."""
 
     def abreast(
-        first, last, packs, bodies, all_centres, all_props, memories, all_forces, effects, states, h, all_wanted, full,
-        rows_state, rows_F, rows_memory, written, which, rates, turns, heard, all_gains, every, ticks,
+        first, last, packs, bodies, all_centres, all_props, memories, all_forces, effects, states, h, samples,
+        all_wanted, full, rows_state, rows_F, rows_memory, written, which, rates, turns, heard, all_gains, every, ticks,
         body_, centres_, props_, memory_, forces_, effects_, state_, released_, tick_, gains_, cursor,
     ):  # fmt: skip
         """All steps of the packs `first` to `last`; plain runs where `every` is 0, else ticks of listening ones.
@@ -162,7 +162,7 @@ def _make_loop(groups: int, lanes: int, source: int):
                 fill_lane_by_point(lane, all_forces[b], forces_)
                 cursor[lane] = 0
             if state_[col.GIVEN, 0] == 0.0:
-                begin(body, centres, props, memory, forces, e, on, state)
+                begin(body, centres, props, memory, forces, e, on, samples, state)
                 state[col.GIVEN] = 1.0
             done, k, bearing = 0, 0, (0.0, 0.0, 0.0, 0.0)
             while True:
@@ -179,7 +179,7 @@ def _make_loop(groups: int, lanes: int, source: int):
                     )  # fmt: skip
                     if number < 0:
                         break
-                bearing = steps(number, body, centres, props, memory, forces, e, on, h, state)
+                bearing = steps(number, body, centres, props, memory, forces, e, on, h, samples, state)
                 done += number
 
     return abreast

@@ -16,7 +16,7 @@ from rockref.engines.compiled.batch import Batch, run_batch
 
 #: The variants in this order. Decided: the law is left to whoever asked, who needs it at once; of the others loads are
 #: needed first, by what the release shows, and everything at once last, by pairs.
-ORDER = (slots.LOADS, slots.CONTACT, slots.FORCES, slots.MOMENTS, slots.PLATE, slots.ALL)
+ORDER = (slots.LOADS, slots.CONTACT, slots.FORCES, slots.MOMENTS, slots.PLATE, slots.SHAKEN, slots.ALL)
 
 
 def missing() -> list[int]:

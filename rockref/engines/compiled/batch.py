@@ -38,6 +38,8 @@ class Batch:
     h : step [s];  wanted : (R,) or (B, R) int64, the step numbers that are recorded, rising; from a negative one on
         nothing of that run is recorded: its rows are NaN, those of a given `out` stay as they are
     forces : (B, n, 3) of the starts [N], or None; recorded only where step 0 of a given start is wanted
+    samples : (N, 3) accelerations of plates [m/s2], of all records one after another, or None; `slots.BASE` says where
+        the record of a run begins
     """
 
     body: np.ndarray
@@ -49,6 +51,7 @@ class Batch:
     h: float
     wanted: np.ndarray
     forces: np.ndarray | None = None
+    samples: np.ndarray | None = None
 
 
 def from_problems(problems: Sequence[Problem]) -> Batch:
@@ -72,6 +75,7 @@ def from_problems(problems: Sequence[Problem]) -> Batch:
 
 def batch_of(problems: Sequence[Problem], wanted: np.ndarray) -> Batch:
     """The arrays of problems of one step and number of points, their memories begun, that want these rows."""
+    effects, samples = pack.effects_rows(problems)
     given = [np.zeros((p.points.n, 3)) if p.start.F is None else np.asarray(p.start.F, float) for p in problems]
     bodies, feet = {id(p.block): p for p in problems}, {id(p.points): p for p in problems}
     body_rows = {key: pack.body_row(p) for key, p in bodies.items()}
@@ -81,11 +85,12 @@ def batch_of(problems: Sequence[Problem], wanted: np.ndarray) -> Batch:
         P=np.stack([np.asarray(p.points.P, float) for p in problems]),
         props=np.stack([props_rows[id(p.points)] for p in problems]),
         memory=np.stack([pack.memory_rows(p.start) for p in problems]),
-        effects=np.stack([pack.effects_row(p) for p in problems]),
+        effects=effects,
         state=np.stack([pack.state_row(p) for p in problems]),
         h=float(problems[0].step),
         wanted=wanted,
         forces=np.stack(given),
+        samples=samples,
     )
 
 
@@ -116,7 +121,7 @@ def run_batch(batch: Batch, workers: int | None = None, full: bool = False, out:
         centres = pack.centres(batch.P, batch.props)
         kernel.loop_for(batch.effects)(
             0, 1, batch.body, centres, batch.props, batch.memory, batch.forces, batch.effects, batch.state, batch.h,
-            *rows,
+            batch.samples, *rows,
         )  # fmt: skip
     else:
         run_abreast(batch, rows, abreast.no_target(B), workers)
@@ -194,7 +199,7 @@ def run_abreast(batch: Batch, rows: tuple, target: tuple, workers: int | None) -
         groups, own = given
         abreast.LOOPS[groups](
             0, len(own), own, batch.body, centres, batch.props, batch.memory, batch.forces, batch.effects, batch.state,
-            batch.h, *rows, *target, *abreast.workspace(batch.P.shape[1]), np.zeros(LANES, np.int64),
+            batch.h, batch.samples, *rows, *target, *abreast.workspace(batch.P.shape[1]), np.zeros(LANES, np.int64),
         )  # fmt: skip
 
     if workers == 1 or len(pieces) == 1:
@@ -235,4 +240,5 @@ def checked(batch: Batch) -> Batch:
             raise InputError("E-SHAPE", f"batch.{key}", f"has shape {np.shape(given[key])}", f"Give {shape}.")
     written = {k: np.array(given[k], np.float64, order="C") for k in ("memory", "forces", "state")}
     read = {k: np.require(given[k], np.float64, ["C", "W"]) for k in shapes if k not in written}
-    return replace(batch, wanted=wanted, h=float(batch.h), **written, **read)
+    samples = np.require(np.zeros((1, 3)) if batch.samples is None else batch.samples, np.float64, ["C", "W"])
+    return replace(batch, wanted=wanted, h=float(batch.h), samples=samples, **written, **read)

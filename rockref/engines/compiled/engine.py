@@ -90,7 +90,7 @@ def _rows_with_numbers(states: np.ndarray) -> int:
     return int(np.argmax(lost)) + 1 if lost.any() else len(states)
 
 
-def _in_pieces(loop, read: list, h: float, wanted: np.ndarray, written_to: tuple, progress: Progress) -> int:
+def _in_pieces(loop, read: list, h: float, samples, wanted: np.ndarray, written_to: tuple, progress: Progress) -> int:
     """Run the loop over a piece of the rows after the other, and return how many rows were written.
 
     A piece starts from the last row of the piece before, which holds all that the step carries on (memories and forces
@@ -103,7 +103,7 @@ def _in_pieces(loop, read: list, h: float, wanted: np.ndarray, written_to: tuple
     for first in range(0, total, size):
         last, before = min(first + size, total), int(wanted[first - 1]) if first else 0
         rows = [a[:, first:last] for a in written_to]
-        loop(0, 1, *rest, state, h, (wanted[first:last] - before)[None], True, *rows, done)
+        loop(0, 1, *rest, state, h, samples, (wanted[first:last] - before)[None], True, *rows, done)
         end = first + int(done[0])
         if progress is not None:
             progress(end / total)
@@ -122,7 +122,8 @@ def _one(problem: Problem, keep_going: bool, progress: Progress = None) -> Respo
     wanted = output_steps(problem)
     n, rows = problem.points.n, len(wanted)
     problem = pack.with_memory(problem)
-    effects, props = pack.effects_row(problem), pack.props_rows(problem)
+    (effects,), samples = pack.effects_rows([problem])
+    props = pack.props_rows(problem)
     states, forces = np.empty((rows, col.STATE)), np.empty((rows, n, 3))
     memories = np.empty((rows, n, col.MEMORY))
     read = (
@@ -131,7 +132,8 @@ def _one(problem: Problem, keep_going: bool, progress: Progress = None) -> Respo
     )  # fmt: skip
     batch_of_one = [a[None] for a in read]
     written_to = (states[None], forces[None], memories[None])
-    written = _in_pieces(kernel.loop_for(effects), batch_of_one, float(problem.step), wanted, written_to, progress)
+    loop, h = kernel.loop_for(effects), float(problem.step)
+    written = _in_pieces(loop, batch_of_one, h, samples, wanted, written_to, progress)
     return _response(problem, wanted, states, forces, memories, written, keep_going)
 
 

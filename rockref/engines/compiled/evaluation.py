@@ -17,15 +17,15 @@ def make_evaluation(groups: int, bearing: int):
     bearing : whether it also sums normal forces and their lever arms, which the correction of a listening run needs.
     """
     contact, forces_too, moments_too = groups & slots.CONTACT, groups & slots.FORCES, groups & slots.MOMENTS
-    loads, plate = groups & slots.LOADS, groups & slots.PLATE
+    loads, plate, shaken = groups & slots.LOADS, groups & slots.PLATE, groups & slots.SHAKEN
 
     def evaluate(
-        body, centres, props, memory, forces, e, on, timed, sunk,
+        body, centres, props, memory, forces, e, on, timed, shaking, sunk,
         x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn,
     ):  # fmt: skip
         """Acceleration (3), body moment (3), force and moment on the plate at one pose, and the sums of the normal
-        forces and of normal force times lever arm (4); forces and memories are written. sunk : q, q_rate, pitch,
-        pitch_rate of the plate.
+        forces and of normal force times lever arm (4); forces and memories are written. shaking : acceleration of
+        the plate (3);  sunk : its q, q_rate, pitch, pitch_rate.
 
         Points above the plate are passed over: their forces are zero, and adding zero changes no bit.
         """
@@ -125,6 +125,10 @@ def make_evaluation(groups: int, bearing: int):
         mass, g, carried = body[col.MASS], body[col.GRAVITY], Fz
         place = (Fz, place0, place1, place2)
         Fz -= mass * g  # A1
+        if shaken and on.base:
+            Fx -= mass * shaking[0]  # B1
+            Fy -= mass * shaking[1]
+            Fz -= mass * shaking[2]
         if forces_too:
             if on.adhesion:
                 carried += pull[0]

@@ -34,14 +34,15 @@ def _make_loop(groups: int, source: int):
     """The loop for runs with these groups of effects; `source` only marks the stored code."""
 
     def loop(
-        first, last, bodies, all_centres, all_props, memories, all_forces, effects, states, h, all_wanted, full,
-        all_rows_state, all_rows_F, all_rows_memory, written,
+        first, last, bodies, all_centres, all_props, memories, all_forces, effects, states, h, samples, all_wanted,
+        full, all_rows_state, all_rows_F, all_rows_memory, written,
     ):  # fmt: skip
         """All steps of the runs `first` to `last` of a batch; rows are written at the step numbers `wanted`, and none
         from a negative one on.
 
-        all_centres : contact points, raised by their radius.  written : (B,) the number of rows written; a run ends
-        with the first row without numbers.  The rest as in `rockref.engines.compiled.batch.Batch`.
+        all_centres : contact points, raised by their radius.  samples : (N, 3) of the plate's motion.
+        written : (B,) the number of rows written; a run ends with the first row without numbers.
+        The rest as in `rockref.engines.compiled.batch.Batch`.
         """
         _ = groups, source  # held, so that numba's files on disk belong to this variant of this very text
         for b in range(first, last):
@@ -50,13 +51,13 @@ def _make_loop(groups: int, source: int):
             e, on, state, wanted = effects[b], switches(effects[b]), states[b], all_wanted[b]
             rows_state, rows_F, rows_memory = all_rows_state[b], all_rows_F[k], all_rows_memory[k]
             if state[col.GIVEN] == 0.0:
-                begin(body, centres, props, memory, forces, e, on, state)
+                begin(body, centres, props, memory, forces, e, on, samples, state)
                 state[col.GIVEN] = 1.0
             done = 0
             for row in range(wanted.shape[0]):
                 if wanted[row] < 0:
                     break
-                steps(wanted[row] - done, body, centres, props, memory, forces, e, on, h, state)
+                steps(wanted[row] - done, body, centres, props, memory, forces, e, on, h, samples, state)
                 done = wanted[row]
                 for j in range(col.STATE):
                     rows_state[row, j] = state[j]

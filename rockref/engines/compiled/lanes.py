@@ -93,6 +93,16 @@ def negated(truth):
     return not truth
 
 
+def whole(number):
+    """The largest whole number that is not above it, as a float."""
+    return float(math.floor(number))
+
+
+def entry(table, row, column):
+    """The entry of a table (n, m) of numbers in a row that is given as a float; each lane has a row of its own."""
+    return table[int(row), column]
+
+
 def _typed(function: Any, typer: Callable[..., Any]) -> None:
     """Give compiled code the type of what the function returns: `typer` of the types of its arguments, or None."""
 
@@ -188,6 +198,47 @@ def _lane_by_lane(function: Any, n: int) -> None:
 _lane_by_lane(math.exp, 1)
 _lane_by_lane(math.cos, 1)
 _lane_by_lane(operator.pow, 2)
+
+
+_typed(
+    whole,
+    lambda *args: signature(*[lanes if isinstance(args[0], Lanes) else types.float64] * 2) if len(args) == 1 else None,
+)
+lower_builtin(whole, Lanes)(lambda context, builder, sig, args: _of_llvm("floor")(builder, *args))
+
+
+@lower_builtin(whole, types.Float)
+def _whole_number(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    return builder.call(builder.module.declare_intrinsic("llvm.floor", [ir.DoubleType()]), args)
+
+
+def _entry_type(*args: Any) -> Any:
+    if len(args) != 3 or not isinstance(args[0], types.Array):
+        return None
+    kind = lanes if isinstance(args[1], Lanes) else types.float64
+    return signature(kind, args[0], kind, types.intp)
+
+
+def _load(context: Any, builder: Any, sig: Any, args: Any, row: Any) -> Any:
+    table = context.make_array(sig.args[0])(context, builder, args[0])
+    at = [builder.fptosi(row, context.get_value_type(types.intp)), args[2]]
+    return builder.load(cgutils.get_item_pointer(context, builder, sig.args[0], table, at, wraparound=False))
+
+
+_typed(entry, _entry_type)
+lower_builtin(entry, types.Array, types.Float, types.Integer)(
+    lambda context, builder, sig, args: _load(context, builder, sig, args, args[1])
+)
+
+
+@lower_builtin(entry, types.Array, Lanes, types.Integer)
+def _entries(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    result = ir.Constant(DOUBLES, ir.Undefined)
+    for lane in range(LANES):
+        at = ir.Constant(ir.IntType(32), lane)
+        value = _load(context, builder, sig, args, builder.extract_element(args[1], at))
+        result = builder.insert_element(result, value, at)
+    return result
 
 
 def _splat(builder: Any, number: Any) -> Any:

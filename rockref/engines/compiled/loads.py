@@ -7,7 +7,7 @@ import math
 from rockref.effects.loads.lingering_wire_pull import LEAST_EVENNESS
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.jit import inlined
-from rockref.engines.compiled.lanes import anyof, choose, negated
+from rockref.engines.compiled.lanes import anyof, both, choose, entry, negated, whole
 
 
 @inlined
@@ -26,6 +26,22 @@ def of_time(on, e, t):
     if on.vibration:
         cosine = math.cos(e[slots.VIBRATION + 2] * t + e[slots.VIBRATION + 3])
     return pull, cosine
+
+
+@inlined
+def plate_acceleration(e, samples, t):
+    """Acceleration of the plate (3), as `rockref.model.base_motion`; samples (N, 3), of all records in turn."""
+    place, last = (t - e[slots.BASE + 1]) / e[slots.BASE + 2], e[slots.BASE + 3]
+    inside = both(place >= 0.0, place <= last)
+    k = choose(inside, whole(place), 0.0)
+    share, here = place - k, e[slots.BASE + 4] + k
+    after = e[slots.BASE + 4] + min(k + 1.0, last)
+    a0, a1, a2 = entry(samples, here, 0), entry(samples, here, 1), entry(samples, here, 2)
+    return (
+        choose(inside, a0 + (entry(samples, after, 0) - a0) * share, 0.0),
+        choose(inside, a1 + (entry(samples, after, 1) - a1) * share, 0.0),
+        choose(inside, a2 + (entry(samples, after, 2) - a2) * share, 0.0),
+    )
 
 
 @inlined

@@ -93,6 +93,24 @@ def with_memory(problem: Problem) -> Problem:
     return replace(problem, start=start)
 
 
+def effects_rows(problems: Sequence[Problem]) -> tuple[np.ndarray, np.ndarray]:
+    """(B, SLOTS) the numbers of the effects and of the plate's motions, whose samples follow, (N, 3) [m/s2].
+
+    Runs on the same motion share its samples. Raises InputError as `effects_row`.
+    """
+    rows = np.stack([effects_row(p) for p in problems])
+    first: dict[int, int] = {}
+    samples: list[np.ndarray] = []
+    for row, p in zip(rows, problems, strict=True):
+        if (base := p.base) is None:
+            continue
+        if id(base.a) not in first:
+            first[id(base.a)] = sum(map(len, samples))
+            samples.append(np.asarray(base.a, np.float64))
+        _put(row, slots.BASE, base.t_0, base.dt, len(base.a) - 1, first[id(base.a)])
+    return rows, np.concatenate(samples) if samples else np.zeros((1, 3))
+
+
 def effects_row(problem: Problem) -> np.ndarray:
     """(SLOTS,) the numbers of the effects.
 

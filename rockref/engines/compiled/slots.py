@@ -33,34 +33,38 @@ WIRE = _block(5)  # on, force, tau, height of attachment, evenness
 VIBRATION = _block(6)  # on, amplitude, angular frequency, phase, sine and cosine of the direction
 TILT = _block(3)  # on, x, y
 SUPPORT = _block(8)  # on, mass, stiffness, damping, the same three of pitching, moment at rest; inertia 0: none
+OF_EFFECTS = _next
+BASE = _block(5)  # on, time of the first sample, interval, number of the last sample, row of the first one in the table
 SLOTS = _next
 
 #: Which effects are on, read once per run.
 Switches = namedtuple(
     "Switches",
     "hertz hysteresis hunt orientation stribeck load adhesion viscous normals spin rolling drag cable wire vibration "
-    "tilt support",
+    "tilt support base",
 )
 
 #: The slots of these switches, in the same order.
 SWITCHED_BY = [
     HERTZ, HYSTERESIS, HUNT, ORIENTATION, STRIBECK, LOAD, ADHESION, VISCOUS, NORMALS, SPIN, ROLLING, DRAG, CABLE, WIRE,
-    VIBRATION, TILT, SUPPORT,
+    VIBRATION, TILT, SUPPORT, BASE,
 ]  # fmt: skip
 
-#: The groups of effects that a variant of the compiled step has or has not, with the slots of their numbers.
-CONTACT, FORCES, MOMENTS, LOADS, PLATE = 1, 2, 4, 8, 16
+#: The groups of effects that a variant of the compiled step has or has not, with the slots of their numbers. A motion
+#: of the plate, which is an input and no effect, makes a group too.
+CONTACT, FORCES, MOMENTS, LOADS, PLATE, SHAKEN = 1, 2, 4, 8, 16, 32
 GROUPS = {
     CONTACT: slice(HERTZ, ADHESION),
     FORCES: slice(ADHESION, SPIN),
     MOMENTS: slice(SPIN, DRAG),
     LOADS: slice(DRAG, SUPPORT),
-    PLATE: slice(SUPPORT, SLOTS),
+    PLATE: slice(SUPPORT, BASE),
+    SHAKEN: slice(BASE, SLOTS),
 }
 ALL = sum(GROUPS)
 #: The variants: the law, each group, and everything for runs with effects of several groups. Decided: effects that
 #: write the same things share a group, because a branch that is not taken costs little and a sum that is not needed
-#: much; each further variant would be some ten seconds of compiling on the first call, and there are ten pairs.
+#: much; each further variant would be some ten seconds of compiling on the first call, and there are fifteen pairs.
 VARIANTS = (0, *GROUPS, ALL)
 
 #: The effects that act in the step, in the order in which they do (that of `rockref.effects.catalogue`).

@@ -8,7 +8,7 @@ from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
 from rockref.engines.compiled.jit import called, inlined, marked
 from rockref.engines.compiled.lanes import anyof, choose, negated
-from rockref.engines.compiled.loads import advance_support, of_time
+from rockref.engines.compiled.loads import advance_support, of_time, plate_acceleration
 
 
 @inlined
@@ -78,7 +78,7 @@ def switches(e):
         e[slots.STRIBECK] != 0.0, e[slots.LOAD] != 0.0, e[slots.ADHESION] != 0.0, e[slots.VISCOUS] != 0.0,
         e[slots.NORMALS] != 0.0, e[slots.SPIN] != 0.0, e[slots.ROLLING] != 0.0, e[slots.DRAG] != 0.0,
         e[slots.CABLE] != 0.0, e[slots.WIRE] != 0.0, e[slots.VIBRATION] != 0.0, e[slots.TILT] != 0.0,
-        e[slots.SUPPORT] != 0.0,
+        e[slots.SUPPORT] != 0.0, e[slots.BASE] != 0.0,
     )  # fmt: skip
 
 
@@ -91,13 +91,18 @@ def plate_of(state):
 def make_begin(groups: int, evaluate):
     """The first force evaluation of a run with these groups of effects."""
 
-    def begin(body, centres, props, memory, forces, e, on, s):
+    shaken = groups & slots.SHAKEN
+
+    def begin(body, centres, props, memory, forces, e, on, samples, s):
         """Writes a and T into the state at the start, and forces and memories."""
         for i in range(centres.shape[0]):
             for j in range(3):
                 forces[i, j] = 0.0
+        shaking = (0.0, 0.0, 0.0)
+        if shaken and on.base:
+            shaking = plate_acceleration(e, samples, s[col.TIME])
         a0, a1, a2, T0, T1, T2, _, _, _ = evaluate(
-            body, centres, props, memory, forces, e, on, of_time(on, e, s[col.TIME]), plate_of(s),
+            body, centres, props, memory, forces, e, on, of_time(on, e, s[col.TIME]), shaking, plate_of(s),
             s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14],
             s[15], s[16], s[17], (0.0, 0.0, 0.0),
         )  # fmt: skip
@@ -113,9 +118,9 @@ def make_begin(groups: int, evaluate):
 
 def make_steps(groups: int, evaluate, bearing: int):
     """The steps of runs with these groups of effects; `bearing` as in `make_evaluation`."""
-    loads, plate = groups & slots.LOADS, groups & slots.PLATE
+    loads, plate, shaken = groups & slots.LOADS, groups & slots.PLATE, groups & slots.SHAKEN
 
-    def steps(number, body, centres, props, memory, forces, e, on, h, state):
+    def steps(number, body, centres, props, memory, forces, e, on, h, samples, state):
         """Make a number of steps; state, forces and memories are written.
 
         Returns the sums over these steps of normal force and normal force times lever arm (4), or zeros.
@@ -131,6 +136,9 @@ def make_steps(groups: int, evaluate, bearing: int):
             count += 1.0
             t = origin + count * h
             timed = of_time(on, e, t) if loads else (0.0, 0.0)
+            shaking = (0.0, 0.0, 0.0)
+            if shaken and on.base:
+                shaking = plate_acceleration(e, samples, t)
             JW0, JW1, JW2 = times(body, col.J, W0, W1, W2)
             A0, A1, A2 = times(
                 body, col.J_INVERSE,
@@ -150,7 +158,7 @@ def make_steps(groups: int, evaluate, bearing: int):
             L3, L4, L5 = turned(L3, L4, L5, E)
             L6, L7, L8 = turned(L6, L7, L8, E)
             b0, b1, b2, N0, N1, N2, carried, turning, place = evaluate(
-                body, centres, props, memory, forces, e, on, timed, sunk,
+                body, centres, props, memory, forces, e, on, timed, shaking, sunk,
                 x0, x1, x2, v0 + h * a0, v1 + h * a1, v2 + h * a2, L0, L1, L2, L3, L4, L5, L6, L7, L8,
                 W0 + h * A0, W1 + h * A1, W2 + h * A2, (turn0, turn1, turn2),
             )  # fmt: skip

@@ -129,7 +129,7 @@ def rows_by(groups: int, problem) -> list[np.ndarray]:
         np.zeros((n, 3)), pack.effects_row(problem), pack.state_row(problem),
     )  # fmt: skip
     kernel.LOOPS[groups](
-        0, 1, *(a[None] for a in read), problem.step, wanted[None], True, *out,
+        0, 1, *(a[None] for a in read), problem.step, np.zeros((1, 3)), wanted[None], True, *out,
         np.zeros((1, len(wanted), n, pack.col.MEMORY)), np.zeros(1, np.int64),
     )  # fmt: skip
     return out

@@ -14,7 +14,8 @@ PAGE = (ROOT / "docs/reference/nomenclature.md").read_text(encoding="utf-8")
 RULES = {
     "G1": None, "G2": None, "P1": "(3.7)", "P2": "(3.8)", "P3": "(3.9)", "K1": None, "N1": "(3.5a)", "N2": "(3.5b)",
     "T1": "before (3.6)", "T2": "(3.6a)", "T3": "(3.6b)", "T4": None, "T5": None, "T6": "(3.6)",
-    "A1": None, "A2": None, "A3": None, "I1": "I1", "I2": "I2", "I3": "I3", "I4": "I4", "I5": "I5", "M1": None,
+    "A1": None, "B1": "B1", "A2": None, "A3": None, "I1": "I1", "I2": "I2", "I3": "I3", "I4": "I4", "I5": "I5",
+    "M1": None,
 }  # fmt: skip
 
 
@@ -63,7 +64,7 @@ def test_the_equation_stands_at_the_margin(rule, equation):
     assert any(re.search(r"  # .*" + re.escape(equation), line) for line in lines)
 
 
-@pytest.mark.parametrize("rule", [r for r in RULES if r[0] in "GPKNTAM"])
+@pytest.mark.parametrize("rule", [r for r in RULES if r[0] in "GPKNTABM"])
 def test_docstrings_give_shapes_and_units(rule):
     text = ast.get_docstring(FUNCTIONS[rule][0][1])
     assert re.search(r"\((\.\.\.|n\b|3|8|4)", text) or rule in ("P1", "P2", "P3", "G1")
