@@ -95,6 +95,7 @@ def told(
     It is told even where a file cannot be written: minutes of work are not lost.
     """
     from rockref.commands._terminal import console
+    from rockref.report.text import say_command
 
     written: list[Path] = []
     try:
@@ -106,7 +107,7 @@ def told(
             words(console())
             say_written(written)
             if then is not None:
-                typer.echo(f"Next: {then()}")
+                say_command(console(), then())
 
 
 def say_written(paths: Iterable[Path]) -> None:

@@ -33,7 +33,8 @@ def compare(
             "--check", help="End with 1 if a model leaves the band, or falls over, before the second main impact."
         ),
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="All tables and sentences, not only the answer.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
 ) -> None:
     """Show how far models are from measured runs, from when on, and with which feet on the plate.
 
@@ -54,7 +55,7 @@ def compare(
     if is_toss_folder(experiment):
         from rockref.commands._tosses import compare_tosses, of_releases_only
 
-        of_releases_only(engine=engine != "auto", check=check)
+        of_releases_only(engine=engine != "auto", check=check, full=full)
         return compare_tosses(experiment, model, effect, report, as_json)
     from rockref.commands._models import labels, named_models
     from rockref.commands._progress import stages
@@ -76,9 +77,11 @@ def compare(
         typer.echo(in_json(comparison.to_dict() | {"written": [str(path) for path in written]}))
     else:
         from rockref.commands._terminal import console
-        from rockref.report.text import print_comparison
+        from rockref.report.comparison_text import next_after_comparison, print_comparison
+        from rockref.report.text import say_command
 
-        print_comparison(console(), comparison)
+        print_comparison(console(), comparison, full)
         say_written(written)
+        say_command(console(), next_after_comparison(comparison, experiment))
     if check and not comparison.holds_to_second_impact():
         raise typer.Exit(1)

@@ -32,7 +32,7 @@ def diagnose(
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
     fresh: Fresh = False,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage and the optimiser's lines.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
 ) -> None:
     """Say which physical effect the model lacks, how large it is, and how sure that is; or what it could not tell.

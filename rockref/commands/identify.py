@@ -36,6 +36,7 @@ def identify(
     workers: Annotated[int | None, typer.Option(min=1, help="Local processes; default: one per core.")] = None,
     dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler instead (extra `distributed`).")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the checkpoints in the output folder.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A line for every generation.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")] = False,
 ) -> None:
@@ -79,11 +80,12 @@ def identify(
     if as_json:
         typer.echo(text)
     else:
-        from rich.console import Console
+        from rockref.commands._terminal import console
+        from rockref.report.identification_text import next_after_identification, print_identification
+        from rockref.report.text import say_command
 
-        from rockref.report.identification_text import print_identification
-
-        print_identification(Console(), result)
+        print_identification(console(), result, full)
         say_written(files.values())
+        say_command(console(), next_after_identification(result, experiment, files["model"]))
     if not result["least_squares"]["at_noise_floor"]:
         raise typer.Exit(1)

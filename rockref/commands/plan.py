@@ -23,7 +23,8 @@ def plan(
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the simulated noise.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage on a line of its own.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage and the optimiser's lines.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
 ) -> None:
     """Foretell, by simulation, which effects a planned campaign could detect and which it would confuse.
@@ -44,7 +45,7 @@ def plan(
     from rockref.discover.plan import releases_from
     from rockref.engines import compiled_ahead
     from rockref.model.storage import write_text
-    from rockref.report.plan_text import print_plan
+    from rockref.report.plan_text import next_after_plan, print_plan
 
     usable_files(output)
     planned = releases_from(runs)
@@ -53,7 +54,8 @@ def plan(
     with compiled_ahead(), stages("planning", verbose=verbose) as say:
         found = run_plan(given, planned, candidates or None, seed=seed, workers=workers, progress=say)
     text = in_json(found.to_dict())
-    with told(as_json, lambda written: text, lambda console: print_plan(console, found)) as written:
+    words, then = lambda console: print_plan(console, found, full), lambda: next_after_plan(found, model)
+    with told(as_json, lambda written: text, words, then) as written:
         if output is not None:
             write_text(output, text + "\n")
             written.append(output)

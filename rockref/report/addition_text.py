@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from rockref.discover.add_effect import Addition
 from rockref.discover.compare.stretches import AXES
 from rockref.report import tables
-from rockref.report.fit_text import effect_lines, estimates_table, say
+from rockref.report.fit_text import effect_lines, estimates_table
 from rockref.report.page import Table
-from rockref.report.text import print_table
+from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:
     from rich.console import Console

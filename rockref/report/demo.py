@@ -36,7 +36,7 @@ from rockref.report.diagnosis_page import verdict_words
 from rockref.report.diagnosis_text import amplitudes_table, ranking_table
 from rockref.report.drawing import Line, Panel
 from rockref.report.figures import write_figures
-from rockref.report.fit_text import with_interval
+from rockref.report.fit_text import said
 from rockref.report.page import Page
 
 # decided: its effect is physical, and its energy shows it.
@@ -159,8 +159,8 @@ def the_error(story: Story) -> None:
     a = story.journey.addition
     if a is None:
         return
-    sizes = [with_interval(name.partition(".")[2], n) for name, n in a.own_numbers.items()]
-    story.lines += [f"Size of {a.effect}, with 90 % intervals: {', '.join(sizes)}.", *addition_lines(a)]
+    sizes = [f"{name.partition('.')[2]} {said(name, n)}" for name, n in a.own_numbers.items()]
+    story.lines += [f"Size of {a.effect}: {', '.join(sizes)}.", *addition_lines(a)]
     add_errors(story.page, a, "The error falls")
 
 

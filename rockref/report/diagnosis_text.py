@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from rockref.effects import catalogue
 from rockref.report import tables
-from rockref.report.fit_text import quantity, say
+from rockref.report.fit_text import quantity
 from rockref.report.page import Table
-from rockref.report.text import print_table
+from rockref.report.spoken import spoken_amplitudes
+from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -67,13 +68,22 @@ def print_diagnosis(console: Console, d: dict[str, Any], full: bool = False) -> 
         say(console, f"  {id}: {effect_words(id)}")
     for line in [*size_lines(d), *error_lines(d)]:
         say(console, line)
-    for sentence in careful(d):
+    for sentence in careful(d)[: None if full else 1]:
         say(console, f"With care: {sentence}")
     if d["separating_experiment"] and (full or d["verdict"] in ("class", "indicated")):
         say(console, f"To be sure: {d['separating_experiment']}")
+    say(console, verdict_line(d), "bold")
+
+
+def verdict_line(d: dict[str, Any]) -> str:
+    """Return the verdict, how sure it is, and how large the effect is."""
     probability = d.get("probability")
     sure = "" if probability is None or d["verdict"] in UNSURE else f" (probability {probability:.2f})"
-    say(console, f"{d['verdict'].upper().replace('_', ' ')}{sure}. {sentence_of(d)}", "bold")
+    said = f"{d['verdict'].upper().replace('_', ' ')}{sure}. {sentence_of(d)}"
+    sizes = [] if d["verdict"] == "class" else spoken_amplitudes(d["amplitudes"], SIZES)
+    if len(sizes) == 1:
+        said += f" Its size is {sizes[0]}."
+    return said
 
 
 def print_tables(console: Console, d: dict[str, Any]) -> None:
@@ -92,25 +102,22 @@ def print_tables(console: Console, d: dict[str, Any]) -> None:
 
 #: Verdicts whose probability would say nothing: no hypothesis explains the runs.
 UNSURE = ("something_else", "not_trustworthy")
-#: Alternatives that are shown; decided: what follows has a share below a hundredth.
-SHOWN = 3
+#: Alternatives and sizes that are shown without --full; decided: with all else they fit twelve lines.
+SHOWN, SIZES = 2, 3
 
 
 def alternative_lines(d: dict[str, Any]) -> list[str]:
     """Return the most probable sets of effects on a line each."""
     return [
-        f"  {r['effect']}: {tables.number(r['gain'], 0)} nat above the null model, probability {r['weight']:.3f}"
+        f"  {r['effect']}: probability {r['weight']:.3f}, {tables.number(r['gain'], 0)} nat better than the baseline"
         for r in d["ranking"][:SHOWN]
     ]
 
 
 def size_lines(d: dict[str, Any]) -> list[str]:
     """Return how large each effect is, with its interval."""
-    found = []
-    for name, a in list(d["amplitudes"].items())[:4]:
-        unit = "" if a["unit"] in ("", "1") else f" {a['unit']}"
-        found.append(f"  {name} = {number(a['value'])}{unit} (90 %: {number(a['low'])} to {number(a['high'])})")
-    return found
+    sizes = spoken_amplitudes(d["amplitudes"], SIZES)
+    return [f"  {s.name} = {s}{f': {s.meaning}' if s.meaning else ''}" for s in sizes]
 
 
 def error_lines(d: dict[str, Any]) -> list[str]:
@@ -121,14 +128,11 @@ def error_lines(d: dict[str, Any]) -> list[str]:
         if before is None:
             continue
         if not d["amplitudes"] or after is None:
-            found.append(f"Error on the {words} runs: {before:.4f} deg/s RMS, noise floor {e['noise_floor']:.4f}.")
+            found.append(f"{words} runs {before:.3f}")
             continue
         gap = closed(e, use, e["noise_floor"])
-        found.append(
-            f"Error on the {words} runs: {before:.4f} to {after:.4f} deg/s RMS {with_words(d)}, noise floor "
-            f"{e['noise_floor']:.4f}; gap closed: {gap}."
-        )
-    return found
+        found.append(f"{words} runs {before:.3f} before, {after:.3f} after ({gap} of the excess gone)")
+    return [f"Error in deg/s, where noise alone makes {e['noise_floor']:.3f}: {'; '.join(found)}."] if found else []
 
 
 def next_after_diagnosis(d: dict[str, Any], experiment: object) -> str:

@@ -9,7 +9,8 @@ from rockref.discover.evidence.evidence import Number
 from rockref.discover.fit_baseline import BaselineFit
 from rockref.discover.fit_gates import Gate
 from rockref.report.page import Table
-from rockref.report.text import print_table
+from rockref.report.spoken import spoken
+from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -61,7 +62,12 @@ def law_lines(law: Mapping[str, Number]) -> list[str]:
 
 def effect_lines(numbers: Mapping[str, Number]) -> list[str]:
     """Return the numbers of effects that all runs share, one on a line."""
-    return [f"  {with_interval(name, n)}" for name, n in numbers.items() if "[" not in name]
+    return [f"  {name} = {said(name, n)}" for name, n in numbers.items() if "[" not in name]
+
+
+def said(name: str, n: Number) -> str:
+    """Return a number of an effect with its interval, in the unit in which a person thinks."""
+    return str(spoken(name, n.value, n.low, n.high, n.unit))
 
 
 def estimates_table(found: Mapping[str, Number]) -> Table:
@@ -83,9 +89,10 @@ def gates_table(checks: list[Gate]) -> Table:
 def outcome_lines(found: BaselineFit) -> list[str]:
     """Return the failed gates, the error, and the outcome."""
     said = [f"{gate.name}: {gate.sentence}" for gate in found.gates if not gate.passed]
+    error = found.evidence.error["total"]
     said.append(
-        f"Error of the innovations: {found.evidence.error['total']:.3f} deg/s RMS on the fit runs; "
-        f"noise floor {found.noise:.3f} deg/s."
+        f"Error on the fit runs: {error:.3f} deg/s RMS, {100 * (error / found.noise - 1):.0f} % above the noise of "
+        f"{found.noise:.3f} deg/s."
     )
     outcome = OUTCOMES[found.outcome]
     if found.run:
@@ -109,11 +116,6 @@ def print_fit(console: Console, found: BaselineFit, full: bool = False) -> None:
     for line in rest:
         say(console, line)
     say(console, last, "bold")
-
-
-def say(console: Console, text: str, style: str | None = None) -> None:
-    """Print a line as it is, broken between words."""
-    console.print(text, style=style, markup=False, highlight=False, soft_wrap=not console.is_terminal)
 
 
 def next_after_fit(found: BaselineFit, experiment: object, model: object) -> str:

@@ -6,38 +6,72 @@ from typing import TYPE_CHECKING, Any
 
 from rockref.model.parameters import TABLE_3_1
 from rockref.report.page import Table
-from rockref.report.text import print_table
+from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+#: Parameters that are listed without --full, how many on a line, and pairs of them; decided: all fits twelve lines.
+LISTED, ON_A_LINE, TRADE_OFFS = 12, 3, 3
 
-def print_identification(console: Console, result: dict[str, Any]) -> None:
-    """Print what an identification found (`rockref.identify.outcome.record`)."""
-    for sentence in sentences(result):
-        console.print(sentence, highlight=False, markup=False)
-    for table in (parameters_table(result), terms_table(result), runs_table(result)):
-        print_table(console, table)
+
+def print_identification(console: Console, result: dict[str, Any], full: bool = False) -> None:
+    """Print what an identification found (`rockref.identify.outcome.record`), the error last; tables where `full`."""
+    if full:
+        for table in (parameters_table(result), terms_table(result), runs_table(result)):
+            print_table(console, table)
+    else:
+        for line in parameter_lines(result):
+            say(console, line)
+    *rest, last = sentences(result)
+    for sentence in rest:
+        say(console, sentence)
+    say(console, last, "bold")
 
 
 def sentences(result: dict[str, Any]) -> list[str]:
-    """What was found, in words."""
+    """What was found, in words; the outcome last."""
     search, squares = result["search"], result["least_squares"]
-    floor = "at the noise floor" if squares["at_noise_floor"] else "above the noise floor"
-    text = [
-        f"{search['simulations']} simulations brought the cost to {search['cost']:.4g}; least squares end {floor} "
-        f"(mean square of the residual over the noise: {squares['chi2']:.3g})."
-    ]
+    text = [f"{search['simulations']} simulations brought the cost to {search['cost']:.4g}."]
     unknown = [name for name, known in squares["determined"].items() if not known]
-    if not squares["at_noise_floor"]:
-        text.append(
-            "Above the noise floor nothing is determined: this is a wrong valley, or the model lacks something."
-        )
-    elif unknown:
+    if squares["at_noise_floor"] and unknown:
         text.append(f"Not determined within half the last digit of Table 3.1: {', '.join(unknown)}.")
-    for a, b, r in squares["trade_offs"][:6]:
-        text.append(f"{a} and {b} trade off (correlation {r:+.2f}).")
+    pairs = [f"{a} and {b} (correlation {r:+.2f})" for a, b, r in squares["trade_offs"][:TRADE_OFFS]]
+    if pairs:
+        text.append(f"Numbers that trade off: {'; '.join(pairs)}.")
+    if squares["at_noise_floor"]:
+        held = [run["rms_over_noise"] for run in result["runs"] if run["use"] == "holdout"]
+        on_held = f", at most {100 * (max(held) - 1):.0f} % on a held-out run" if held else ""
+        text.append(
+            f"The model is at the noise floor: its error is {100 * (squares['chi2'] ** 0.5 - 1):.0f} % above the "
+            f"noise{on_held}."
+        )
+    else:
+        text.append(
+            f"The model is above the noise floor (mean square of the residual over the noise: {squares['chi2']:.3g}). "
+            "Nothing is determined: this is a wrong valley, or the model lacks something."
+        )
     return text
+
+
+def parameter_lines(result: dict[str, Any]) -> list[str]:
+    """Return the values with their errors, a few on each line."""
+    squares = result["least_squares"]
+    found = []
+    for name, value in list(squares["values"].items())[:LISTED]:
+        given, error = TABLE_3_1.get(name), squares["errors"].get(name)
+        unit = f" {given.unit}" if given and given.unit not in ("", "1") else ""
+        found.append(f"{name} {value:.4g}{'' if error is None else f' ± {error:.2g}'}{unit}")
+    lines = [f"  {', '.join(found[k : k + ON_A_LINE])}" for k in range(0, len(found), ON_A_LINE)]
+    left = len(squares["values"]) - LISTED
+    return lines + ([f"  and {left} more, with --full"] if left > 0 else [])
+
+
+def next_after_identification(result: dict[str, Any], experiment: object, model: object) -> str:
+    """Return the command to type next."""
+    if result["least_squares"]["at_noise_floor"]:
+        return f"rockref compare {experiment} --model {model}"
+    return f"rockref diagnose {experiment}"
 
 
 def parameters_table(result: dict[str, Any]) -> Table:

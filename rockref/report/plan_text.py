@@ -1,4 +1,4 @@
-"""A plan on the terminal: limits, confusion, the next run, repeats against varied releases."""
+"""A plan on the terminal: what would be hard to see, what would be confused, and the run that helps most, last."""
 
 from __future__ import annotations
 
@@ -6,23 +6,35 @@ from typing import TYPE_CHECKING
 
 from rockref.discover.plan import Plan
 from rockref.report.page import Table
-from rockref.report.text import print_table
+from rockref.report.spoken import figures, spoken
+from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+#: Limits that are shown without --full, those of the effects that are hardest to see, and confused pairs; decided: with
+#: all else they fit twelve lines.
+SHOWN, PAIRS = 4, 3
 
-def print_plan(console: Console, p: Plan) -> None:
-    """Print a plan."""
-    for line in sentences(p):
-        console.print(line, markup=False, highlight=False, soft_wrap=True)
-    print_table(console, limits_table(p))
-    print_table(console, confusion_table(p))
-    print_table(console, further_table(p))
+
+def print_plan(console: Console, p: Plan, full: bool = False) -> None:
+    """Print a plan, the run that helps most last; with all tables where `full`."""
+    *rest, last = sentences(p)
+    if full:
+        print_table(console, limits_table(p))
+        print_table(console, confusion_table(p))
+        print_table(console, further_table(p))
+    for line in rest[:-1]:
+        say(console, line)
+    if not full:
+        for line in [*limit_lines(p), *confusion_lines(p)]:
+            say(console, line)
+    say(console, rest[-1])
+    say(console, last, "bold")
 
 
 def sentences(p: Plan) -> list[str]:
-    """The plan in a few sentences."""
+    """The plan in a few sentences: what would show, repeats against varied releases, and the next run."""
     o, best, versus = p.outlook, p.further[0], p.comparison()
     unseen = o.undetectable()
     found = [
@@ -30,18 +42,51 @@ def sentences(p: Plan) -> list[str]:
         f"effects would show at three times their typical size or less."
     ]
     if unseen:
-        found.append(f"Not even so: {', '.join(unseen)}.")
-    found.append(
-        f"The run that would help most next: {best['run']}; limits fall by a factor of {best['limits_fall_by']:.2f} in "
-        f"the mean, for {best['helps_most']} by {best['its_limit_falls_by']:.1f}."
-    )
+        found.append(f"These would not: {', '.join(unseen)}.")
     most = max(versus["ratio_of_limits"], key=lambda id: versus["ratio_of_limits"][id])
     found.append(
-        f"{len(p.varied.runs)} varied releases against {len(p.repeats.runs)} repeats of one: limits are lower by a "
+        f"{len(p.varied.runs)} varied releases in place of {len(p.repeats.runs)} repeats of one: limits are lower by a "
         f"factor of {versus['median_ratio']:.1f} (median), {versus['ratio_of_limits'][most]:.1f} for {most}; "
-        f"{versus['confused_pairs'][1]} against {versus['confused_pairs'][0]} pairs stay confused."
+        f"{versus['confused_pairs'][1]} pairs stay confused, not {versus['confused_pairs'][0]}."
+    )
+    found.append(
+        f"The run that would help most next: {best['run']} (tilt in rad, t: turned by 180 degrees). Limits fall by "
+        f"{100 * (1 - 1 / best['limits_fall_by']):.0f} % in the mean, for {best['helps_most']} by "
+        f"{100 * (1 - 1 / best['its_limit_falls_by']):.0f} %."
     )
     return found
+
+
+def limit_lines(p: Plan) -> list[str]:
+    """Return the smallest sizes that would be seen of the effects that are hardest to see."""
+    ranked = sorted(p.outlook.limits.items(), key=lambda item: -item[1]["in_typical_sizes"])
+    return [
+        f"  {name} would be seen from {said_limit(name, limit)} on, {limit['in_typical_sizes']:.2g} times its typical "
+        "size"
+        for name, limit in ranked[:SHOWN]
+    ]
+
+
+def said_limit(name: str, limit: dict) -> str:
+    """Return a limit in the unit in which a person thinks; a plain number as it is."""
+    if limit["unit"] == "1":
+        return figures(limit["limit"])
+    return spoken(name, limit["limit"], None, None, limit["unit"]).size
+
+
+def confusion_lines(p: Plan) -> list[str]:
+    """Return in one line the pairs that these runs would hardly tell apart, worst first."""
+    pairs = p.outlook.confused()
+    if not pairs:
+        return []
+    more = f", and {len(pairs) - PAIRS} pairs more" if len(pairs) > PAIRS else ""
+    return [f"Not told apart: {', '.join(f'{a} and {b}' for a, b, _ in pairs[:PAIRS])}{more}."]
+
+
+def next_after_plan(p: Plan, model: str) -> str:
+    """Return the command to type next: the same plan with the run that helps most."""
+    runs = ",".join(map(str, [*p.outlook.runs, p.further[0]["run"]]))
+    return f"rockref plan{'' if model == 'table_3_1' else f' --model {model}'} --runs {runs}"
 
 
 def limits_table(p: Plan) -> Table:

@@ -1,12 +1,9 @@
-"""A comparison on the terminal: what was measured, the errors, run by run, and the sentences."""
+"""Words and tables on the terminal: nothing breaks within a word, whatever the width."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rockref.discover.compare.models import Comparison
-from rockref.discover.compare.sentences import findings
-from rockref.report import tables
 from rockref.report.page import Table
 
 if TYPE_CHECKING:
@@ -16,49 +13,80 @@ if TYPE_CHECKING:
 GAP = 2
 
 
-def print_comparison(console: Console, c: Comparison) -> None:
-    """Print a comparison with rich tables, plain where the output is no terminal."""
-    print_table(console, tables.runs_table(c))
-    for k in range(len(c.names)):
-        for use in ("fit", "holdout"):
-            if c.of(use):
-                print_table(console, tables.errors_table(c, k, use))
-        print_table(console, tables.departures_table(c, k))
-    print_table(console, tables.energy_table(c))
-    found = findings(c)
-    for name in (*c.names, None):
-        texts = [f.text for f in found if f.model == name]
-        if texts:
-            console.print(f"\n{name or 'Side by side'}:", style="bold", markup=False, highlight=False)
-        for text in texts:
-            console.print(f"  - {text}", markup=False, highlight=False, soft_wrap=True)
+def say(console: Console, text: str, style: str | None = None) -> None:
+    """Print a line, on a terminal broken between words and continued below its first word; elsewhere as it is."""
+    if not console.is_terminal:
+        console.print(text, style=style, markup=False, highlight=False, soft_wrap=True)
+        return
+    for line in broken(text, console.width):
+        console.print(line, style=style, markup=False, highlight=False, no_wrap=True, overflow="ignore", crop=False)
+
+
+def say_command(console: Console, command: str, lead: str = "Next: ") -> None:
+    """Print a command to be typed; one that is wider than the terminal is continued with a backslash, as a shell is."""
+    room = console.width
+    if not console.is_terminal or len(lead + command) <= room:
+        console.print(lead + command, markup=False, highlight=False, soft_wrap=True)
+        return
+    lines = broken(command, room - 4)
+    told = [lead.rstrip(), *(f"  {line.strip()} \\" for line in lines[:-1]), f"  {lines[-1].strip()}"]
+    for line in told:
+        console.print(line, markup=False, highlight=False, no_wrap=True, overflow="ignore", crop=False)
+
+
+def broken(text: str, width: int) -> list[str]:
+    """Return a text in lines of at most so many characters, broken at spaces; a longer word has a line of its own."""
+    import textwrap
+
+    indent = text[: len(text) - len(text.lstrip())]
+    return textwrap.wrap(
+        text.strip(), max(width, 8), initial_indent=indent, subsequent_indent=indent,
+        break_long_words=False, break_on_hyphens=False,
+    ) or [""]  # fmt: skip
 
 
 def print_table(console: Console, table: Table) -> None:
     """Print one table, every cell whole: words wrap at spaces only, and numbers never.
 
-    A table of numbers takes the width that it needs where the output is no terminal, and on one that is narrower than
-    its longest words; the terminal then breaks the lines.
+    A table of numbers takes the width that it needs where the output is no terminal. On a terminal that is narrower
+    than its longest words every row is a list.
     """
     from rich import box
     from rich.table import Table as RichTable
     from rich.text import Text
 
-    title = Text(table.caption)
-    narrow: Any = {"pad_edge": False, "show_edge": False, "collapse_padding": True}
-    drawn = RichTable(title=title, title_justify="left", box=box.SIMPLE_HEAD, **narrow)
     # In a pipe a row of numbers is a line, however long.
     room = console.width if table.prose or console.is_terminal else None
     taken = widths(table, room)
+    total = sum(taken) + GAP * (len(taken) - 1)
+    if console.is_terminal and total > console.width:
+        print_list(console, table)
+        return
+    title = Text(table.caption)
+    narrow: Any = {"pad_edge": False, "show_edge": False, "collapse_padding": True}
+    drawn = RichTable(title=title, title_justify="left", box=box.SIMPLE_HEAD, **narrow)
     for k, (column, width) in enumerate(zip(table.columns, taken, strict=True)):
         drawn.add_column(Text(column), justify="left" if k == 0 or table.prose else "right", width=width)
     for row in table.rows:
         drawn.add_row(*(Text(cell) for cell in row))
-    drawn.width = sum(taken) + GAP * (len(taken) - 1)
+    drawn.width = total
     console.print(drawn, crop=False, no_wrap=True, overflow="ignore")
     console.print()
     if table.note:
-        console.print(Text(table.note, style="dim"))
+        say(console, table.note, "dim")
+
+
+def print_list(console: Console, table: Table) -> None:
+    """Print one table as a list: each row's first cell, and below it a line for each of the others."""
+    say(console, table.caption, "italic")
+    for row in table.rows:
+        say(console, row[0], "bold")
+        for column, cell in zip(table.columns[1:], row[1:], strict=True):
+            if cell:
+                say(console, f"  {column}: {cell}" if column else f"  {cell}")
+    console.print()
+    if table.note:
+        say(console, table.note, "dim")
 
 
 def widths(table: Table, room: int | None) -> list[int]:

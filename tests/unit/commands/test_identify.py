@@ -95,8 +95,9 @@ class TestTheEnd:
     def test_the_exit_code_is_1_above_the_noise_floor_and_both_files_are_written(self, ended, here, floor, code):
         found, out, err, _ = ended(floor=floor)
         assert found == code and err.startswith("searching on features of the runs") and err.count("\n") == 1
-        assert ("Above the noise floor nothing is determined" in out) is not floor
-        assert out.endswith("wrote found/identification.json\nwrote found/model.toml\n")
+        assert ("Nothing is determined" in out) is not floor
+        next_one = "compare EIGHT --model found/model.toml" if floor else "diagnose EIGHT"
+        assert out.endswith(f"wrote found/identification.json\nwrote found/model.toml\nNext: rockref {next_one}\n")
         record = json.loads((here / "found/identification.json").read_text())
         assert record["least_squares"]["at_noise_floor"] is floor and record["runs"] == IDENTIFICATION["runs"]
         assert Model.load(here / "found/model.toml").parameters == Model.table_3_1().parameters

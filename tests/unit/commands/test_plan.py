@@ -40,12 +40,9 @@ def run(capsys, *words):
 def test_words_and_the_file_with_the_record(capsys, calls, found, tmp_path):
     path = tmp_path / "plan.json"
     code, out, err = run(capsys, "-o", path)
-    assert (
-        code == 0
-        and err == "1/2 simulating the release 0.117 rad\n2/2 limits\n"
-        and "Smallest amplitude that would be seen" in out
-    )
-    assert out.endswith(f"wrote {path}\n") and json.loads(path.read_text()) == plain(found.to_dict())
+    assert code == 0 and err == "1/2 simulating the release 0.117 rad\n2/2 limits\n"
+    assert "would help most next" in out and f"wrote {path}\nNext: rockref plan --runs " in out
+    assert json.loads(path.read_text()) == plain(found.to_dict())
 
 
 def test_json_is_the_record_and_nothing_else(capsys, calls, found, tmp_path):

@@ -12,10 +12,10 @@ from rockref.discover.compare.models import compare
 from rockref.effects.catalogue import parse
 from rockref.report import blocks, figures, tables
 from rockref.report.comparison_page import add_runs, comparison_page
+from rockref.report.comparison_text import print_comparison
 from rockref.report.encoding import unpacked
 from rockref.report.page import Page
 from rockref.report.player import FRAME_RATE, player
-from rockref.report.text import print_comparison
 from tests.unit.discover.synthetic import DEGREE, experiment
 from tests.unit.report.page_checks import faults_of
 
@@ -133,7 +133,7 @@ def test_numbers_in_tables(value, shown):
 
 def test_terminal_shows_tables_and_sentences(c):
     console = Console(width=200, record=True, file=open("/dev/null", "w"))
-    print_comparison(console, c)
+    print_comparison(console, c, full=True)
     printed = console.export_text()
     assert "Error of plain" in printed and "Error of <scaled>" in printed
     assert "All three measured rates are 2.0 % larger" in printed

@@ -12,7 +12,7 @@ from tests.unit.report.made_up import IDENTIFICATION as RECORD
 
 def said(record):
     out = io.StringIO()
-    print_identification(Console(file=out, width=200), record)
+    print_identification(Console(file=out, width=200), record, full=True)
     return out.getvalue()
 
 
@@ -23,16 +23,18 @@ def row(text, start):
 
 def test_at_the_floor_what_is_not_determined_is_named():
     text = said(RECORD)
-    assert "10000 simulations brought the cost to 0.1234; least squares end at the noise floor" in text
+    assert "10000 simulations brought the cost to 0.1234." in text
+    # The root of 1.02 is 1.01.
+    assert text.endswith("its error is 1 % above the noise, at most 1 % on a held-out run.\n")
     assert "Not determined within half the last digit of Table 3.1: K_N." in text
-    assert "K_N and beta_ext trade off (correlation -0.91)." in text
+    assert "Numbers that trade off: K_N and beta_ext (correlation -0.91)." in text
 
 
 def test_above_the_floor_nothing_is_determined():
     record = copy.deepcopy(RECORD)
     record["least_squares"]["at_noise_floor"] = False
     text = said(record)
-    assert "Above the noise floor nothing is determined" in text and "Not determined within" not in text
+    assert "Nothing is determined" in text and "Not determined within" not in text
 
 
 def test_errors_are_shown_in_last_digits_and_that_of_the_tilt_is_its_largest():

@@ -17,14 +17,14 @@ def plan():
 @pytest.fixture(scope="module")
 def printed(plan):
     out = io.StringIO()
-    print_plan(Console(file=out, width=200), plan)
+    print_plan(Console(file=out, width=400), plan, full=True)
     return out.getvalue()
 
 
 def test_the_next_run_is_the_first_of_the_record(plan, printed):
     best = plan.to_dict()["further_runs"][0]
-    assert f"The run that would help most next: {best['run']};" in printed
-    assert f"for {best['helps_most']} by {best['its_limit_falls_by']:.1f}." in printed
+    assert f"The run that would help most next: {best['run']} (tilt" in printed
+    assert f"for {best['helps_most']} by {100 * (1 - 1 / best['its_limit_falls_by']):.0f} %." in printed
     assert "0.117 (a repeat)" in printed and "0.117t" in printed
 
 
@@ -44,20 +44,20 @@ def test_what_is_confused_or_unseen_is_said(plan, printed):
     unseen = found["undetectable"]
     seen = len(plan.outlook.effects) - len(unseen)
     assert f"{seen} of 2 effects would show" in printed
-    assert ("Not even so: " + ", ".join(unseen) in printed) == bool(unseen)
+    assert ("These would not: " + ", ".join(unseen) in printed) == bool(unseen)
 
 
 def test_repeats_are_set_against_varied_releases(plan, printed):
     versus = plan.to_dict()["repeats_against_varied"]
     assert f"lower by a factor of {versus['median_ratio']:.1f} (median)" in printed
     pairs = versus["confused_pairs"]
-    assert f"{pairs[1]} against {pairs[0]} pairs stay confused" in printed
+    assert f"{pairs[1]} pairs stay confused, not {pairs[0]}" in printed
 
 
 def test_effects_that_would_not_show_are_named(plan, monkeypatch):
     monkeypatch.setattr(type(plan.outlook), "undetectable", lambda self: ["rolling_resistance"])
     first, second, *_ = sentences(plan)
     assert "1 of 2 effects would show" in first
-    assert second == "Not even so: rolling_resistance."
+    assert second == "These would not: rolling_resistance."
     monkeypatch.setattr(type(plan.outlook), "undetectable", lambda self: [])
-    assert "2 of 2 effects would show" in sentences(plan)[0] and "Not even so" not in " ".join(sentences(plan))
+    assert "2 of 2 effects would show" in sentences(plan)[0] and "would not" not in " ".join(sentences(plan))

@@ -1,0 +1,68 @@
+"""Sizes in the unit in which a person thinks of them: millimetres, degrees, milliseconds, per cent."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rockref.effects import catalogue
+from rockref.effects.base import Quantity
+from rockref.model.channel import DEGREES
+
+#: For an SI unit the spoken one and the factor to it.
+SPOKEN = {"m": ("mm", 1e3), "rad": ("deg", DEGREES), "rad/s": ("deg/s", DEGREES), "s": ("ms", 1e3)}
+
+
+@dataclass(frozen=True)
+class Spoken:
+    """A number of an effect as it is said: value and both ends of its interval as texts, unit, meaning."""
+
+    name: str
+    value: str
+    low: str
+    high: str
+    unit: str
+    meaning: str = ""
+
+    @property
+    def size(self) -> str:
+        """Return value and unit, as "0.324 mm"."""
+        return f"{self.value} {self.unit}".strip()
+
+    def __str__(self) -> str:
+        """Return "0.324 mm (90 %: 0.320 to 0.327)"."""
+        return f"{self.size} (90 %: {self.low} to {self.high})"
+
+
+def spoken(name: str, value: float | None, low: float | None, high: float | None, unit: str) -> Spoken:
+    """Return a number named "effect.key" as a person says it; a ratio to a stated value as the per cent off it."""
+    known = quantity_of(name)
+    meaning = known.meaning if known is not None else ""
+    numbers = [math.inf if x is None else x for x in (value, low, high)]
+    if known is not None and known.unit == "1" and known.absent == 1.0 and " over " in known.meaning:
+        return Spoken(name, *(f"{100 * (x - 1):+.2g}" for x in numbers), "%", meaning)
+    said, factor = SPOKEN.get(unit, ("" if unit == "1" else unit, 1.0))
+    return Spoken(name, *(figures(x * factor) for x in numbers), said, meaning)
+
+
+def figures(value: float) -> str:
+    """Return a number with three figures, as people write it."""
+    if math.isinf(value):
+        return "∞" if value > 0 else "-∞"
+    size = abs(value)
+    return f"{value:.3g}" if size == 0 or 1e-3 <= size < 1e4 else f"{value:.2e}"
+
+
+def quantity_of(name: str) -> Quantity | None:
+    """Return what is known of a number named "effect.key" or "effect.key[run]", or None."""
+    id, _, key = name.partition(".")
+    kind = catalogue.EFFECTS.get(id) or catalogue.OWN.get(id)
+    return None if kind is None else kind.quantities.get(key.partition("[")[0])
+
+
+def spoken_amplitudes(amplitudes: Mapping[str, Mapping[str, Any]], most: int | None = None) -> list[Spoken]:
+    """Return the numbers of a diagnosis as they are said, those that all runs share, at most so many."""
+    shared = [(name, a) for name, a in amplitudes.items() if "[" not in name]
+    return [spoken(name, a["value"], a["low"], a["high"], a["unit"]) for name, a in shared[:most]]
