@@ -42,9 +42,11 @@ def spoken(name: str, value: float | None, low: float | None, high: float | None
     meaning = known.meaning if known is not None else ""
     numbers = [math.inf if x is None else x for x in (value, low, high)]
     if known is not None and known.unit == "1" and known.absent == 1.0 and " over " in known.meaning:
-        return Spoken(name, *(f"{100 * (x - 1):+.2g}" for x in numbers), "%", meaning)
+        middle, least, most = (f"{100 * (x - 1):+.2g}" for x in numbers)
+        return Spoken(name, middle, least, most, "%", meaning)
     said, factor = SPOKEN.get(unit, ("" if unit == "1" else unit, 1.0))
-    return Spoken(name, *(figures(x * factor) for x in numbers), said, meaning)
+    middle, least, most = (figures(x * factor) for x in numbers)
+    return Spoken(name, middle, least, most, said, meaning)
 
 
 def figures(value: float) -> str:
