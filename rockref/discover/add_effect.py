@@ -39,6 +39,7 @@ from rockref.discover.fit_store import FitStore
 from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened
 from rockref.discover.progress import StageCounter, StageReport
+from rockref.discover.verdict.calibration import calibration
 from rockref.effects import catalogue
 from rockref.measure.experiment import Experiment
 from rockref.measure.impacts import main_impacts
@@ -167,7 +168,7 @@ def add_effect(
     problem.progress.begin("held-out", "checking on held-out runs", after.name)
     states = [state_of(fitter, h, whole) for h in (before, after)]
     problem.progress.begin("intervals", "computing intervals")
-    said = hypothesis_evidence(fitter, after)
+    said = hypothesis_evidence(fitter, after, calibration().temperature)
     history = [*earlier(base, problem.carried), *(state.to_dict() for state in states)]
     return Addition(
         experiment=experiment,

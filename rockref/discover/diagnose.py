@@ -217,7 +217,7 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     null = next(h for h in fits if h.effects == problem.carried)
     kept = list(dict.fromkeys([*fits[:STORED], null]))
     problem.progress.begin("evidence", "weighing the evidence", fits[0].name)
-    said = {h.effects: hypothesis_evidence(fitter, h) for h in kept}
+    said = {h.effects: hypothesis_evidence(fitter, h, calibration().temperature) for h in kept}
     listener = problem.listener
     runs = experiment.holdout_runs()
     held = Listener(experiment, runs, listener.end, listener.workers) if runs else None
@@ -234,7 +234,8 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     ranked = alternatives(evidence, calibration())
     if held is not None:
         problem.progress.begin("evidence", "checking on held-out runs")
-        for effects in dict.fromkeys([null.effects, *(a.evidence.effects for a in ranked[:ASKED])]):
+        stands = decide(evidence).best.effects
+        for effects in dict.fromkeys([null.effects, stands, *(a.evidence.effects for a in ranked[:ASKED])]):
             add_held_out(said[effects], fitter, next(h for h in kept if h.effects == effects), held)
     best = next(h for h in kept if h.effects == ranked[0].evidence.effects)
     evidence.signature = misfit(fitter, null, best)

@@ -22,7 +22,7 @@ from rockref.discover.compare.models import baseline_model
 from rockref.discover.evidence.collect import hypothesis_evidence
 from rockref.discover.evidence.evidence import HypothesisEvidence
 from rockref.discover.evidence.result import model_of
-from rockref.discover.evidence.widths import covariance
+from rockref.discover.evidence.widths import deviations
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.problem import END, FitProblem, fit_problem
 from rockref.discover.fit.stages import S1, S2, S3, F
@@ -144,7 +144,7 @@ def fit_baseline(
     ends = checked(fitter, h, earlier, seed) if check else ([], h, None)
     gates, h, said = ends
     if said is None:
-        said = hypothesis_evidence(fitter, h)
+        said = hypothesis_evidence(fitter, h, calibration().temperature)
     outcome, run = outcome_of(gates, said)
     state = {"effects": list(h.effects), "fit_deg_s": said.error["total"]}
     return BaselineFit(
@@ -306,15 +306,15 @@ def checked(
     Where the innovations are not white the model is wrong: stages and starts then need not agree, and are not asked.
     """
     fitter.problem.progress.begin("gates", "checking the innovations", h.name)
-    said = hypothesis_evidence(fitter, h)
+    said = hypothesis_evidence(fitter, h, calibration().temperature)
     white = innovations_white(said, calibration())
     if not white.passed:
         return [white], h, said
     best, other, earlier = other_starts(fitter, h, earlier, seed)
     if best is not h:
-        said = hypothesis_evidence(fitter, best)
+        said = hypothesis_evidence(fitter, best, calibration().temperature)
     parameters = fitter.parameters(best)
-    width = deviations(fitter, best)
+    width, _ = deviations(fitter, fitter.evaluate(best, F), F, calibration().temperature)
     gates = [
         stages_agree(parameters, earlier, best.z, width),
         starts_agree(parameters, other.z, best.z, width),
@@ -323,11 +323,6 @@ def checked(
         innovations_white(said, calibration()),
     ]
     return gates, best, said
-
-
-def deviations(fitter: Fitter, h: FittedModel) -> np.ndarray:
-    """Return the standard deviations (G,) of the numbers of a fit at F, in prior deviations."""
-    return np.sqrt(np.diag(covariance(fitter, fitter.evaluate(h, F), F)[0]))
 
 
 def other_starts(
@@ -348,7 +343,7 @@ def other_starts(
         ends.append((other, at_s3))
         ends.sort(key=lambda end: end[0].objective)
         best = ends[0][0]
-        width = deviations(fitter, best)
+        width, _ = deviations(fitter, fitter.evaluate(best, F), F, calibration().temperature)
         gates = [starts_agree(fitter.parameters(h), end.z, best.z, width) for end, _ in ends[1:]]
         nearest = int(np.argmin([gate.value for gate in gates]))
         if gates[nearest].passed:

@@ -10,7 +10,7 @@ import numpy as np
 from rockref.discover.compare.stretches import AXES
 from rockref.discover.evidence.evidence import HypothesisEvidence, Number
 from rockref.discover.evidence.held_out import held_out_fit
-from rockref.discover.evidence.widths import covariance
+from rockref.discover.evidence.widths import deviations
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import loss
 from rockref.discover.fit.stages import F
@@ -27,13 +27,13 @@ BLOCK, FAR_ABOVE = 0.05, 1.5
 TRIMMED = 0.10
 
 
-def hypothesis_evidence(fitter: Fitter, h: FittedModel) -> HypothesisEvidence:
-    """Return what a fit at the longest memory says of the fit runs."""
+def hypothesis_evidence(fitter: Fitter, h: FittedModel, temperature: float) -> HypothesisEvidence:
+    """Return what a fit at the longest memory says of the fit runs; temperature : of the evidence."""
     fitter.evaluate(h, F)
-    covariance_, H = covariance(fitter, h, F)
+    deviation, H = deviations(fitter, h, F, temperature)
     runs = fitter.problem.runs
     parameters = fitter.parameters(h)
-    found = numbers_of(parameters, h.z, covariance_)
+    found = numbers_of(parameters, h.z, deviation)
     law = [abs(float(z)) for p, z in zip(parameters, h.z, strict=True) if not p.effect and p.run is None]
     return HypothesisEvidence(
         effects=h.effects,
@@ -75,13 +75,13 @@ def errors(fitter: Fitter, h: FittedModel) -> dict[str, float]:
     return {**dict(zip(AXES, map(float, by_axis), strict=True)), "total": float(np.sqrt(square[kept].mean()))}
 
 
-def numbers_of(parameters: Sequence[Parameter], z: np.ndarray, covariance_: np.ndarray) -> dict[str, Number]:
+def numbers_of(parameters: Sequence[Parameter], z: np.ndarray, deviation: np.ndarray) -> dict[str, Number]:
     """Return the numbers that all runs share, and those of effects in single runs, with their 90 % intervals."""
     found = {}
     for k, p in enumerate(parameters):
         if not p.effect and p.run is not None:
             continue
-        half = NINETY * float(np.sqrt(covariance_[k, k]))
+        half = NINETY * float(deviation[k])
         ends = sorted(own_value(p, float(np.clip(z[k] + s * half, p.least, p.most))) for s in (-1, 1))
         size = float(z[k]) / p.typical if p.typical else 0.0
         found[p.name] = Number(own_value(p, float(z[k])), ends[0], ends[1], p.unit, float(z[k]), size)

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import inflation_for
 from rockref.discover.fit.stages import S1, S2, F
@@ -23,6 +25,8 @@ MARGIN = 1.15
 FIRST_SWING = 0.85
 #: Steps that size a sensor's error from the release.
 SIZED = 3
+#: Nats that an effect has to gain (decided: what the temperature of the evidence and odds of one in twenty ask for).
+WORTH = 54.0
 #: Mean loss that inflated noise leaves where an addition is proposed far from the valley.
 WARM = 1.5
 
@@ -74,6 +78,26 @@ def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
         found.append(FittedModel(h.effects, h.z.copy()))
         found[-1].z[:own] = base.z
     return found
+
+
+def seen_at_release(fitter: Fitter, base: FittedModel) -> FittedModel | None:
+    """Return the base with the effect that the first swing alone shows, sized there at a long memory, or None.
+
+    Before the first impact the motion hardly depends on the feet. What is seen there is found before the feet are, or
+    the feet bend towards it.
+    """
+    stage = F.upto(FIRST_SWING * first_impact(fitter))
+    null = fitter.tempered(base.copy(), stage, SIZED)
+    fitter.refine(null, stage, SIZED)
+    added = proposals(fitter, null, stage, FIRST)
+    for h in added:
+        fitter.refine(h, stage, SIZED)
+    best = min(added, key=lambda h: h.objective)
+    say(fitter, "first swing", [null, *within(added, SECOND)])
+    if null.objective - best.objective < WORTH:
+        return None
+    own = len(base.z)
+    return FittedModel(best.effects, np.concatenate([base.z, best.z[own:]]))
 
 
 def say(fitter: Fitter, stage: str, field: Sequence[FittedModel]) -> None:

@@ -15,7 +15,7 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit
-from rockref.discover.selection.halving import halving, say, within
+from rockref.discover.selection.halving import WORTH, halving, say, seen_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.tone import tone
 
@@ -33,10 +33,18 @@ JOINS = {"S3": 0.01, "F": 0.006}
 BEAM, ADDED, MOST = 4, 3, 3
 #: Hypotheses within the margin beside which one more effect is tried.
 EQUALS = 2
+#: Finalists, the factor on the best objective up to which one is, and the steps that one may take (decided: what is
+#: further above has no probability; fits end by gaining nothing long before that).
+FINALISTS, CLOSE, CONVERGED = 4, 1.02, 10
 #: Steps at the later stages.
 STEPS = {"S3": 3, "F": 4}
 #: Words for the stages of longer memory.
 MEMORY = {"S3": "refining the best models", "F": "testing every effect again at the longest memory"}
+
+
+def penalised(h: FittedModel) -> float:
+    """Return the objective and what each effect has to gain [nat]."""
+    return h.objective + WORTH * len(h.effects)
 
 
 class Search:
@@ -90,7 +98,12 @@ class Search:
                 break
             beam += added
             self.fitter.settle(self.best(beam), S2, 4)
-            if not self.is_explained(now := self.best(beam)):
+            now = self.best(beam)
+            if best.effects == self.problem.carried and not self.is_explained(now):
+                seen = seen_at_release(self.fitter, best)
+                if seen is not None and seen.effects != now.effects:
+                    beam.append(self.anywhere(seen))
+            if not self.is_explained(self.best(beam)):
                 beam.append(self.anywhere(now))
             if self.best(beam).loss - WHITE > LEAVES * (best.loss - WHITE):
                 break
@@ -165,9 +178,25 @@ class Search:
         if not any(h.effects == self.problem.carried for h in [*beam, *found]):
             found.append(self.fitter.refine(self.baseline.copy(), F, 3))
         self.remember([*beam, *found])
-        beam = best_of_each([*beam, *found, *self.seen.values()])
-        beam.sort(key=lambda h: h.objective)
-        return beam
+        return self.converged(best_of_each([*beam, *found, *self.seen.values()]))
+
+    def converged(self, beam: list[FittedModel]) -> list[FittedModel]:
+        """Refine the finalists until no step gains, and each subset of the best from the optimum of the best.
+
+        A fit that stops early, or in a local minimum, lies hundreds of nats too high; a common start compares effects.
+        """
+        finalists = sorted((h for h in beam if h.objective <= CLOSE * self.best(beam).objective), key=penalised)
+        for h in finalists[:FINALISTS]:
+            self.problem.say(f"finalist {h.name}")
+            self.fitter.refine(h, F, CONVERGED)
+        best = min(beam, key=penalised)
+        for h in finalists[:FINALISTS]:
+            if set(h.effects) < set(best.effects):
+                start = best
+                for e in set(best.effects) - set(h.effects):
+                    start = self.fitter.without(start, e)
+                beam.append(self.fitter.refine(start, F, CONVERGED))
+        return sorted(best_of_each(beam), key=lambda h: h.objective)
 
     def remember(self, field: Sequence[FittedModel]) -> None:
         """Keep the best fit of each set of effects at the longest memory."""

@@ -3,12 +3,14 @@
 1. Each hypothesis has a probability: Laplace's evidence at one temperature, times the prior odds of its effects.
 2. An effect too small to matter gives its probability to the hypothesis without it.
 3. If even the best hypothesis leaves innovations above the floor, the runs are not explained: by one run alone, or all.
-4. The smallest set of hypotheses that is certain is the verdict: none, one, two effects, or a class.
+4. The verdict is the most probable set where it is certain; else the effects that are certain to be in it, summed over
+   all sets; else the smallest class of sets that is certain.
 5. Held-out runs have to show what the fit runs say.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -33,6 +35,7 @@ class Verdict:
     """A verdict: its word, its effects, its probability; all alternatives, and the fit that it stands on.
 
     reason : why, as a key of the sentences;  run : the run that contradicts the others, if one does
+    fit : what it stands on, where that is not the most probable set
     """
 
     word: str
@@ -41,11 +44,12 @@ class Verdict:
     alternatives: tuple[Alternative, ...]
     reason: str = ""
     run: str = ""
+    fit: HypothesisEvidence | None = field(default=None, repr=False)
 
     @property
     def best(self) -> HypothesisEvidence:
         """Return the fit that the verdict stands on."""
-        return self.alternatives[0].evidence
+        return self.alternatives[0].evidence if self.fit is None else self.fit
 
 
 def decide(evidence: Evidence, numbers: Calibration | None = None) -> Verdict:
@@ -61,9 +65,7 @@ def decide(evidence: Evidence, numbers: Calibration | None = None) -> Verdict:
         return undecided(evidence, found, c)
     if not best.effects:
         return Verdict("none", (), best.probability, found)
-    if not is_proven(evidence, best, c):
-        return Verdict("indicated", best.effects, best.probability, found, "held_out")
-    return Verdict("named" if len(best.effects) == 1 else "pair", best.effects, best.probability, found)
+    return proven_or_indicated(evidence, found, best.effects, best.probability, c)
 
 
 def alternatives(evidence: Evidence, c: Calibration) -> tuple[Alternative, ...]:
@@ -108,24 +110,47 @@ def undecided(evidence: Evidence, found: tuple[Alternative, ...], c: Calibration
         members.append(a)
         if sum(m.probability for m in members) >= c.certain:
             break
-    names = [m.effects for m in members if m.effects]
-    total = sum(m.probability for m in members)
-    if len(members) != len(names):  # nothing is one of them
+    if any(not m.effects for m in members):
         if found[0].effects == ():
             return Verdict("none", (), found[0].probability, found, "not_excluded")
-        return Verdict("indicated", found[0].effects, found[0].probability, found, "or_nothing")
-    common = set(names[0]).intersection(*names[1:])
-    if common and len(common) == len(names[0]):  # all hold the first; more beside it is not certain
-        return proven_or_indicated(evidence, found, names[0], total, c)
-    flat = tuple(dict.fromkeys(e for effects in names for e in effects))
-    return Verdict("class", flat, total, found)
+        return Verdict("indicated", by_weight(evidence, found[0].effects), found[0].probability, found, "or_nothing")
+    inclusion = inclusion_probabilities(found)
+    certain = [e for e, probability in inclusion.items() if probability >= c.certain]
+    if certain:
+        return proven_or_indicated(evidence, found, certain, min(inclusion[e] for e in certain), c, "or_more")
+    flat = tuple(dict.fromkeys(e for m in members for e in by_weight(evidence, m.effects)))
+    return Verdict("class", flat, sum(m.probability for m in members), found)
 
 
-def proven_or_indicated(evidence, found, effects, probability: float, c: Calibration) -> Verdict:
-    """Return the verdict for effects that all probable sets have in common."""
-    proven = is_proven(evidence, found[0], c)
+def inclusion_probabilities(found: tuple[Alternative, ...]) -> dict[str, float]:
+    """Return the probability of each effect, whatever else is there: the sum over the sets that hold it.
+
+    M. M. Barbieri, J. O. Berger (2004), Optimal predictive model selection, Ann. Statist. 32:870-897,
+    doi:10.1214/009053604000000238.
+    """
+    every = dict.fromkeys(e for a in found for e in a.effects)
+    return {e: sum(a.probability for a in found if e in a.effects) for e in every}
+
+
+def by_weight(evidence: Evidence, effects: Iterable[str]) -> tuple[str, ...]:
+    """Return effects, first the one without which the runs are explained worst."""
+
+    def without(effect: str) -> float:
+        return min((h.objective for h in evidence.hypotheses if effect not in h.effects), default=np.inf)
+
+    return tuple(sorted(effects, key=lambda e: (-without(e), e)))
+
+
+def proven_or_indicated(
+    evidence: Evidence, found: tuple[Alternative, ...], effects: Iterable[str], probability: float, c: Calibration,
+    reason: str = "",
+) -> Verdict:  # fmt: skip
+    """Return the verdict of effects that are certain by the fit runs: what held-out runs show is named."""
+    effects = by_weight(evidence, effects)
+    stands = next((a for a in found if set(a.effects) == set(effects)), found[0])
+    proven = is_proven(evidence, stands, c)
     word = "indicated" if not proven else "named" if len(effects) == 1 else "pair"
-    return Verdict(word, effects, probability, found, "" if proven else "held_out")
+    return Verdict(word, effects, probability, found, reason if proven else "held_out", fit=stands.evidence)
 
 
 def is_proven(evidence: Evidence, best: Alternative, c: Calibration) -> bool:

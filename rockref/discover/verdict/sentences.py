@@ -45,13 +45,24 @@ def unseen(evidence: Evidence) -> str:
 
 def one_effect(verdict: Verdict, evidence: Evidence) -> str:
     """Return the sentence of a verdict that names an effect."""
-    return f"{verdict.effects[0]} is missing: with it, fit runs and held-out runs are explained."
+    return f"{verdict.effects[0]} is missing: with it, fit runs and held-out runs are explained." + beside(verdict)
 
 
 def several_effects(verdict: Verdict, evidence: Evidence) -> str:
     """Return the sentence of a verdict that names two effects or more."""
     count = {2: "Two", 3: "Three"}.get(len(verdict.effects), "Several")
-    return f"{count} effects are missing: {joined(verdict.effects)}."
+    return f"{count} effects are missing: {joined(verdict.effects)}." + beside(verdict)
+
+
+def beside(verdict: Verdict) -> str:
+    """Return a sentence on what may be there beside the effects that are certain, or ""."""
+    if verdict.reason != "or_more":
+        return ""
+    more = next((a for a in verdict.alternatives if set(a.effects) > set(verdict.effects)), None)
+    if more is None:
+        return ""
+    rest = [e for e in more.effects if e not in verdict.effects]
+    return f" Beside it, {joined(rest)} may be there (probability {more.probability:.2f})."
 
 
 def indication(verdict: Verdict, evidence: Evidence) -> str:
