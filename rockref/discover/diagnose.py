@@ -39,6 +39,8 @@ STORED, ASKED = 8, 3
 #: Stages of a diagnosis, each with its share of the time in per cent (measured on a shipped experiment that needs them
 #: all).
 STAGES = {"baseline": 5.0, "starts": 29.0, "effects": 30.0, "S3": 15.0, "F": 12.0, "without": 5.0, "evidence": 4.0}
+#: Remarks that tell of a fault of the sensor, which no hypothesis about the block explains.
+SENSOR_CODES = ("W-ZERO", "W-LAG", "W-HUM")
 STRETCH = (
     "innovations of a model that listens to the record with a memory of 40 ms, over the first {end:.2g} s of each run; "
     "the worst tenth of blocks of 50 ms left out"
@@ -229,6 +231,7 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
         hypotheses=list(said.values()),
         carried=problem.carried,
         remarks=tuple(sorted({notice.code for notice in experiment.notices})),
+        sensor_faults=tuple(f"{n.where} {n.what}" for n in experiment.notices if n.code in SENSOR_CODES),
         cost={"block_steps": float(listener.simulated)},
     )
     ranked = alternatives(evidence, calibration())

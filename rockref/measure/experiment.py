@@ -16,7 +16,7 @@ from rockref.measure.checklist import checked
 from rockref.measure.columns import DEGREE, POSE, RATES
 from rockref.measure.copies import note_copies
 from rockref.measure.datasheet import completed
-from rockref.measure.keys import BLOCK, FIT, GYRO, HOLDOUT, RELEASE, USES, check_complete, run_fields, top_fields
+from rockref.measure.keys import BLOCK, FIT, GYRO, HOLDOUT, PRIOR, RELEASE, USES, check_complete, run_fields, top_fields
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import shown
 from rockref.measure.schema import read_fields, read_toml
@@ -104,6 +104,7 @@ class Experiment:
     ``four_points``); ``mass`` kg; ``width``, ``height`` m; ``tilt_uncertainty`` rad or None; ``gyro`` or None;
     ``runs`` in the order of the file; ``notices``; ``toml_sha256``;
     ``sensor_faults``, what is no motion of the block: zeros that shift, late channels, hum.
+    ``prior``: ranges of the law's numbers that fits stay in, by name (SI), where they are stated.
     """
 
     path: Path
@@ -119,6 +120,7 @@ class Experiment:
     notices: tuple[Notice, ...] = field(default=(), repr=False)
     toml_sha256: str = field(default="", repr=False)
     sensor_faults: tuple[SensorFault, ...] = field(default=(), repr=False)
+    prior: dict[str, tuple[float, float]] = field(default_factory=dict, repr=False)
 
     def __repr__(self) -> str:
         """Return the experiment in a line."""
@@ -207,6 +209,7 @@ def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:
         raise _bad_name(f"{source}, key name", top["name"])
     block = read_fields(top["block"], BLOCK, f"{source}, [block]")
     tilt = read_fields(top["release"], RELEASE, f"{source}, [release]") if top["release"] is not None else {}
+    prior = read_fields(top["prior"], PRIOR, f"{source}, [prior]") if top["prior"] is not None else {}
     return Experiment(
         path=folder,
         name=top["name"],
@@ -216,6 +219,7 @@ def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:
         width=block["width"],
         height=block["height"],
         tilt_uncertainty=tilt.get("tilt_uncertainty"),
+        prior={key: ends for key, ends in prior.items() if ends is not None},
         gyro=None,
         runs=(),
     )

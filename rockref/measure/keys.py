@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from rockref.measure.columns import DEGREE
-from rockref.measure.schema import Field, Number, Section, Text, refuse_unknown
+from rockref.measure.schema import Field, Number, Range, Section, Text, refuse_unknown
 from rockref.model.errors import InputError
 
 FIT, HOLDOUT = "fit", "holdout"
@@ -27,6 +27,14 @@ BLOCK = (
     Number("height", _LENGTH, 1e-3, 100.0, example="0.688"),
 )
 RELEASE = (Number("tilt_uncertainty", _ANGLE, 0.0, 0.5, required=False),)
+# Ranges of the law's numbers that replace the wide ones of a fit; decided: what `rockref.api.Model` takes.
+PRIOR = (
+    Range("K_N", {"N_m": 1.0}, 1.0, 1e13, required=False),
+    Range("K_T_over_K_N", {"": 1.0}, 1e-3, 1e3, required=False),
+    *(Range(name, {"": 1.0}, 1e-4, 10.0, required=False) for name in ("beta_int", "beta_ext", "mu_int", "mu_ext")),
+    Range("delta_long", _LENGTH, -1.0, 1.0, required=False),
+    Range("delta_diag", _LENGTH, 1e-6, 10.0, required=False),
+)
 GYRO = (
     Number("sample_rate", _HZ, 10.0, 1e6, example="1000"),
     Number("noise", _RATE, 0.0, 2.0, required=False),
@@ -45,6 +53,7 @@ def top_fields(release: bool) -> tuple[Field, ...]:
         Section("block"),
         Section("release", required=False),
         Section("gyro", required=release),
+        Section("prior", required=False),
         Section("run", many=True),
     )
 

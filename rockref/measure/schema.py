@@ -37,6 +37,11 @@ class Number:
 
 
 @dataclass(frozen=True)
+class Range(Number):
+    """Two numbers with a unit, the lower one first: a list ``[low, high]``."""
+
+
+@dataclass(frozen=True)
 class Text:
     """A piece of text: one of `choices`, or anything short if there are none."""
 
@@ -129,8 +134,8 @@ def refuse_unknown(table: Mapping[str, Any], fields: Sequence[Field], where: str
 
 def _read(field: Field, key: str, value: Any, where: str) -> Any:
     if isinstance(field, Number):
-        unit = key[len(field.name) + 1 :]
-        return _number(value, field, field.units[unit], where)
+        factor = field.units[key[len(field.name) + 1 :]]
+        return (_range if isinstance(field, Range) else _number)(value, field, factor, where)
     if isinstance(field, Text):
         return _text(value, field, where)
     if field.many:
@@ -151,6 +156,15 @@ def _number(value: Any, field: Number, factor: float, where: str) -> float:
         what = f"{_value(value)} is outside {low:.6g} to {high:.6g}"
         raise InputError("E-RANGE", where, what, "Check the number and its unit.")
     return float(value) * factor
+
+
+def _range(value: Any, field: Number, factor: float, where: str) -> tuple[float, float]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError("E-TYPE", where, f"{_value(value)} is not a range", "Write [low, high].")
+    low, high = (_number(number, field, factor, where) for number in value)
+    if not low < high:
+        raise InputError("E-RANGE", where, f"{low:.6g} to {high:.6g} is empty", "Write the lower number first.")
+    return low, high
 
 
 def _text(value: Any, field: Text, where: str) -> str:

@@ -65,7 +65,8 @@ class Evidence:
     """All that a verdict may see.
 
     samples : innovations of the fit runs;  held_out_samples : of each held-out run
-    remarks : codes of the remarks on the records;  limits : least detectable amplitudes [typical sizes]
+    remarks : codes of the remarks on the records;  sensor_faults : those that are faults of the sensor, in words
+    limits : least detectable amplitudes [typical sizes]
     confusions : cosines between effects that these runs hardly tell apart;  separating : the run that would, in words
     """
 
@@ -76,6 +77,7 @@ class Evidence:
     hypotheses: list[HypothesisEvidence]
     carried: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
+    sensor_faults: tuple[str, ...] = ()
     signature: dict[str, Any] = field(default_factory=dict)
     limits: dict[str, dict[str, Any]] = field(default_factory=dict)
     confusions: dict[str, dict[str, float]] = field(default_factory=dict)
@@ -125,8 +127,8 @@ class Evidence:
                 })
                 for h in given["hypotheses"]
             ]  # fmt: skip
-            for key in ("carried", "remarks"):
-                given[key] = tuple(given[key])
+            for key in ("carried", "remarks", "sensor_faults"):
+                given[key] = tuple(given.get(key, ()))
             return cls(**given)
         except (KeyError, TypeError) as e:
             raise InputError("E-JSON", where, f"is no evidence ({e})", "Diagnose the experiment again.") from e

@@ -68,7 +68,7 @@ class FitProblem:
         if key not in self._known:
             R = len(self.runs)
             uncertainty = self.experiment.tilt_uncertainty or TILT_UNCERTAINTY
-            found = [*law_parameters(self.base), *release_parameters(R, uncertainty)]
+            found = [*law_parameters(self.base, self.experiment.prior), *release_parameters(R, uncertainty)]
             for id in effects:
                 found += [within_base(p, self.base) for p in effect_parameters(id, R, self.tone)]
             self._known[key] = tuple(found)

@@ -82,8 +82,12 @@ def moved_parameters(model: Model) -> tuple[str, ...]:
     return names
 
 
-def law_parameters(model: Model) -> tuple[Parameter, ...]:
-    """Return the law's parameters with wide priors, eleven on eight points."""
+def law_parameters(model: Model, stated: Mapping[str, tuple[float, float]] | None = None) -> tuple[Parameter, ...]:
+    """Return the law's parameters with wide priors, eleven on eight points.
+
+    stated : ranges of an experiment's own, by the names of its `[prior]` (SI), which take the place of the wide ones
+    """
+    own = stated or {}
     m, width = float(model.mass), float(model.width)
     most = max(1.0, width / HEIGHT_WIDTH)
     ranges: dict[str, tuple[float, float]] = {
@@ -95,10 +99,12 @@ def law_parameters(model: Model) -> tuple[Parameter, ...]:
     found = []
     for name in moved_parameters(model):
         if name == "K_T":
-            found.append(bounded("K_T", set_tangential_ratio, TANGENTIAL, "log_uniform"))
+            limits = own.get("K_T_over_K_N", TANGENTIAL)
+            found.append(bounded("K_T", set_tangential_ratio, limits, "log_uniform"))
             continue
-        scale = "uniform" if name.startswith("delta_long_") else "log_uniform"
-        found.append(bounded(name, set_parameter(name), ranges[name], scale))
+        of_height = name.startswith("delta_long_")
+        limits = own.get("delta_long" if of_height else name, ranges[name])
+        found.append(bounded(name, set_parameter(name), limits, "uniform" if of_height else "log_uniform"))
     return tuple(found)
 
 

@@ -60,7 +60,8 @@ def decide(evidence: Evidence, numbers: Calibration | None = None) -> Verdict:
     if (run := contradicting_run(best.evidence, c)) is not None:
         return Verdict("not_trustworthy", (), best.probability, found, "run", run)
     if not is_explained(best.evidence, c):
-        return Verdict("something_else", (), best.probability, found, "misfit")
+        reason = "sensor" if evidence.sensor_faults else "misfit"
+        return Verdict("something_else", (), best.probability, found, reason)
     if best.probability < c.certain:
         return undecided(evidence, found, c)
     if not best.effects:

@@ -82,6 +82,11 @@ def one_of_several(verdict: Verdict, evidence: Evidence) -> str:
 def unexplained(verdict: Verdict, evidence: Evidence) -> str:
     """Return the sentence of a verdict that no effect of the catalogue explains."""
     h = verdict.best
+    if verdict.reason == "sensor":
+        return (
+            f"The records hold a fault of the sensor, and no hypothesis about the block explains it: "
+            f"{'; '.join(evidence.sensor_faults)}. Mend the records, then diagnose again."
+        )
     near = f"the nearest hypothesis, {joined(h.effects)}," if h.effects else "the baseline"
     return (
         f"Something moves the block that is not in the catalogue: {near} leaves innovations with a mean loss of "

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from rockref.measure.schema import Number, Section, Text, read_fields, read_toml
+from rockref.measure.schema import Number, Range, Section, Text, read_fields, read_toml
 from rockref.model.errors import InputError
 
 FIELDS = (
@@ -114,3 +114,12 @@ def test_many_dotted_keys_take_no_time(tmp_path):
     assert list(document) == ["a"]
     with pytest.raises(InputError, match="the key is not known"):
         read_fields(document, FIELDS, "here")
+
+
+def test_a_range_is_two_numbers_in_si_the_lower_one_first():
+    fields = (Range("height", {"mm": 1e-3}, -1.0, 1.0, required=False),)
+    assert read_fields({"height_mm": [0, 0.2]}, fields, "here") == {"height": (0.0, pytest.approx(2e-4, rel=1e-15))}
+    for value, code in ([0.2, 0.0], "E-RANGE"), ([1.0], "E-TYPE"), (1.0, "E-TYPE"), ([0, 5000], "E-RANGE"):
+        with pytest.raises(InputError) as refused:
+            read_fields({"height_mm": value}, fields, "here")
+        assert refused.value.code == code and "height_mm" in refused.value.where

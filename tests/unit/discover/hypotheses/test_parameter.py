@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rockref import Model
-from rockref.discover.hypotheses.law import law_parameters, release_parameters
+from rockref.discover.hypotheses.law import law_parameters, release_parameters, with_law
 from rockref.discover.hypotheses.parameter import FARTHEST, Parameter
 
 SCALES = {
@@ -62,3 +62,20 @@ def test_each_run_has_a_tilt_and_a_roll_of_its_own():
     assert [p.run for p in found] == [0, 0, 1, 1, 2, 2]
     assert {p.kind for p in found} == {"tilt_offset", "roll_offset"}
     assert np.allclose([found[0].value(1.0), found[1].value(0.0)], [1.4e-3, 0.0])
+
+
+def test_an_experiment_may_state_ranges_of_its_own():
+    stated = {"mu_ext": (0.2, 0.3), "delta_long": (0.0, 5e-5), "K_T_over_K_N": (0.8, 0.9)}
+    own = {p.name: (p.low, p.high) for p in law_parameters(Model.table_3_1(), stated)}
+    wide = {p.name: (p.low, p.high) for p in law_parameters(Model.table_3_1())}
+    assert own["mu_ext"] == (0.2, 0.3) and own["delta_long_3"] == (0.0, 5e-5) and own["K_T"] == (0.8, 0.9)
+    assert own["mu_int"] == wide["mu_int"] and own["K_N"] == wide["K_N"]
+
+
+def test_several_numbers_of_the_law_are_set_as_one_after_another():
+    model = Model.table_3_1()
+    values = {p.name: p.value(0.3) for p in law_parameters(model)}
+    one_by_one = model
+    for p in law_parameters(model):
+        one_by_one = p.set(one_by_one, values[p.name])
+    assert with_law(model, values) == one_by_one

@@ -43,7 +43,24 @@ def test_an_effect_that_leads_is_named():
 
 def test_two_effects_are_a_pair():
     v = decide(evidence(NULL, DRAG, hypothesis(("quadratic_drag", "gyro_scale"), 16000.0)))
-    assert (v.word, v.effects) == ("pair", ("gyro_scale", "quadratic_drag"))
+    assert (v.word, set(v.effects)) == ("pair", {"gyro_scale", "quadratic_drag"})
+
+
+def test_the_effect_without_which_the_runs_are_explained_worst_comes_first():
+    scale = hypothesis(("gyro_scale",), 17500.0)
+    both = hypothesis(("quadratic_drag", "gyro_scale"), 16000.0)
+    for drag, first in (hypothesis(("quadratic_drag",), 17000.0), "quadratic_drag"), (
+        hypothesis(("quadratic_drag",), 18000.0), "gyro_scale"
+    ):  # fmt: skip
+        assert decide(evidence(NULL, drag, scale, both)).effects[0] == first
+
+
+def test_what_all_probable_sets_hold_is_named_and_what_may_be_beside_it_is_said():
+    more = [hypothesis(("quadratic_drag", e), 16930.0) for e in ("gyro_scale", "inertia_deviation")]
+    v = decide(evidence(NULL, DRAG, *more))
+    assert (v.word, v.effects, v.reason) == ("named", ("quadratic_drag",), "or_more")
+    assert v.probability > C.certain and v.best.effects == ("quadratic_drag",)
+    assert "may be there" in sentence(v, evidence(NULL, DRAG, *more))
 
 
 def test_what_held_out_runs_do_not_show_is_indicated():
@@ -65,6 +82,13 @@ def test_a_trifle_gives_its_probability_to_the_baseline():
 def test_what_nothing_explains_is_something_else():
     v = decide(evidence(hypothesis(loss=1.8), hypothesis(("quadratic_drag",), 16000.0, loss=1.5)))
     assert (v.word, v.effects) == ("something_else", ())
+
+
+def test_a_fault_of_the_sensor_is_not_blamed_on_the_block():
+    found = replace(evidence(hypothesis(loss=1.8)), sensor_faults=("run01.csv hums at 50 Hz",))
+    v = decide(found)
+    assert (v.word, v.reason) == ("something_else", "sensor")
+    assert "50 Hz" in sentence(v, found) and "moves the block" not in sentence(v, found)
 
 
 def test_one_axis_of_one_run_is_enough():
