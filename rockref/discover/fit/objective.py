@@ -45,12 +45,13 @@ def smoothed(r: np.ndarray, samples: float) -> np.ndarray:
     """Return Gaussian means along the third axis from the end, white noise kept at size one, thinned by their width."""
     if samples < 0.5:
         return r
-    from scipy.ndimage import gaussian_filter1d
-
-    width = max(1, round(samples))
-    kernel = gaussian_filter1d(np.eye(1, 8 * width + 9, 4 * width + 4)[0], samples, truncate=4)
-    mean = gaussian_filter1d(r, samples, axis=-2, truncate=4, mode="constant")
-    return mean[..., ::width, :] / math.sqrt(float(kernel @ kernel))
+    width, reach = max(1, round(samples)), int(4 * samples + 0.5)
+    kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / samples) ** 2)
+    kernel /= math.sqrt(float(kernel @ kernel))
+    ends = [(0, 0)] * r.ndim
+    ends[-2] = (reach, reach)
+    windows = np.lib.stride_tricks.sliding_window_view(np.pad(r, ends), len(kernel), axis=-2)
+    return windows[..., ::width, :, :] @ kernel
 
 
 def inflation_for(r: np.ndarray, count: int, level: float) -> float:

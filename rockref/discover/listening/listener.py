@@ -84,6 +84,7 @@ class Listener:
             [steepest(self.measured[i], self.sigma[i], self.gyro.sample_rate) for i in range(len(runs))]
         )
         self.ticks = grid(self.gyro.sample_rate, min(end, max(float(t[-1]) for t in self.t)))
+        self._at = [ticks_at(self.ticks, t) for t in self.t]
         self._targets: dict[tuple, Target] = {}
         self.simulated = 0
 
@@ -126,8 +127,9 @@ class Listener:
             shown = expected(ticks.t, rates[members], self.gyro, effects)
             for k, seen in zip(members, shown, strict=True):
                 j, i, _ = rows[k]
-                t = self.t[i][:N]
-                out[j, i, : len(t)] = limited(t, sample(ticks.t, seen, t), self.gyro, effects)
+                t, at = self.t[i][:N], self._at[i]
+                sampled = sample(ticks.t, seen, t) if at is None else seen[at[:N]]
+                out[j, i, : len(t)] = limited(t, sampled, self.gyro, effects)
         return steps
 
     def listened(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> tuple[np.ndarray, int]:
@@ -169,8 +171,19 @@ class Listener:
         """
         N = predicted.shape[-2]
         width = np.sqrt(self.sigma[:, None, :] ** 2 + (jitter * self.slope[:, :N]) ** 2)
-        r = (self.measured[:, :N] - predicted) / width
-        return np.clip(r, -FARTHEST, FARTHEST) * self.valid[:, :N, None]
+        r = self.measured[:, :N] - predicted
+        r /= width
+        np.clip(r, -FARTHEST, FARTHEST, out=r)
+        r *= self.valid[:, :N, None]
+        return r
+
+
+def ticks_at(ticks: Grid, t: np.ndarray) -> np.ndarray | None:
+    """Return which ticks the instants t (N,) [s] of a record are, (N,); None where they lie between ticks."""
+    near = np.rint(t / ticks.interval).astype(int)
+    # As `rockref.measure.gyroscope.sample` has it: a thousandth of a step is rounding of the clock.
+    is_tick = np.abs(near * ticks.interval - t) <= 1e-3 * ticks.interval
+    return near if is_tick.all() and near[-1] < ticks.count else None
 
 
 def record_of(run: Run) -> tuple[np.ndarray, np.ndarray]:

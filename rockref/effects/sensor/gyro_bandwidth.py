@@ -38,7 +38,7 @@ def undo_low_pass(crv: np.ndarray, rate: float, filters: tuple[tuple[float, floa
     filters : bandwidth [Hz] and damping of each.
     """
     n = crv.shape[-2]
-    pad = min(n - 1, int(rate / 2))
+    pad = min(n - 1, fast_pad(n, int(rate / 2)))
     start = 2 * crv[..., :1, :] - crv[..., pad:0:-1, :]
     end = 2 * crv[..., -1:, :] - crv[..., -2 : -pad - 2 : -1, :]
     # The transform sees the mirrored ends side by side: where they jumped, all rows would ring at half the rate.
@@ -54,6 +54,16 @@ def undo_low_pass(crv: np.ndarray, rate: float, filters: tuple[tuple[float, floa
         H = H * omega**2 / (s * s + 2 * damping * omega * s + omega**2)
     G = np.conj(H) / (np.abs(H) ** 2 + REGULARISATION) * (1 + REGULARISATION)
     return np.fft.irfft(np.fft.rfft(whole, axis=-2) * G[:, None], total, axis=-2)[..., pad : pad + n, :]
+
+
+def fast_pad(n: int, pad: int) -> int:
+    """Return the least length of the ends, `pad` or more, with which n and both of them have a fast transform."""
+    from scipy.fft import next_fast_len
+
+    total = next_fast_len(n + 2 * pad, real=True)
+    while (total - n) % 2:
+        total = next_fast_len(total + 1, real=True)
+    return (total - n) // 2
 
 
 def even_step(t: np.ndarray) -> float:
