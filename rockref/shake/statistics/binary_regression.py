@@ -67,7 +67,13 @@ def fit_binary(design: Any, fell: Any, link: Link = "logit") -> BinaryRegression
     # Orthonormal columns: the search sees the same scales whatever the units are.
     Q, R = np.linalg.qr(X)
     scale = np.sqrt(len(X))
-    found = minimize(lambda b: -penalised(Q * scale, y, b, link), np.zeros(X.shape[1]), method="BFGS")
+    Q *= scale
+    found = minimize(
+        lambda b: -penalised(Q, y, b, link),
+        np.zeros(X.shape[1]),
+        jac=lambda b: -_gradient(Q, y, b, link),
+        method="BFGS",
+    )
     coefficients = np.linalg.solve(R, found.x * scale)
     covariance = np.linalg.inv(_information(X, X @ coefficients, link))
     return BinaryRegression(link, coefficients, covariance, penalised(X, y, coefficients, link))
@@ -88,6 +94,18 @@ def penalised(X: np.ndarray, y: np.ndarray, coefficients: np.ndarray, link: Link
 def _information(X: np.ndarray, eta: np.ndarray, link: Link) -> np.ndarray:
     """Expected information (k, k): sum of w x x', w = h(eta)^2/(H (1 - H)), h the density of H."""
     return (X * np.exp(_log_weight(eta, link))[:, None]).T @ X
+
+
+def _gradient(X: np.ndarray, y: np.ndarray, coefficients: np.ndarray, link: Link) -> np.ndarray:
+    """Slope (k,) of the penalised likelihood: X' [d ln L/d eta + (leverage/2) d ln w/d eta], a row a test."""
+    eta = X @ coefficients
+    _, log_fell, log_stood = _forms(link)
+    log_density = log_fell(eta) + log_stood(eta) if link == "logit" else -0.5 * eta**2 - 0.5 * np.log(2.0 * np.pi)
+    up, down = np.exp(log_density - log_fell(eta)), np.exp(log_density - log_stood(eta))
+    weight = np.exp(_log_weight(eta, link))
+    leverage = weight * np.einsum("ij,ij->i", X, np.linalg.solve((X * weight[:, None]).T @ X, X.T).T)
+    slope_of_weight = up - down if link == "logit" else -2.0 * eta - up + down
+    return X.T @ (y * up - (1.0 - y) * down + 0.5 * leverage * slope_of_weight)
 
 
 def _log_weight(eta: np.ndarray, link: Link) -> np.ndarray:
