@@ -72,8 +72,9 @@ class State:
 class Addition:
     """What `rockref add` found: the model with the effect, the states before and after, the yardsticks.
 
-    numbers : of effects and of the law;  noise : of a sample [deg/s];  spread : by how much two repeated runs differ
-    about each axis [deg/s], None without repeats;  end : seconds used of each run
+    without : the model before;  numbers : of effects and of the law;  noise : of a sample [deg/s]
+    spread : by how much two repeated runs differ about each axis [deg/s], None without repeats
+    end : seconds used of each run
     """
 
     experiment: Experiment
@@ -88,6 +89,7 @@ class Addition:
     end: float
     seconds: float
     from_store: bool = False
+    without: Model | None = None
 
     @property
     def own_numbers(self) -> dict[str, Number]:
@@ -171,7 +173,7 @@ def add_effect(
     said = hypothesis_evidence(fitter, after, calibration().temperature)
     history = [*earlier(base, problem.carried), *(state.to_dict() for state in states)]
     return Addition(
-        experiment=experiment,
+        experiment=whole,
         effect=effect,
         before=states[0],
         after=states[1],
@@ -183,6 +185,7 @@ def add_effect(
         end=problem.listener.end,
         seconds=time.perf_counter() - started,
         from_store=known,
+        without=next(m for m in problem.job(fitter.parameters(before), before.z).models if m is not None),
     )
 
 

@@ -5,8 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from rockref.discover.add_effect import Addition
+from rockref.discover.compare.models import Comparison, compare
 from rockref.effects import catalogue
 from rockref.report.addition_text import axes_table, history_table, lines
+from rockref.report.card import card_of_addition
+from rockref.report.comparison_page import add_runs
+from rockref.report.diagnosis_page import ROOM, without_notes
 from rockref.report.falling import add_falling, history_figure
 from rockref.report.fit_text import estimates_table
 from rockref.report.page import Page
@@ -15,14 +19,28 @@ from rockref.report.page import Page
 def addition_page(a: Addition) -> Page:
     """Return the page."""
     page = Page(f"{a.experiment.name}: {a.effect} added", " ".join(lines(a)))
+    c = compared(a)
+    page.set_card(card_of_addition(a, c))
     page.add_section("What was added", catalogue.find(a.effect).sentence)
     page.add_table(estimates_table(a.own_numbers))
     add_errors(page, a)
+    page.add_section("Run by run")
+    left_out = add_runs(page, c, ROOM)
+    if left_out:
+        page.add_text(f"Left out, to keep the page small: curves of run {', '.join(left_out)}.")
     page.add_section("All numbers of the model")
     page.add_table(estimates_table(a.numbers))
     page.add_section("Where the numbers come from")
     page.add_provenance({k: v for k, v in a.model.origin.items() if k != "history"})
     return page
+
+
+def compared(a: Addition) -> Comparison:
+    """The model before and after, beside all runs from the release on."""
+    before = a.model.replace(effects=tuple(e for e in a.model.effects if e.id != a.effect))
+    models = [without_notes(before if a.without is None else a.without), without_notes(a.model)]
+    names = ["before", f"with {a.effect}"]
+    return compare(a.experiment, models, names, releases={})
 
 
 def add_errors(page: Page, a: Addition, title: str = "The error before and after") -> None:

@@ -101,21 +101,25 @@ def _repeats_differ(c: Comparison, stretch: str, axis: str) -> float:
     return DEGREES * math.sqrt(float(np.mean(squares))) if squares else float("nan")
 
 
-def run_curves(c: Comparison, k: int, end: float | None = None) -> Curves:
-    """Return the curves of one run: measured, every model, Housner about the main axis, contact points as lines."""
+def run_curves(c: Comparison, k: int, end: float | None = None, every: int = 1) -> Curves:
+    """Return the curves of one run: measured, every model, Housner about the main axis, contact points as lines.
+
+    every : of so many samples one is drawn, such that every extreme is.
+    """
     m = c.measured[k]
     run = m.run
     assert run.t is not None and run.crv is not None
     keep = slice(0, len(run.t) if end is None else int(np.searchsorted(run.t, end)))
     t, crv = run.t[keep], run.crv[keep] * DEGREES
+    last, t = float(t[-1]), thinned_times(t, every)
     panels = []
     for axis in range(3):
-        lines = [Line("measured", t, crv[:, axis])]
+        lines = [Line("measured", t, thinned(crv[:, axis], every))]
         for i, name in enumerate(c.names):
-            rates = c.results[i][k].modelled[keep, axis] * DEGREES
+            rates = thinned(c.results[i][k].modelled[keep, axis] * DEGREES, every)
             lines.append(Line(name, t, rates, style.colour(i), style.dash(i)))
         if axis == 0:
-            lines.append(housner_line(c, k, float(t[-1])))
+            lines.append(housner_line(c, k, last))
         panels.append(Panel(f"{AXES[axis]} (deg/s)", lines, height=150.0 if axis == 0 else 120.0))
     for i, name in enumerate(c.names):
         # A longer name does not fit beside the rows; the colour tells whose they are.
@@ -130,12 +134,45 @@ def run_curves(c: Comparison, k: int, end: float | None = None) -> Curves:
         sentence=(
             f"Body rates about the three axes in run {tables.run_name(c, k)}; models are aligned with its first main "
             f"impact. Below, a line for every contact point of the model{of_each} while it touches. "
-            "Red: main impacts of the run."
+            "Red: main impacts of the run." + (THINNED.format(every, 2 * every) if every > 1 else "")
         ),
         marks=[float(v) for v in impacts.times],
-        views=named_views(impacts, float(t[-1])),
+        views=named_views(impacts, last),
+        opening=opening_view(c, k, last),
         table=extremes_table(c, k),
     )
+
+
+#: What is said of thinned curves.
+THINNED = " Thinned to one sample in {}: of every {} the smallest and the largest are drawn."
+#: Opening view of a run: what it shows before a model leaves the band, and its length [s]; decided: an impact and the
+#: clatter after it.
+EARLIER, OPENED = 0.1, 0.6
+
+
+def thinned(y: np.ndarray, every: int) -> np.ndarray:
+    """Return (N // every) of the values (N,): of each 2 every the smallest and the largest, in their order."""
+    if every == 1:
+        return y
+    rows = y[: len(y) // (2 * every) * 2 * every].reshape(-1, 2 * every)
+    pair = np.sort(np.stack((rows.argmin(axis=1), rows.argmax(axis=1)), axis=1), axis=1)
+    return np.take_along_axis(rows, pair, axis=1).ravel()
+
+
+def thinned_times(t: np.ndarray, every: int) -> np.ndarray:
+    """Return the times of thinned values: even steps of `every` samples."""
+    return t if every == 1 else t[: len(t) // (2 * every) * 2 * every : every]
+
+
+def opening_view(c: Comparison, k: int, end: float) -> tuple[float, float] | None:
+    """Return the stretch [s] in which the first model leaves the band of a run; None where it never does."""
+    gone = c.results[0][k].leaves_band
+    if gone is None:
+        return None
+    first = c.measured[k].first_impact
+    start = max(0.0, min(gone.time, end - OPENED) - EARLIER)
+    # What begins before the first main impact shows after it.
+    return (start, min(end, max(start + OPENED, first + OPENED if math.isfinite(first) else 0.0)))
 
 
 def housner_line(c: Comparison, k: int, end: float) -> Line:

@@ -37,11 +37,13 @@ def curves(
     x_label: str = "time (s)",
     marks: Sequence[float] = (),
     views: Sequence[tuple[str, float, float]] = (),
+    opening: tuple[float, float] | None = None,
     table: Table | None = None,
 ) -> Curves:
     """Return curves over t (N,) s; every line of the panels has N values, or fewer at even steps of its own.
 
-    `marks` are main impacts, s; `views` are named stretches that a button leads to.
+    `marks` are main impacts, s; `views` are named stretches that a button leads to;
+    `opening` is the one that is shown first, by default all.
     """
     lines = [line for panel in panels for line in panel.lines]
     entries = list({line.name: (line.name, line.colour, line.dash) for line in lines}.values())
@@ -53,6 +55,8 @@ def curves(
         "views": [{"name": name, "from": a, "to": b} for name, a, b in views],
         "panels": [_panel(t, panel) for panel in panels],
     }
+    if opening is not None:
+        data["open"] = [round(float(end), 5) for end in opening]
     picture = chart(panels, title=title, x_label=x_label, x_limits=(float(t[0]), float(t[-1])), marks=marks)
     return Curves(title, sentence, picture, key(entries), table, data)
 

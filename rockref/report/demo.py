@@ -31,6 +31,7 @@ from rockref.model.response import Response
 from rockref.report import blocks, style
 from rockref.report.addition_page import add_errors
 from rockref.report.addition_text import lines as addition_lines
+from rockref.report.card import card_of_diagnosis
 from rockref.report.curves import curves
 from rockref.report.diagnosis_page import verdict_words
 from rockref.report.diagnosis_text import amplitudes_table, ranking_table
@@ -148,6 +149,8 @@ def the_missing_effect(story: Story) -> None:
     story.lines.append(f"{d.experiment.name}: {d.sentence}")
     page = story.page
     page.add_section("The missing effect", verdict_words(record))
+    if story.comparison is not None:
+        page.add_card(card_of_diagnosis(record, story.comparison))
     if record["amplitudes"]:
         page.add_table(amplitudes_table(record))
     if record["ranking"]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.compare.models import Comparison, baseline_model, compare
+from rockref.discover.compare.models import Comparison, compare
 from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnose import Diagnosis
@@ -17,6 +17,7 @@ from rockref.discover.diagnosis_record import plain
 from rockref.discover.evidence.result import OF_ONE_RELEASE
 from rockref.effects import catalogue
 from rockref.report import blocks, diagnosis_text, style, tables
+from rockref.report.card import card_of_diagnosis, fitted_baseline
 from rockref.report.comparison_page import add_runs
 from rockref.report.drawing import Line, Panel, chart, key
 from rockref.report.falling import levels
@@ -33,8 +34,8 @@ def write_diagnosis(d: Diagnosis, folder: Path, comparison: Comparison | None = 
 
 
 def compared(d: Diagnosis) -> Comparison:
-    """The nominal baseline and the model that was found, beside all runs from the release on."""
-    names, models = [BASELINE], [baseline_model(d.experiment)]
+    """The fitted baseline and the model that was found, beside all runs from the release on."""
+    names, models = [BASELINE], [fitted_baseline(d)]
     if d.effects and d.model is not None:
         names.append(found_name(d))
         models.append(without_notes(d.model))
@@ -56,6 +57,7 @@ def diagnosis_page(d: Diagnosis, comparison: Comparison | None = None) -> Page:
     c = compared(d) if comparison is None else comparison
     record = plain(d.to_dict())
     page = Page(f"{d.experiment.name}: which effect is missing?", diagnosis_text.sentence_of(record))
+    page.set_card(card_of_diagnosis(record, c))
     add_diagnosis(page, record, c)
     page.add_section("Where the numbers come from")
     page.add_provenance(blocks.provenance(c) | {"diagnosis": record["versions"], "seconds": f"{record['seconds']:.0f}"})
@@ -113,8 +115,11 @@ def verdict_words(record: dict[str, Any]) -> list[str]:
 
 
 def add_where(page: Page, record: dict[str, Any], c: Comparison) -> None:
-    """Add where the nominal baseline fails, and what the misfit of the fitted one looks like."""
-    page.add_sentences([f.text for f in findings(c) if f.model == BASELINE], "The nominal baseline from the release on")
+    """Add where the fitted baseline fails, and what its misfit looks like."""
+    page.add_sentences(
+        [f.text for f in findings(c) if f.model == BASELINE],
+        "The baseline, fitted without any effect, from the release on",
+    )
     page.add_table(diagnosis_text.signature_table(record))
     shares = record["signature"].get("axis_shares")
     rest = record["signature"].get("remaining_axis_shares")

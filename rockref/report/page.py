@@ -58,7 +58,19 @@ class Page:
     def __init__(self, title: str, lead: str = "", *, lang: str = "en") -> None:
         self.title, self.lead, self.lang = title, lead, lang
         self.sections: list[Section] = []
+        self.card: dict[str, Any] | None = None
         self._data: dict[str, Any] = {}
+
+    def set_card(self, card: Any) -> None:
+        """Put a card (`rockref.report.card.Card`) at the head; the sections are folded below it as its evidence."""
+        self.card = self._kept_card(card)
+
+    def add_card(self, card: Any) -> None:
+        """Add a card to the section."""
+        self._add("card", self._kept_card(card))
+
+    def _kept_card(self, card: Any) -> dict[str, Any]:
+        return {"card": card, "id": None if card.trial is None else self._keep(card.trial.data())}
 
     def add_section(self, title: str, text: str | Sequence[str] = ()) -> Section:
         """Begin a section with paragraphs of text and return it; what is added next belongs to it."""
@@ -140,9 +152,12 @@ class Page:
             loader=jinja2.FunctionLoader(_asset), autoescape=True, trim_blocks=True, lstrip_blocks=True
         )
         kinds = {kind for section in self.sections for kind, _ in section.blocks}
+        cards = [self.card, *(b for section in self.sections for kind, b in section.blocks if kind == "card")]
+        if any(card is not None and card["id"] is not None for card in cards):
+            kinds.add("trial")
         return environment.get_template("page.html.j2").render(
             page=self,
-            style=_asset("style.css") + (_vendored("uPlot.min.css") if "curves" in kinds else ""),
+            style=(_vendored("uPlot.min.css") if kinds & {"curves", "trial"} else "") + _asset("style.css"),
             scripts=_scripts(kinds),
             data={name: _json(value) for name, value in self._data.items()},
         )
@@ -173,13 +188,16 @@ def _vendored(name: str) -> str:
 
 
 def _scripts(kinds: set[str]) -> list[str]:
-    if not kinds & {"curves", "player"}:
+    if not kinds & {"curves", "player", "trial"}:
         return []
     parts = ["packed.js"]
     uplot = []
-    if "curves" in kinds:
+    if kinds & {"curves", "trial"}:
         # The licence travels with the code.
         uplot = [f"/*\n{_vendored('uPlot.LICENSE')}*/\n{_vendored('uPlot.iife.min.js')}"]
+    if "trial" in kinds:
+        parts.append("card.js")
+    if "curves" in kinds:
         parts.append("curves.js")
     if "player" in kinds:
         parts.append("player.js")

@@ -148,6 +148,12 @@ class Browser:
         )
         self.settle()
 
+    def look(self, media: str = "screen", scheme: str = "light") -> None:
+        """Show the page on screen or paper ("print"), light or dark."""
+        features = [{"name": "prefers-color-scheme", "value": scheme}]
+        self._call("Emulation.setEmulatedMedia", media=media, features=features)
+        self.settle()
+
     def screenshot(self) -> bytes:
         """Return what is seen as PNG."""
         return base64.b64decode(self._call("Page.captureScreenshot", format="png")["data"])

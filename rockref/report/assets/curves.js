@@ -124,9 +124,10 @@
       const width = live.clientWidth;
       if (width && Math.abs(width - plots[0].width) > 2) plots.forEach((p) => p.setSize({ width: width, height: p.height }));
     }).observe(live);
+    if (data.open) show(data.open[0], data.open[1]);
     rockref.curves.push({ plots: plots, range: range, show: show });
     figure.dataset.state = "ready";
   }
 
-  document.querySelectorAll("figure.curves").forEach(build);
+  document.querySelectorAll("figure.curves").forEach((figure, index) => whenSeen(figure, () => build(figure, index)));
 })();

@@ -31,7 +31,25 @@ function button(text, label, act) {
   return made;
 }
 
+// A figure in a closed fold has no width: it is built when the fold is opened. A link into a fold opens it.
+function whenSeen(figure, build) {
+  const fold = figure.closest("details:not([open])");
+  if (!fold) build();
+  else fold.addEventListener("toggle", () => whenSeen(figure, build), { once: true });
+}
+
+function openFolds() {
+  const place = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const fold = place && place.closest("details:not([open])");
+  if (fold) {
+    fold.open = true;
+    place.scrollIntoView();
+  }
+}
+
 function listen() {
+  window.addEventListener("hashchange", openFolds);
+  openFolds();
   window.rockref = rockref;
 }
 listen();

@@ -292,5 +292,5 @@
     figure.dataset.state = "ready";
   }
 
-  document.querySelectorAll("figure.player").forEach(build);
+  document.querySelectorAll("figure.player").forEach((figure) => whenSeen(figure, () => build(figure)));
 })();

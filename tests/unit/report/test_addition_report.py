@@ -44,7 +44,8 @@ def test_a_gap_that_was_none_is_not_said_to_be_closed(whole):
 def test_the_page_has_a_figure_for_each_kind_of_runs_and_the_history(whole, bare):
     for a, figures in ((whole, 3), (bare, 2)):
         text = addition_page(a).html()
-        assert faults_of(text) == [] and text.count("<figure") == figures
+        # The card has one, and each of the three runs.
+        assert faults_of(text) == [] and text.count("<figure") == figures + 4
         assert ("Error on the held-out runs" in text) is (figures == 3)
 
 

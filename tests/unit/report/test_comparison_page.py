@@ -85,11 +85,31 @@ def test_housner_swings_with_the_block(c):
         assert line.y[-1] == pytest.approx(measured / 1.02, rel=0.02)
 
 
-def test_runs_that_do_not_fit_are_left_out_and_named(c):
-    page = Page("t")
-    # The first of each release comes first: run 02 repeats run 01.
-    assert add_runs(page, c, room=180_000) == ["02"]
+def test_curves_are_thinned_before_a_run_is_left_out(c):
+    whole, thin = Page("t"), Page("t")
+    assert add_runs(whole, c) == [] and add_runs(thin, c, room=180_000) == []
+    seen = [[b["curves"] for kind, b in page.sections[0].blocks if kind == "curves"] for page in (whole, thin)]
+    assert [len(found) for found in seen] == [3, 3]
+    a, b = (found[0].data["panels"][0]["lines"][0]["y"] for found in seen)
+    assert b["n"] < a["n"] / 2 and "Thinned to one sample in" in seen[1][0].sentence
+    # Every extreme is still drawn.
+    assert max(unpacked(b)) == pytest.approx(max(unpacked(a)), abs=a["unit"])
+    # What cannot be thinned any further is left out, repeats first, and named.
     assert add_runs(Page("t"), c, room=0) == ["01", "03", "02"]
+
+
+@pytest.mark.parametrize("every", [1, 3])
+def test_of_thinned_values_each_bucket_keeps_both_ends_in_their_order(every):
+    y = np.array([0, 5, 1, -7, 2, 3, 9, 8, 7, 6, 5, 4, 100.0])
+    wanted = y if every == 1 else [5, -7, 9, 4]
+    assert blocks.thinned(y, every).tolist() == list(wanted)
+    assert len(blocks.thinned_times(np.arange(13.0), every)) == len(wanted)
+
+
+def test_a_run_opens_where_the_model_leaves_the_band(c):
+    start, end = blocks.run_curves(c, 0).data["open"]
+    gone = c.results[0][0].leaves_band
+    assert start <= gone.time <= end and end - start >= blocks.OPENED and start > 0
 
 
 def test_player_shows_measured_and_modelled(c):
