@@ -9,6 +9,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rockref.model.base_motion import BaseMotion
 from rockref.model.problem import Block, ContactPoints, Problem
 from rockref.model.rotation import apply, exponential, product
 from rockref.model.simulate import simulate
@@ -16,6 +17,12 @@ from tests.strategies import between, problems
 
 #: A run is 25 steps and costs some 10 ms.
 RUNS = settings(max_examples=15)
+
+
+def shaken(drawn):
+    """The drawn problems, on a plate that moves: three components, samples between steps, the last one not zero."""
+    record = st.integers(0, 2**32 - 1).map(lambda seed: np.random.default_rng(seed).uniform(-30, 30, (7, 3)))
+    return st.builds(lambda p, a: replace(p, base=BaseMotion(0.3e-5, 3.3e-5, a)), drawn, record)
 
 
 def rows(response):
@@ -38,11 +45,12 @@ def mirrored(problem: Problem) -> Problem:
         block=replace(problem.block, inertia=problem.block.inertia * S),
         points=replace(problem.points, P=problem.points.P * m),
         start=replace(start, x=start.x * m, v=start.v * m, Lambda=start.Lambda * S, W=start.W * w),
+        base=None if problem.base is None else replace(problem.base, a=problem.base.a * m),
     )
 
 
 @RUNS
-@given(st.one_of(problems(), problems(radius=True)))
+@given(st.one_of(problems(), problems(radius=True), shaken(problems())))
 def test_the_mirror_image_moves_as_the_mirror_image(problem):
     m, w = np.array([-1.0, 1, 1]), np.array([1.0, -1, -1])
     left = rows(simulate(mirrored(problem)))
@@ -55,14 +63,15 @@ def turned(problem: Problem, R: np.ndarray) -> Problem:
     """The whole scene turned about the vertical by R."""
     s = problem.start
     start = replace(s, x=apply(R, s.x), v=apply(R, s.v), Lambda=product(R, s.Lambda))
-    return replace(problem, start=start)
+    base = None if problem.base is None else replace(problem.base, a=apply(R, problem.base.a))
+    return replace(problem, start=start, base=base)
 
 
 QUARTER = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
 
 
 @RUNS
-@given(st.one_of(problems(), problems(radius=True)))
+@given(st.one_of(problems(), problems(radius=True), shaken(problems())))
 def test_a_quarter_turn_of_the_scene_about_the_vertical_changes_no_bit(problem):
     there, back = rows(simulate(turned(problem, QUARTER))), QUARTER.T
     there["x"], there["v"] = apply(back, there["x"]), apply(back, there["v"])
