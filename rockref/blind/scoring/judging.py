@@ -6,10 +6,14 @@ import json
 import time
 import traceback
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rockref.blind.cases.sealing import write_json
 from rockref.model.errors import InputError
+
+if TYPE_CHECKING:
+    from rockref.discover.evidence.evidence import Evidence
+    from rockref.discover.verdict.calibration import Calibration
 
 VERDICT, EVIDENCE = "verdict.json", "evidence.json"
 
@@ -59,18 +63,24 @@ def decided(case: Path) -> dict[str, Any]:
             raise InputError("E-FILE", str(case), f"has neither {EVIDENCE} nor {VERDICT}", cure)
         return stored
     from rockref.discover.evidence.evidence import Evidence
+
+    return decided_from(Evidence.load(case / EVIDENCE), stored)
+
+
+def decided_from(evidence: Evidence, stored: dict[str, Any], numbers: Calibration | None = None) -> dict[str, Any]:
+    """Return a stored verdict as evidence decides it; numbers : in place of the calibrated ones."""
     from rockref.discover.verdict.rules import decide
 
-    evidence = Evidence.load(case / EVIDENCE)
-    verdict = decide(evidence)
+    verdict = decide(evidence, numbers)
     if list(verdict.effects) != stored.get("effects"):
-        stored.pop("error", None)  # errors of another model
-    numbers = verdict.best.numbers
+        stored = {key: value for key, value in stored.items() if key != "error"}  # errors of another model
     return stored | {
         "verdict": verdict.word,
         "effects": list(verdict.effects),
         "probability": verdict.probability,
-        "amplitudes": {name: {"value": n.value, "low": n.low, "high": n.high} for name, n in numbers.items()},
+        "amplitudes": {
+            name: {"value": n.value, "low": n.low, "high": n.high} for name, n in verdict.best.numbers.items()
+        },
         "signature": evidence.signature,
         "detection_limits": evidence.limits,
     }
