@@ -82,10 +82,8 @@ def chart(marks: list[dict[str, Any]], path: Path) -> None:
     axes.plot([0, 1], [0, 1], color="0.6", linewidth=1)
     stated = [r["stated"] for r in rows]
     share = [r["right"] / r["n"] for r in rows]
-    spans = [
-        [s - r["low"] for s, r in zip(share, rows, strict=True)],
-        [r["high"] - s for s, r in zip(share, rows, strict=True)],
-    ]
+    below = [s - r["low"] for s, r in zip(share, rows, strict=True)]
+    above = [r["high"] - s for s, r in zip(share, rows, strict=True)]
     axes.errorbar(stated, share, [below, above], fmt="o", capsize=3)
     for r, s in zip(rows, share, strict=True):
         axes.annotate(str(r["n"]), (r["stated"], s), xytext=(6, -12), textcoords="offset points", fontsize=8)

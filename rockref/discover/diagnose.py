@@ -38,7 +38,7 @@ from rockref.measure.experiment import Experiment
 STORED, ASKED = 8, 3
 #: Stages of a diagnosis, each with its share of the time in per cent (measured on a shipped experiment that needs them
 #: all).
-STAGES = {"baseline": 5.0, "starts": 29.0, "effects": 30.0, "S3": 15.0, "F": 12.0, "without": 5.0, "evidence": 4.0}
+STAGES = {"baseline": 5.0, "effects": 30.0, "starts": 29.0, "S3": 15.0, "F": 12.0, "without": 5.0, "evidence": 4.0}
 #: Remarks that tell of a fault of the sensor, which no hypothesis about the block explains.
 SENSOR_CODES = ("W-ZERO", "W-LAG", "W-HUM")
 STRETCH = (
