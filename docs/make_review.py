@@ -71,7 +71,7 @@ SOURCES = {
     "T4": 'after (3.6): "both the friction force amplitude and the contact point position are updated"',
     "A1": "nothing; statics of a rigid body",
     "B1": "nothing; the second law of motion in axes that translate with the plate",
-    "S2": "nothing; how a run is begun and recorded",
+    "S2": "nothing; how a run starts and is recorded",
     "M1": "the axes of Fig. 3.4: convected rotational velocities (crv) in deg/s",
 }
 SOURCES |= dict.fromkeys(("I2", "I3", "I4", "I5"), SOURCES["I1"]) | dict.fromkeys(("A2", "A3"), SOURCES["A1"])

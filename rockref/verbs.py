@@ -192,7 +192,7 @@ def conform(backend: Any, *, layers: Sequence[str] | str | None = None, profile:
 def _of_model(
     title: str, found: Any, words: Callable[[], str], start: Model | None, page: Callable[[Path], Path] | None = None
 ) -> Result:
-    """Return the result of a verb that found a model: the picture and the page show it beside what was begun with."""
+    """Return the result of a verb that found a model: the picture and the page show it beside what was started with."""
 
     def beside() -> Result:
         from rockref.discover.compare.models import baseline_model

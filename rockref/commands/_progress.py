@@ -55,7 +55,7 @@ def _report_of(said: StageReport | str) -> StageReport:
 
 def _lines(verbose: bool) -> Tell:
     """Return what prints a line for every new stage, and with `verbose` for all that is reported in it."""
-    begun, last = time.monotonic(), (0, "")
+    started, last = time.monotonic(), (0, "")
 
     def show(said: StageReport | str) -> None:
         nonlocal last
@@ -68,7 +68,7 @@ def _lines(verbose: bool) -> Tell:
             return
         else:
             last, words = report.key, in_words(report, report.seconds_left)
-        seconds = f"{time.monotonic() - begun:6.0f} s  " if verbose else ""
+        seconds = f"{time.monotonic() - started:6.0f} s  " if verbose else ""
         print(f"{seconds}{words}", file=sys.stderr, flush=True)
 
     return show

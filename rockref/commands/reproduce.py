@@ -60,10 +60,10 @@ def reproduce(
         raise InputError("E-KEY", "FOLDER", "is missing", f"rockref reproduce {what} FOLDER")
     if name not in STUDIES:
         raise InputError("E-KEY", "STUDY", f"is {name!r}", f"Use one of {', '.join(STUDIES)}.")
-    begun = time.monotonic()
+    started = time.monotonic()
     with stages(f"reproduce {name}", verbose=not as_json) as say:
         page = STUDIES[name](into, data, workers, quick, say, only or ())
-    seconds, computed = time.monotonic() - begun, processor_seconds()
+    seconds, computed = time.monotonic() - started, processor_seconds()
     if as_json:
         record = {"study": name, "page": str(page), "seconds": seconds, "processor_seconds": computed}
         typer.echo(json.dumps(record))

@@ -55,10 +55,10 @@ def step(
     number: int, name: str, report: Callable[[StageReport], None], after: float = 0.0
 ) -> Callable[[StageReport], None]:
     """Return what passes the stages of one step on as those of the story; after : time of what follows, as a share."""
-    begun = time.monotonic()
+    started = time.monotonic()
 
     def tell(inner: StageReport) -> None:
-        left, spent = inner.seconds_left, time.monotonic() - begun
+        left, spent = inner.seconds_left, time.monotonic() - started
         if left is not None:
             left += after * (spent + left)
         report(StageReport(number, STEPS, f"{name}: {inner.name}", inner.best, left, inner.line))

@@ -93,12 +93,12 @@ class Campaign:
 
     def _as_they_end(self, jobs: Iterable[Future]) -> Iterator[Future]:
         """The jobs as they are done. Raises Hanging where none is done in time."""
-        left, begun = set(jobs), time.monotonic()
+        left, started = set(jobs), time.monotonic()
         while left:
             done, left = wait(left, self.patience, FIRST_COMPLETED)
             if not done:
                 raise Hanging
-            self.longest, begun = max(self.longest or 0.0, time.monotonic() - begun), time.monotonic()
+            self.longest, started = max(self.longest or 0.0, time.monotonic() - started), time.monotonic()
             yield from done
 
     def _anew(self, error: Exception, attempt: int) -> Executor:

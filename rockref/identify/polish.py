@@ -35,8 +35,8 @@ WINDOWS = (0.0, 0.06, 0.15, 0.35, 0.6)
 #: Long moves within a window, at most, and in which windows [s]. Decided: in the first ones moves are cheap, in the
 #: later ones a place is taken over that fits already.
 WINDOW_MOVES, CHEAP_WINDOW = 3, 0.1
-#: A window that ends above this mean square is begun again from where everything began. Decided: the first window sees
-#: little, and two twins of eight it led astray, to damping at the ends of its range and 3 to 5 in the next window.
+#: A window that ends above this mean square is started again from where everything began. Decided: the first window
+#: sees little, and two twins of eight it led astray, to damping at the ends of its range and 3 to 5 in the next window.
 ASTRAY = 1.25
 #: A fit is at the noise floor below this mean square of the residual over the noise. Decided: 1 is the floor of white
 #: noise, and that of the 4000 numbers of one run scatters by 0.022, of which this is three; a twin that ended at 1.08
@@ -109,10 +109,10 @@ def polish(
     for after in effort.windows:
         seen = [seen_until(t, after) for t in targets]
         short = Descent(Unknowns(space, seen), step, workers, report, effort.steps)
-        begun = after if effort.moves else CHEAP_WINDOW
-        at = _in_window(short, start, begun)
+        started = after if effort.moves else CHEAP_WINDOW
+        at = _in_window(short, start, started)
         if at.chi2 > ASTRAY:
-            at = min(at, _in_window(short, given, begun), key=lambda p: p.chi2)
+            at = min(at, _in_window(short, given, started), key=lambda p: p.chi2)
         start = at.z
     if short is not None and effort.walks:
         at = along(short, descent, start, effort.walks)

@@ -16,7 +16,7 @@ from rockref.model.storage import write_text
 FILE = Path(__file__).parent / "golden.json"
 STEP, RATE = 1e-5, 2000.0
 #: Name, model, release, duration [s]. Decided: beyond the second main impact of Table 3.1, where a difference in the
-#: last bit has grown by a million; the others beyond their first, or a second of clatter.
+#: last bit has increased by a million; the others beyond their first, or a second of clatter.
 RUNS: tuple[tuple[str, str, dict[str, Any], float], ...] = (
     ("Table 3.1 to the second main impact", "table_3_1", {}, 1.1),
     ("turned by 180 degrees", "table_3_1", {"turned": True}, 0.6),

@@ -97,9 +97,9 @@ def check_release(signal: Signal) -> list[Notice]:
     # A single wild sample must not pass for the size of the motion.
     size = float(np.percentile(np.abs(crv), 99.0, axis=0).max())
     reached = np.abs(early.mean(axis=0)).max()
-    # Creep is told from a bias by its growth: of a block that was at rest until 0.3 of the time nothing has grown.
-    grown, later = (np.abs(x.mean(axis=0) - first.mean(axis=0)).max() for x in (before, early))
-    creeps = reached > RESTING * size and grown > CREEPING * later
+    # Creep is told from a bias by its growth: of a block that was at rest until 0.3 of the time nothing has changed.
+    change, later = (np.abs(x.mean(axis=0) - first.mean(axis=0)).max() for x in (before, early))
+    creeps = reached > RESTING * size and change > CREEPING * later
     # Below a step of the resolution a creep cannot be seen.
     least = max(0.05 * size, 0.0)
     hidden = reached <= signal.gyro.resolution and signal.gyro.resolution > least

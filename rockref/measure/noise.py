@@ -15,7 +15,7 @@ WINDOW = 0.04
 _DEGREE_OF_FIT = 3
 # decided: of fewer windows none can be called the calm one.
 LEAST_WINDOWS = 4
-# decided: the calmest tenth is free of impacts in every run seen; windows up to half as loud again differ by chance.
+# decided: the calmest tenth is free of impacts in every run seen; windows up to half as strong again differ by chance.
 CALM_SHARE, CALM_MARGIN = 10.0, 1.5
 
 

@@ -124,8 +124,8 @@ def _zeros_before(run: Run, experiment: Experiment, impacts: Impacts) -> tuple[f
         return 0.0, float(y), float(z)
     # The block begins to move: its mean rate by then, for arcs that grow as cosh(p t).
     left = math.atan2(*size) - run.release_tilt
-    begun = side_of(run) * left * (math.cosh(growth_rate(*size) * rest) - 1.0) / rest
-    return float(at_rest.mean()) - begun, float(y), float(z)
+    drift = side_of(run) * left * (math.cosh(growth_rate(*size) * rest) - 1.0) / rest
+    return float(at_rest.mean()) - drift, float(y), float(z)
 
 
 def _lags(runs: Sequence[Run]) -> list[SensorFault]:

@@ -210,3 +210,22 @@ def test_shipped_experiment_is_whole(name):
 def test_every_shipped_experiment_has_its_answer():
     answers = json.loads((ROOT / "data/experiments/answers.json").read_text(encoding="utf-8"))
     assert [answer["name"] for answer in answers] == EXPERIMENTS
+
+
+#: Words of a private language, each with the word of the field that stands for it now.
+RETIRED = {
+    "begun": "started", "grown": "forward selection", "plainer": "backward elimination", "kin": "confounders",
+    "outlasting": "successive halving", "duel": "comparison of finalists", "upheld": "confirmed", "loud": "outlier",
+    "taken_on": "refined", "in_full": "refined", "resized": "amplitude restart", "trifle": "negligible",
+}  # fmt: skip
+
+
+def test_no_word_of_a_private_language():
+    pattern = re.compile(rf"\b({'|'.join(RETIRED)})\b", re.IGNORECASE)
+    pages = [*(ROOT / "docs").rglob("*.md"), *ROOT.glob("*.md"), *(ROOT / "rockref").rglob("*.py")]
+    found = [
+        f"{path.relative_to(ROOT)}: {word.group()} (write: {RETIRED[word.group().lower()]})"
+        for path in pages
+        for word in pattern.finditer(path.read_text(encoding="utf-8"))
+    ]
+    assert found == []

@@ -84,7 +84,7 @@ def _sealed(folder: Path, seed: int, names: Sequence[str]) -> dict[str, Any]:
 def _check_same_plan(folder: Path, lines: list[str]) -> None:
     here = folder / PARTS / "plan"
     if here.exists() and json.loads(here.read_text(encoding="utf-8")) != lines:
-        cure = "Give the seed and number it was begun with, or another folder."
+        cure = "Give the seed and number it was started with, or another folder."
         raise InputError("E-SEED", str(folder), "holds a half-made blind test with another plan", cure)
     write_json(here, lines)
 

@@ -141,7 +141,7 @@ def diagnose(
     InputError
         E-SIZE, where there are too few tosses on either side.
     """
-    begun = time.perf_counter()
+    started = time.perf_counter()
     say = progress or (lambda line: None)
     for use in (FIT, HOLDOUT):
         if len(tosses.used(use)) < LEAST_TOSSES:
@@ -167,7 +167,7 @@ def diagnose(
         steps = rungs(stairs, law, say)
     held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
     say("the held-out tosses")
-    result = conclude(tosses, given, steps, poses, held, found, begun)
+    result = conclude(tosses, given, steps, poses, held, found, started)
     not_needed = tuple(id for id in others if id not in steps[-1].fit.effects)
     return replace(result, not_needed=not_needed, confusion=confusion)
 
@@ -203,7 +203,7 @@ def at_the_floor(last: Step, say: Callable[[str], None]) -> bool:
 
 
 def conclude(
-    tosses: Tosses, base: Model, steps: list[Step], poses: Poses, held: Poses, found: dict[str, Any], begun: float
+    tosses: Tosses, base: Model, steps: list[Step], poses: Poses, held: Poses, found: dict[str, Any], started: float
 ) -> TossDiagnosis:
     """The held-out tosses, rung by rung, and the verdict."""
     nominal = {start: errors(predict(base, held, start), held, tosses.width) for start in ("flight", "raw")}
@@ -229,7 +229,7 @@ def conclude(
     return TossDiagnosis(
         tosses, verdict, proven, sentence, steps, nominal, floor_of(last.model, held, tosses.width), found,
         agreement(last, found, last.fit.base), checks,
-        time.perf_counter() - begun,
+        time.perf_counter() - started,
     )  # fmt: skip
 
 

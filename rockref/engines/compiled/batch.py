@@ -74,7 +74,7 @@ def from_problems(problems: Sequence[Problem]) -> Batch:
 
 
 def batch_of(problems: Sequence[Problem], wanted: np.ndarray) -> Batch:
-    """The arrays of problems of one step and number of points, their memories begun, that want these rows."""
+    """The arrays of problems of one step and number of points, their memories started, that want these rows."""
     effects, samples = pack.effects_rows(problems)
     given = [np.zeros((p.points.n, 3)) if p.start.F is None else np.asarray(p.start.F, float) for p in problems]
     bodies, feet = {id(p.block): p for p in problems}, {id(p.points): p for p in problems}

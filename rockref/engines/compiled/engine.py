@@ -70,7 +70,7 @@ def simulate_many(
 
 
 def _abreast(problems: list[Problem], workers: int | None, keep_going: bool) -> list[Response]:
-    """Solve problems of one step and number of points, with their memories begun, in one batch."""
+    """Solve problems of one step and number of points, with their memories started, in one batch."""
     steps = [output_steps(p) for p in problems]
     wanted = np.full((len(problems), max(map(len, steps))), -1)
     for b, own in enumerate(steps):

@@ -86,7 +86,7 @@ def state_row(problem: Problem) -> np.ndarray:
 
 
 def with_memory(problem: Problem) -> Problem:
-    """The problem with the memories of its effects begun, where they are not yet."""
+    """The problem with the memories of its effects started, where they are not yet."""
     if len(problem.start.memory) == len(problem.effects):
         return problem
     start = replace(problem.start, memory=tuple(e.start(problem) for e in problem.effects))

@@ -27,7 +27,7 @@ _UNIT = re.compile(r"UNITS?\s+(?:OF|ARE|IN)\s+\(?\s*([A-Z][A-Z0-9/*^]*)", re.IGN
 
 
 def is_at2(lines: list[str]) -> bool:
-    """Whether the fourth line is that of an AT2 file (or of its kin of velocity and displacement)."""
+    """Whether the fourth line is that of an AT2 file (or of a velocity or displacement file)."""
     return len(lines) > 4 and any(size.search(lines[3]) for size in _SIZES)
 
 

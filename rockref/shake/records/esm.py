@@ -1,4 +1,4 @@
-"""The `.ASC` files of ESM and of its kin (ITACA, AFAD): lines of `KEY: value`, then one value a line.
+"""The `.ASC` files of ESM and of like databases (ITACA, AFAD): lines of `KEY: value`, then one value a line.
 
 Source of the layout: header format DYNA 1.2 of the Engineering Strong-Motion database, https://esm-db.eu.
 """

@@ -9,7 +9,7 @@ from rockref.conformance.physics.finding import Finding, percent
 from rockref.conformance.physics.theory import quarter_period
 from rockref.conformance.physics.trial import Trial
 
-#: Rounding in double precision, grown over three impacts.
+#: Rounding in double precision, increased over three impacts.
 SYMMETRY = 1e-6
 #: Turns about z [deg] and signs of the tilt, beside the swing itself.
 CASES = {"mirrored": (0.0, -1), "turned by 90 deg": (90.0, 1), "turned by 37 deg": (37.0, 1)}
