@@ -26,6 +26,9 @@ def identify(
         str, typer.Option("--model", "-m", help="table_3_1 or a model.toml: block and what is not searched.")
     ] = "table_3_1",
     effect: OwnEffects = None,
+    report: Annotated[
+        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
+    ] = None,
     genes: Annotated[int, typer.Option(help="12 or 54 parameters.")] = 12,
     search_runs: Annotated[
         str | None, typer.Option("--search-runs", help="Runs of the evolutionary search, as 01,06; default: the first.")
@@ -61,13 +64,14 @@ def identify(
     from rockref.identify.outcome import files_in
     from rockref.identify.search import Settings
     from rockref.model.storage import write_text
-    from rockref.report.output import made_folder
+    from rockref.report.output import made_folder, usable_folder
 
     (base,) = named_models([model], effect)
     say_left_out(base, model)
     asked = question(experiment, base, genes, search_runs)
     say_other_points(asked.stated, experiment)
     say_remarks(asked.notices)
+    page_folder = usable_folder(report) if report is not None else None
     folder = made_folder(output)
     resumable = checkpoints_in(folder)
     with resumable, alone_in(folder), stages("identifying", verbose=verbose) as say, campaign(workers, dask) as work:
@@ -77,6 +81,11 @@ def identify(
         text = in_json(result)
         write_text(files["result"], text + "\n")
         found.save(files["model"])
+    written = list(files.values())
+    if page_folder is not None:
+        from rockref.report.identification_page import write_identification
+
+        written.append(write_identification(result, made_folder(page_folder)))
     if as_json:
         typer.echo(text)
     else:
@@ -85,7 +94,7 @@ def identify(
         from rockref.report.text import say_command
 
         print_identification(console(), result, full)
-        say_written(files.values())
+        say_written(written)
         say_command(console(), next_after_identification(result, experiment, files["model"]))
     if not result["least_squares"]["at_noise_floor"]:
         raise typer.Exit(1)

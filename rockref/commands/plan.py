@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._results import folder_option
+
 
 def register(app: typer.Typer) -> None:
     """Add ``plan`` to `app`."""
@@ -21,6 +23,9 @@ def plan(
         typer.Option("--effect", "-e", help="Candidate, id or file.py:Class; may be repeated. Default: the catalogue."),
     ] = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
+    report: Annotated[
+        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the simulated noise.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
@@ -45,9 +50,11 @@ def plan(
     from rockref.discover.plan import releases_from
     from rockref.engines import compiled_ahead
     from rockref.model.storage import write_text
+    from rockref.report.output import made_folder, usable_folder
     from rockref.report.plan_text import next_after_plan, print_plan
 
     usable_files(output)
+    folder = usable_folder(report) if report is not None else None
     planned = releases_from(runs)
     (given,), candidates = models_and_others([model], effect)
     say_idle(given, model)
@@ -59,3 +66,7 @@ def plan(
         if output is not None:
             write_text(output, text + "\n")
             written.append(output)
+        if folder is not None:
+            from rockref.report.plan_page import write_plan
+
+            written.append(write_plan(found, made_folder(folder)))

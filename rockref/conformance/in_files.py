@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
+import inspect
 import math
 from html import escape
+from importlib import resources
 from xml.etree import ElementTree
 
 import numpy as np
 
-from rockref.conformance.in_words import bars, numbers, rule_lines, text
+from rockref.conformance.in_words import bars, number, numbers, rule_lines, text
+from rockref.conformance.rules import BY_ID
 from rockref.conformance.runs import RunCheck
 from rockref.conformance.verdict import Verdict
 
@@ -121,21 +125,59 @@ def curve(run: RunCheck, width: int = 640, height: int = 160) -> str:
 
 
 def page(v: Verdict) -> str:
-    """One self-contained page."""
+    """One self-contained page: the verdict, the rule with what was expected and got, its text in the law, the rest."""
     colour = GOOD if v.passed else BAD
     runs = "".join(
         f"<h3>{escape(r.id)}: {escape(r.grade)}</h3><p>{escape(r.title)}{'. ' + escape(r.note) if r.note else ''}</p>"
-        + (curve(r) if len(r.t) else "")
+        + (f'<div class="static">{curve(r)}</div>' if len(r.t) else "")
         for r in v.findings.runs
         if r.failed or not any(x.failed for x in v.findings.runs)
     )
     rules = "\n".join(rule_lines(v))
     drawn = f"<h2>Deviation in bars (dashed: one bar)</h2>{runs}" if runs else ""
+    heading = f"{escape(v.findings.backend['name'])}: {v.status}{f' ({v.rule})' if v.rule else ''}"
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>rockref conform</title>'
-        f"<style>body{{font:16px/1.5 sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:{INK}}}"
-        "pre{background:#f4f5f7;padding:1rem;overflow-x:auto;font-size:13px}svg{max-width:100%}"
-        f"h1{{border-left:8px solid {colour};padding-left:.6rem}}</style></head><body>"
-        f"<h1>{escape(v.findings.backend['name'])}: {v.status}{f' ({v.rule})' if v.rule else ''}</h1>"
-        f"<pre>{escape(text(v))}</pre><h2>Rules</h2><pre>{escape(rules)}</pre>{drawn}</body></html>\n"
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<style>{_style()}pre{{overflow-x:auto;font-size:13px;padding:1rem;background:var(--tint)}}"
+        f"h1{{border-left:8px solid {colour};padding-left:.6rem}}</style></head><body><main>"
+        f"<h1>{heading}</h1>{rule_card(v)}{drawn}"
+        f'<details class="evidence"{"" if v.rule else " open"}><summary>The whole report</summary>'
+        f"<pre>{escape(text(v))}</pre><h2>Rules</h2><pre>{escape(rules)}</pre></details></main></body></html>\n"
     )
+
+
+def rule_card(v: Verdict) -> str:
+    """The first wrong rule: what it says, what was expected and got, and its text in the law; nothing without one."""
+    if v.rule is None:
+        return ""
+    rule, check = BY_ID[v.rule], v.check
+    facts = []
+    if check is not None and check.expected is not None:
+        at = f"[{', '.join(map(str, check.index))}]" if check.index else ""
+        bar = "" if check.bar is None else f"<small>bar: {check.bar:.2g}</small>"
+        off = "" if check.bar is None else f"<small>{escape(bars(check.worst))} off</small>"
+        facts = [(f"Expected, {check.name}{at}", number(check.expected), bar), ("Got", number(check.got), off)]
+    cells = "".join(
+        f"<div><dt>{escape(label)}</dt><dd>{escape(value)}{note}</dd></div>" for label, value, note in facts
+    )
+    said = "".join(f"<p>{escape(words)}</p>" for words in (v.slip, v.says) if words)
+    where = "" if check is None else f" · vector {escape(check.vector)}"
+    return (
+        f'<section class="card" id="rule-{rule.id}"><p class="kicker">first divergence{where}</p>'
+        f'<h2>{rule.id}: {escape(rule.says)}</h2><p class="lead">Equation {escape(rule.equation)} of the law; '
+        f'<a href="#law-{rule.id}">its text</a>.</p><dl class="facts">{cells}</dl>{said}'
+        f'<details id="law-{rule.id}" open><summary>{escape(rule.function.replace(":", "."))}</summary>'
+        f"<pre>{escape(_source(rule.function))}</pre></details></section>"
+    )
+
+
+def _source(function: str) -> str:
+    """The text of a function of the law, named as module:function."""
+    module, _, name = function.partition(":")
+    return inspect.getsource(getattr(importlib.import_module(module), name))
+
+
+def _style() -> str:
+    """The style that all pages share."""
+    return (resources.files("rockref") / "report" / "assets" / "style.css").read_text(encoding="utf-8")

@@ -22,8 +22,9 @@ from rockref.model.errors import InputError
 
 # decided: tilts within one standing wire's uncertainty are meant to be the same one: 1 mm in 0.67 m.
 SAME_TILT = 1.5e-3
-# decided: the scale of a gyroscope on a chip is good to one part in a hundred; 1 mm of wire is 0.0014 rad.
-SCALE_ERROR, WIRE = 0.01, 1.4e-3
+# The scale of a gyroscope on a chip is good to 3 % (InvenSense PS-MPU-6000A-00, sensitivity scale factor tolerance),
+# and so is a tilt that its rates add up to. decided: 1 mm of wire, which is 0.0014 rad.
+SCALE_ERROR, WIRE = 0.03, 1.4e-3
 # decided: two stated and measured tilts that differ by a twentieth are two tilts.
 TILT_AGREES = 0.05
 # decided: one run in four is held out.
@@ -211,7 +212,7 @@ def _run(id: str, motion: Motion, axes: Axes, worth: float, bandwidth: float, to
     """Return a run in the block's axes, cut at its release, with the tilt that its rates add up to."""
     one = motion.recording
     # A second-order low-pass of this bandwidth shows slow motion sqrt(2)/(2 pi f) later, of a model too.
-    delay = math.sqrt(2.0) / (2.0 * math.pi * bandwidth) if motion.standing > 0.0 else 0.0
+    delay = math.sqrt(2.0) / (2.0 * math.pi * bandwidth) if motion.release > one.t[0] else 0.0
     release = motion.release - delay
     crv = axes.body(one.chip - motion.bias) * worth
     angle = motion.angle * axes.signs[0] * worth
@@ -300,8 +301,8 @@ def _remarks(runs: Sequence[ImportedRun], motions: Sequence[Motion], axes: Axes,
     notices = []
     for run, motion in zip(runs, motions, strict=True):
         if motion.standing <= 0.0:
-            what = "the record begins at the release, so that the gyroscope's zero is not measured"
-            notices.append(Notice("W-ZERO", run.source, what, "Record from a second before the release."))
+            what = "the block is not seen to stand before its release, so that the gyroscope's zero is not measured"
+            notices.append(Notice("W-ZERO", run.source, what, "Record it standing, for a second before the release."))
         if abs(run.tilt / run.measured - 1.0) > TILT_AGREES:
             what = f"a tilt of {run.tilt:.4g} rad is stated, and the rates add up to {run.measured:.4g} rad"
             notices.append(Notice("W-TILT-OFF", run.source, what, "Check the tilt, its unit, and that of the rates."))

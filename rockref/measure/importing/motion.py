@@ -26,15 +26,17 @@ CALM_SIGMAS, CALM_TIME = 4.0, 0.15
 LONGEST_SWING = 2.5
 # decided: the arc's beginning, up to a quarter of a second, as long as the angle is small against the tipping angle.
 ARC = 0.25
-# decided: steps of the search for the release; a tenth of a sample at 1 kHz.
-FINE = 1e-4
+# decided: a tenth of a sample at 1 kHz, and as many rounds as the slowest fit needs to find its place to a tenth of it.
+FINE, ROUNDS = 1e-4, 20
 # decided: motion of less than a quarter of the largest is handling, or the block being set up.
 LEAST_TURN = 0.25
 # decided: the first swing of a block is an arc to a hundredth of its power; a hand's motion is not to a tenth.
 NO_ARC = 0.1
 # decided: more of the standing than a second adds drift and what was left of setting up, and no accuracy.
 STANDING = 1.0
-# decided: between the last calm moment and the release lies at most this, and the fit of the arc begins there.
+# decided: a block that stands shows a tenth of its largest rate at most, a hand's tremor included.
+MOVES = 0.1
+# decided: the arc begins at most this much before the last calm moment, which noise may end too early or too late.
 BEFORE = 0.2
 # decided: an angle up to rest that differs from the first swing's by more than this has met a fall, or the range.
 REST_AGREES = 0.1
@@ -89,6 +91,8 @@ def find_motion(recording: Recording, width: float, height: float) -> Motion:
     if not calm or calm[0][0] > half_width(t, WINDOW):
         starts.insert(0, (0, 0))
     found = [m for s in starts if (m := _motion_from(recording, s, calm, noise, width, height)) is not None]
+    if not found and (0, 0) not in starts and (m := _motion_from(recording, (0, 0), [], noise, width, height)):
+        found = [m]  # what never stands shows as calm what is only slower
     if not found:
         cure = "Record from before the release until the block stands again; check width and height."
         raise InputError("E-NO-RELEASE", recording.source, "no swing of a released block is found", cure)
@@ -138,22 +142,28 @@ def _motion_from(
     # Neighbours differ by noise alone, also where the zero still drifts after the block was set up.
     steps = np.sqrt(0.5 * np.mean(np.diff(chip[rows], axis=0) ** 2, axis=0)) if stood else noise
     scatter = np.minimum(chip[rows].std(axis=0), steps) if stood else noise
-    end = int(np.searchsorted(t, t[last] + LONGEST_SWING))
+    # Where nothing stands, a hand may hold the block for longer.
+    end = int(np.searchsorted(t, t[last] + LONGEST_SWING)) if stood else len(t)
     v = chip[last:end] - bias
     if len(v) < 16:
         return None
     main = int(np.argmax(np.abs(np.cumsum(v, axis=0)).max(axis=0)))
     order = [main, *(axis for axis in range(3) if axis != main)]
     impacts = main_impacts(t[last:end], v[:, order])
-    if not len(impacts) or impacts.times[0] - t[last] < 2.0 * WINDOW:
+    swing = _first_arc(t[:end], chip[:end, main] - bias[main], t[last], impacts.times, growth_rate(width, height))
+    if not stood and len(impacts) and (swing is None or swing[1] >= NO_ARC or swing[0] < t[0] + 0.5 * WINDOW):
+        # The record begins at the release.
+        swing = float(t[0]), 0.0, float(impacts.times[0])
+    if swing is None or swing[2] - t[last] < 2.0 * WINDOW:
         return None
-    impact = float(impacts.times[0])
-    p = growth_rate(width, height)
-    release, misfit = (float(t[0]), 0.0) if not stood else _release(t, chip[:, main] - bias[main], t[last], impact, p)
+    if float(np.abs(chip[rows, main] - bias[main]).max()) > MOVES * float(np.abs(v[:, main]).max()):
+        return None  # about the apex of a swing the rates are calm for a while, and not at rest
+    release, misfit, impact = swing
     inside = (t >= release) & (t <= impact)
     if inside.sum() < 8:
         return None
     turn = (chip[inside] - bias).sum(axis=0) * sample_step(t)
+    p = growth_rate(width, height)
     tilt = math.atan2(width, height) * (1.0 - 1.0 / math.cosh(p * (impact - release)))
     angle = _angle_to_rest(t, chip[:, main], release, last if stood else None, calm, float(turn[main]), bias[main])
     motion = Motion(
@@ -178,24 +188,51 @@ def _bias_at_the_end(t: np.ndarray, chip: np.ndarray, calm: list[tuple[int, int]
     return chip[calm[-1][0] : calm[-1][1] + 1].mean(axis=0)
 
 
-def _release(t: np.ndarray, w: np.ndarray, calm: float, impact: float, p: float) -> tuple[float, float]:
-    """Return the instant at which the arc A sinh(p (t - t0)) begins in w (N,), and the share that is no arc.
+def _release(t: np.ndarray, w: np.ndarray, impact: float, p: float) -> tuple[float, float]:
+    """Return the instant at which the arc before an impact begins in w (N,), and the share of the swing that is no arc.
 
-    The block stands before it. The instant is looked for in steps of 0.1 ms about the last calm moment `calm` s; the
-    share is that of the whole swing, up to its impact.
+    A sinh(p (t - t0)) is a sinh(p t) + b cosh(p t), so that least squares give t0 at once. Only the arc is fitted: what
+    a hand does to the block before its release moves nothing. The arc's first quarter of a second counts, and lies
+    where the fit puts it: it is found anew until it rests. NaN and 1 where there is no arc.
     """
-    begin, end = calm - BEFORE, calm + min(ARC, 0.6 * (impact - calm))
-    rows = (t >= begin) & (t <= end)
-    instants = np.arange(begin + 0.5 * WINDOW, min(calm + WINDOW, end - 0.02), FINE)
-    arcs = np.sinh(p * np.maximum(t[rows] - instants[:, np.newaxis], 0.0))
-    norms = np.maximum((arcs**2).sum(axis=1), 1e-300)
-    sizes = arcs @ w[rows] / norms
-    rest = ((sizes[:, np.newaxis] * arcs - w[rows]) ** 2).sum(axis=1)
-    release = float(instants[int(np.argmin(rest))])
-    swing = (t >= begin) & (t <= impact - WINDOW)
-    arc = np.sinh(p * np.maximum(t[swing] - release, 0.0))
+    last = impact - WINDOW
+    begin, end, release = last - 0.5 * ARC, last, math.nan
+    for _ in range(ROUNDS):
+        rows = (t >= begin) & (t <= end)
+        if rows.sum() < 8:
+            return math.nan, 1.0
+        middle = 0.5 * (begin + end)
+        phase = p * (t[rows] - middle)
+        a, b = np.linalg.lstsq(np.stack((np.sinh(phase), np.cosh(phase)), axis=1), w[rows], rcond=None)[0]
+        if not abs(b) < abs(a):
+            return math.nan, 1.0
+        before, release = release, middle - math.atanh(b / a) / p
+        if abs(release - before) < 0.1 * FINE:
+            break
+        begin, end = release, min(release + ARC, last)
+    swing = (t >= release) & (t <= last)
+    arc = np.sinh(p * (t[swing] - release))
     power = max(float(w[swing] @ w[swing]), 1e-300)
     return release, 1.0 - float(arc @ w[swing]) ** 2 / max(float(arc @ arc), 1e-300) / power
+
+
+def _first_arc(
+    t: np.ndarray, w: np.ndarray, start: float, impacts: np.ndarray, p: float
+) -> tuple[float, float, float] | None:
+    """Return release, misfit and impact of the first swing after `start` s that is an arc, and no small one.
+
+    What comes before it is no impact: a hand that holds the block trembles and jolts. Where no swing is an arc, the one
+    that is most like one is returned; None without any.
+    """
+    found = []
+    for impact in impacts:
+        release, misfit = _release(t, w, float(impact), p) if impact - start > 2.0 * WINDOW else (math.nan, 1.0)
+        if math.isfinite(release) and release > start - BEFORE and impact - release > 2.0 * WINDOW:
+            angle = abs(float(w[(t >= release) & (t <= impact)].sum()))
+            found.append((release, misfit, float(impact), angle))
+    arcs = [one for one in found if one[1] < NO_ARC] or sorted(found, key=lambda one: one[1])[:1]
+    largest = max((one[3] for one in arcs), default=0.0)
+    return next((one[:3] for one in arcs if one[3] >= LEAST_TURN * largest), None)
 
 
 def _angle_to_rest(

@@ -347,6 +347,9 @@ def test_junit_badge_and_page():
     assert set(suites) == {"L1", "L2"} and int(suites["L1"].get("failures")) > 0 == int(suites["L2"].get("failures"))
     assert ElementTree.fromstring(in_files.badge(v)).tag.endswith("svg") and "fails T1" in in_files.badge(v)
     page = in_files.page(v)
+    # The rule that is wrong stands at the head, with what was expected and got, and its text in the law.
+    assert '<section class="card" id="rule-T1">' in page and "<dt>Got</dt>" in page and "def trial_force(" in page
+    assert 'href="#law-T1"' in page and 'id="law-T1"' in page
     assert "FIRST DIVERGENCE" in page and "<script" not in page and "http" not in page.replace("http://www.w3.org", "")
 
 

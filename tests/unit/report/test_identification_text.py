@@ -60,3 +60,15 @@ def test_where_all_is_determined_nothing_is_named():
     record["least_squares"]["determined"]["K_N"] = True
     text = said(record)
     assert "at the noise floor" in text and "determined" not in text
+
+
+@pytest.mark.parametrize("floor", [True, False])
+def test_the_page_says_at_a_glance_whether_the_model_came_down(floor):
+    from rockref.report.identification_page import identification_page
+    from tests.unit.report.page_checks import faults_of
+
+    record = copy.deepcopy(RECORD)
+    record["least_squares"]["at_noise_floor"] = floor
+    page = identification_page(record)
+    assert faults_of(page.html()) == [] and page.card["card"].name.startswith("at" if floor else "above")
+    assert "1.01 times the noise" in page.html() and "1 of 2" in page.html()

@@ -61,3 +61,13 @@ def test_effects_that_would_not_show_are_named(plan, monkeypatch):
     assert second == "These would not: rolling_resistance."
     monkeypatch.setattr(type(plan.outlook), "undetectable", lambda self: [])
     assert "2 of 2 effects would show" in sentences(plan)[0] and "would not" not in " ".join(sentences(plan))
+
+
+def test_the_page_says_the_same_at_a_glance(plan):
+    from rockref.report.plan_page import plan_page
+    from tests.unit.report.page_checks import faults_of
+
+    page = plan_page(plan)
+    text = page.html()
+    assert faults_of(text) == [] and "<script" not in text
+    assert page.card["card"].next_step == sentences(plan)[-1] and "rolling_resistance.lever" in text
