@@ -75,9 +75,11 @@ def new(
       rockref new my_block logs --mass 54kg --width 100mm --height 688mm --tilt 6.7deg --tilt 05=6.2deg --turned 06
     """
     from rockref.commands._results import in_json, say_remarks, say_written
+    from rockref.commands._terminal import console
     from rockref.measure.importing import write_campaign
     from rockref.model.storage import write_bytes
     from rockref.report.first_swing import first_swing_png
+    from rockref.report.text import say_command
 
     asking = not yes and not as_json and sys.stdin.isatty()
     paths = _files(logs)
@@ -97,7 +99,7 @@ def new(
         typer.echo(in_json(_facts(campaign, folder)))
         return
     say_written([folder / "experiment.toml", folder / PICTURE])
-    typer.echo(f"next: rockref compare {folder}")
+    say_command(console(), f"rockref compare {folder}")
 
 
 def _files(logs: list[Path]) -> list[Path]:

@@ -34,7 +34,7 @@ def run(capsys, *arguments):
 def test_a_folder_is_made_and_the_next_command_is_said_last(capsys, logs, tmp_path):
     code, out, err = run(capsys, "new", tmp_path / "block", logs, *SIDES, "--yes")
     assert code == 0, err
-    assert out.splitlines()[-1] == f"next: rockref compare {tmp_path / 'block'}"
+    assert out.splitlines()[-1] == f"Next: rockref compare {tmp_path / 'block'}"
     assert "131 counts a deg/s" in out and "turned" in out
     assert (tmp_path / "block/first_swing.png").read_bytes().startswith(b"\x89PNG")
     assert [r.use for r in load_experiment(tmp_path / "block").runs] == ["fit", "holdout"]
