@@ -40,6 +40,7 @@ def setup(app):
 
     from rockref.report.gallery import write_pictures
 
+    Path(app.srcdir, "_lab").mkdir(exist_ok=True)  # sphinx asks for it before it builds anything
     app.connect("builder-inited", lambda app: write_pictures(Path(app.srcdir, "reference", "effects")))
     app.connect("builder-inited", lambda app: write_lab(Path(app.srcdir)))
 
@@ -51,5 +52,4 @@ def write_lab(docs):
     from rockref.measure import load_experiment
 
     experiment = load_experiment(docs.parent / "data" / "experiments" / "mystery-04")
-    (docs / "_lab").mkdir(exist_ok=True)
     write_page(docs / "_lab" / "lab_page.html", baseline_model(experiment), experiment)
