@@ -143,7 +143,15 @@ def staircase_table(record: dict[str, Any]) -> Table:
         proof, held = s["proof"], s["holdout"]
         fall = f"{proof['mean']:.2f} ({proof['low']:.2f} to {proof['high']:.2f})"
         rows.append((s["added"].split(":")[0], s["verdict"], *_brief(held["flight"]), fall, *_brief(held["raw"])))
-    head = ("added", "verdict", "position %", "rotation deg", "falls by (90 %)", "raw: position %", "rotation deg")
+    head = (
+        "added",
+        "verdict",
+        "position %",
+        "rotation deg",
+        "falls by (90 % of all)",
+        "raw: position %",
+        "rotation deg",
+    )
     f = record["floor"]
     note = (
         "Held-out tosses, means, medians in brackets. "

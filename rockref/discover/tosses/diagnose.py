@@ -213,7 +213,7 @@ def conclude(
         }
         step.fitted = errors(predict(step.model, poses), poses, tosses.width)
         before = nominal["flight"] if i == 0 else steps[i - 1].holdout["flight"]
-        step.proof = paired(before, step.holdout["flight"])
+        step.proof = paired(before, step.holdout["flight"], len(steps) - 1)
         step.verdict = word(step)
     proven = tuple(s.effect for s in steps[1:] if s.verdict in ("named", "class"))
     last = steps[-1]

@@ -42,6 +42,11 @@ def test_the_paired_interval_sees_what_is_common_to_all_tosses():
     assert sure["low"] == sure["high"] == pytest.approx(1.0)
     unsure = paired(made_errors(position, rng.permutation(rotation)), made_errors(position, rotation))
     assert unsure["low"] < 0 < unsure["high"]
+    # Of eleven comparisons each has an interval of 99.1 %: 2.61 deviations of a mean instead of 1.64.
+    of_many = paired(made_errors(position, rng.permutation(rotation)), made_errors(position, rotation), 11)
+    assert of_many["interval"] == pytest.approx(0.9909, abs=1e-4)
+    wider = (of_many["high"] - of_many["low"]) / (unsure["high"] - unsure["low"])
+    assert wider == pytest.approx(2.61 / 1.64, rel=0.25)
 
 
 def test_a_fit_that_is_better_on_its_own_tosses_alone_is_not_passed():
