@@ -226,6 +226,7 @@ class Search:
         """
         finalists = sorted((h for h in beam if h.objective <= CLOSE * self.best(beam).objective), key=penalised)
         for h in finalists[:FINALISTS]:
+            self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
             self.problem.say(f"finalist {h.name}")
             self.fitter.refine(h, F, CONVERGED)
         best = min(beam, key=penalised)
