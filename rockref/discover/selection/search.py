@@ -23,9 +23,12 @@ from rockref.discover.selection.tone import tone
 CONTRADICTED = 1.12
 #: Mean loss at S2 above which S3 is not asked (decided: right models of the stiffest blocks leave 1.2 to 2.0 there).
 HOPELESS = 2.5
-#: Share of the misfit that an effect may leave if one more is looked for beside it (decided: what leaves more is not
-#: the cause, and no second one on top of it is).
-LEAVES = 0.75
+#: Shares of the misfit that the first, and the second effect may leave if one more is looked for (decided: what leaves
+#: more is not the cause, and no other on top of it is; of two right effects the second explains most of what is left).
+LEAVES = (0.75, 0.5)
+#: Mean loss at S3 above which nothing explains the runs, and nothing more is tried (decided: right models of the
+#: stiffest blocks leave 1.35 there).
+UNEXPLAINED = 1.5
 #: Prior deviations that the law may move from its nominal numbers and count as a block of the source's make (decided: a
 #: tenth of every parameter of Table 3.1 is 0.3).
 STAYED = 0.5
@@ -62,10 +65,16 @@ class Search:
 
     def run(self) -> list[FittedModel]:
         """Return the last hypotheses at F, best objective first; the null is always one of them."""
-        beam = self.begin()
-        for stage in (S3, F):
-            beam = self.lengthen(beam, stage)
-        return self.eliminate(beam)
+        beam = self.lengthen(self.begin(), S3)
+        if self.best(beam).loss > UNEXPLAINED:
+            return self.unexplained(beam)
+        return self.eliminate(self.lengthen(beam, F))
+
+    def unexplained(self, beam: list[FittedModel]) -> list[FittedModel]:
+        """Return the best hypothesis and the baseline at F, where none explains the runs."""
+        self.problem.progress.begin("without", "following the nearest model", self.best(beam).name)
+        kept = [self.best(beam), self.baseline.copy()]
+        return sorted(best_of_each([self.fitter.refine(h, F, 3) for h in kept]), key=lambda h: h.objective)
 
     def null(self) -> FittedModel:
         """Return the baseline from its nominal numbers at S2, and at S3 where S2 is contradicted."""
@@ -137,7 +146,7 @@ class Search:
     def may_add(self, best: FittedModel, left: float) -> bool:
         """Return whether one more effect is looked for: `left` is the mean loss that the last one was to explain."""
         added = len(set(best.effects) - set(self.problem.carried))
-        return added == 0 or (added < MOST and best.loss - WHITE <= LEAVES * (left - WHITE))
+        return added == 0 or (added < MOST and best.loss - WHITE <= LEAVES[added - 1] * (left - WHITE))
 
     def moved(self, h: FittedModel) -> float:
         """Return how far the law is from its nominal numbers, in prior deviations of the number that moved most."""
