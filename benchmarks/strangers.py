@@ -6,7 +6,8 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second       the mistakes of `strangers_list.py`, of `strangers_second.py`; both by default
+    --list first | second | third   the mistakes of `strangers_list.py`, `strangers_second.py`, `strangers_third.py`;
+                                all by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them
 """
@@ -29,6 +30,7 @@ import strangers_controls_c
 import strangers_list
 import strangers_schemes
 import strangers_second
+import strangers_third
 from strangers_list import HARMLESS, Mistake
 
 from rockref.conformance.executable import Executable
@@ -40,7 +42,11 @@ EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 SOURCE, SOURCE_C = EXAMPLES / "backend_numpy.py", EXAMPLES / "backend_c/backend.c"
 QUICK = [name for name in LAYERS if name not in ("L5", "L6")]
 WAYS = ("pieces", "runs", "runs without forces")
-LISTS = {"first": strangers_list.MISTAKES, "second": strangers_second.MISTAKES}
+LISTS = {
+    "first": strangers_list.MISTAKES,
+    "second": strangers_second.MISTAKES,
+    "third": strangers_third.MISTAKES,
+}
 MISTAKES = strangers_list.MISTAKES
 
 

@@ -274,4 +274,37 @@ U, _, V = np.linalg.svd(Lambda + Lambda @ E)
         "points by unit diagonals", (("corners * inwards", "corners - delta_diag * corners / np.hypot(*corners[0])"),)
     ),
     Variant("degrees by two steps", (("np.degrees(W)", "W * 180 / np.pi"),)),
+    Variant(
+        "the anchor of an open foot is no number",
+        (
+            (
+                "return s if anchored and xi >= 0 else u_t",
+                "return s if anchored and xi >= 0 else u_t if xi >= 0 else NONE",
+            ),
+            ("PROPERTIES = (", "NONE = np.full(2, np.nan)\nPROPERTIES = ("),
+        ),
+    ),
+    Variant(
+        "< for <= at the cone; no trial force sticks",
+        (("return np.hypot(*F_trial) <= limit", "return np.hypot(*F_trial) < limit or not F_trial.any()"),),
+    ),
+    Variant(
+        "flags as 0 and 1",
+        (
+            ("touching = bool(xi >= 0)", "touching = int(xi >= 0)"),
+            ("slides = not sticks(F_T, limit)", "slides = int(not sticks(F_T, limit))"),
+        ),
+    ),
+    Variant(
+        "instants as they are asked for",
+        (('"t": wanted * problem.step', '"t": np.arange(rows) / problem.output_rate'),),
+    ),
+    Variant(
+        "sliding force by taking the excess away",
+        ((T3, "return F_trial - (np.hypot(*F_trial) - mu * F_N) / np.hypot(*F_trial) * F_trial"),),
+    ),
+    Variant(
+        "exponential of a matrix by a library",
+        ((E, "from scipy.linalg import expm\n\n    return expm(H) - np.eye(3)"),),
+    ),
 )

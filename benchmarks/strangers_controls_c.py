@@ -155,4 +155,103 @@ IN_C = (
             ),
         ),
     ),
+    Variant(
+        "C, places and velocities with compensated sums",
+        (
+            (
+                "static void step(void) {\n",
+                """\
+static real lost[6];
+static void add(real *to, real what, int k) {
+    volatile real gain = what - lost[k], sum = *to + gain, kept = sum - *to;
+    lost[k] = kept - gain, *to = sum;
+}
+static void step(void) {
+""",
+            ),
+            ("x[j] += h * v[j] + h * h / 2 * a[j]; ", "add(x + j, h * v[j] + h * h / 2 * a[j], j); "),
+            ("v[j] += h / 2 * (a_old[j] + a[j]); ", "add(v + j, h / 2 * (a_old[j] + a[j]), 3 + j); "),
+            ("mass = plain(", "memset(lost, 0, sizeof lost), mass = plain("),
+        ),
+    ),
+    Variant(
+        "C, moments about the origin of the plate, then about the centre of mass",
+        (
+            (
+                "cross(r, F + 3 * i, arm);",
+                "real at[3] = {u[0], u[1], x[2] + r[2]};\n        cross(at, F + 3 * i, arm);",
+            ),
+            (
+                "    for (int j = 0; j < 3; j++) a[j] = force[j] / mass;\n",
+                """\
+    force[2] += mass * g, cross(x, force, arm);
+    for (int j = 0; j < 3; j++) moment[j] -= arm[j], a[j] = force[j] / mass - (j == 2 ? g : 0);
+""",
+            ),
+        ),
+    ),
+    Variant(
+        "C, the stretch of a spring by the way of its foot in each step",
+        (
+            (
+                "-K_T[i] * (u[j] - s[2 * i + j]) - C_T[i] * v_slide[j];",
+                "-K_T[i] * stretch[j] - C_T[i] * v_slide[j];",
+            ),
+            (
+                "    F_i[0] = F_i[1] = F_i[2] = 0, touches[i] = xi >= 0, slides[i] = 0;\n",
+                """\
+    F_i[0] = F_i[1] = F_i[2] = 0, touches[i] = xi >= 0, slides[i] = 0;
+    real stretch[2];
+    for (int j = 0; j < 2; j++) {
+        stretch[j] = !had_anchor ? 0 : counted ? before[2 * i + j] + (u[j] - was[2 * i + j]) : u[j] - s[2 * i + j];
+        was[2 * i + j] = u[j], before[2 * i + j] = stretch[j], s[2 * i + j] = u[j] - stretch[j];
+    }
+""",
+            ),
+            (
+                "/* One point: N1, N2, T1 to T6.",
+                "static int counted;\nstatic real was[2 * MOST], before[2 * MOST];\n/* One point: N1, N2, T1 to T6.",
+            ),
+            (
+                "s[2 * i + j] = u[j] + (F_i[j] + C_T[i] * v_slide[j]) / K_T[i]; ",
+                "before[2 * i + j] = -(F_i[j] + C_T[i] * v_slide[j]) / K_T[i],\n"
+                "        s[2 * i + j] = u[j] - before[2 * i + j]; ",
+            ),
+            ("    evaluate(v_p, W_p);\n", "    evaluate(v_p, W_p), counted = 1;\n"),
+            ("mass = plain(", "counted = 0, mass = plain("),
+        ),
+    ),
+    Variant(
+        "C, a quaternion is the state",
+        (
+            (
+                "static void step(void) {\n",
+                """\
+static real q[4];
+static int known;
+static void step(void) {
+""",
+            ),
+            (
+                "    for (int i = 0; i < 9; i++) L[i] += turn[i];",
+                """\
+    if (!known) {
+        q[0] = sqrt(1 + L[0] + L[4] + L[8]) / 2, known = 1;
+        q[1] = (L[7] - L[5]) / (4 * q[0]), q[2] = (L[2] - L[6]) / (4 * q[0]), q[3] = (L[3] - L[1]) / (4 * q[0]);
+    }
+    real angle = sqrt(Theta[0] * Theta[0] + Theta[1] * Theta[1] + Theta[2] * Theta[2]);
+    real c = cos(angle / 2), b[3], pb[3], w = q[0];
+    for (int j = 0; j < 3; j++) b[j] = angle > 0 ? sin(angle / 2) / angle * Theta[j] : Theta[j] / 2;
+    cross(q + 1, b, pb), q[0] = w * c - q[1] * b[0] - q[2] * b[1] - q[3] * b[2];
+    for (int j = 0; j < 3; j++) q[j + 1] = w * b[j] + c * q[j + 1] + pb[j];
+    real norm = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int j = 0; j < 4; j++) q[j] /= norm;
+    real M[9] = {1 - 2 * (q[2] * q[2] + q[3] * q[3]), 2 * (q[1] * q[2] - q[0] * q[3]), 2 * (q[1] * q[3] + q[0] * q[2]),
+                 2 * (q[1] * q[2] + q[0] * q[3]), 1 - 2 * (q[1] * q[1] + q[3] * q[3]), 2 * (q[2] * q[3] - q[0] * q[1]),
+                 2 * (q[1] * q[3] - q[0] * q[2]), 2 * (q[2] * q[3] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2])};
+    memcpy(L, M, sizeof M), (void)turn;""",
+            ),
+            ("mass = plain(", "known = 0, mass = plain("),
+        ),
+    ),
 )
