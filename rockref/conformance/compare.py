@@ -237,9 +237,10 @@ def asked_for(vector: Vector, out: dict[str, Any], profile: str = "float64") -> 
 
 
 def no_answer(vector: Vector, note: str) -> list[Check]:
-    """The checks of a vector to which there was no usable answer."""
+    """The checks of a vector to which there was no usable answer: of results that stand in for others only where there
+    are no others."""
+    asked = [(name, e) for name, e in vector.expect.items() if not e.instead_of] or list(vector.expect.items())
     return [
         Check(vector.id, vector.layer, e.rule, name, "outside", float("inf"), note=note, weighed=False)
-        for name, e in vector.expect.items()
-        if not e.instead_of
+        for name, e in asked
     ]

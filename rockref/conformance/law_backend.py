@@ -92,7 +92,7 @@ class RulesBackend:
         h = self.dtype.type(h)
         prepared = prepared_inertia(Block(self.dtype.type(1), self._array(inertia), self.dtype.type(0)))
         state = replace(State.at_rest(x, Lambda, 0, v, W), a=a, T=T)
-        x_n, Theta, L_n, v_p, W_p, E, JW = pieces.first_half(self.rules, state, prepared, h)
+        x_n, Theta, L_n, v_p, W_p, E, JW = self.rules.first_half(self.rules, state, prepared, h)
         v_n = self.rules.velocity(v, a, a_next, h)
         W_n = integrator.update_rates(W, JW, self.rules.momentum(JW, T, T_next, E, h), prepared.J_inverse)
         return {"x": x_n, "Theta": Theta, "Lambda": L_n, "v_predicted": v_p, "W_predicted": W_p, "v": v_n, "W": W_n}

@@ -53,6 +53,7 @@ class Rules:
     momentum: Callable  # I5
     rates: Callable  # I5
     channel: Callable  # M1
+    first_half: Callable
     point_law: Callable
     contact: Callable
     step: Callable
@@ -95,6 +96,7 @@ def law() -> Rules:
         momentum=integrator.update_momentum,
         rates=integrator.update_rates,
         channel=channel_of_history,
+        first_half=first_half,
         point_law=point_law,
         contact=evaluate_contact,
         step=step,
@@ -195,7 +197,7 @@ def first_half(rules: Rules, state: State, inertia: Inertia, h):
 def step(rules: Rules, problem: Problem, state: State, inertia: Inertia) -> State:
     """One step: I1 to I3, prediction, forces, I4 and I5."""
     h = state.x.dtype.type(problem.step)
-    x, _, Lambda, v_p, W_p, E, JW = first_half(rules, state, inertia, h)
+    x, _, Lambda, v_p, W_p, E, JW = rules.first_half(rules, state, inertia, h)
     a, T, F, c = evaluate(rules, problem, state, x, Lambda, v_p, W_p)
     v = rules.velocity(state.v, state.a, a, h)
     W = integrator.update_rates(state.W, JW, rules.momentum(JW, state.T, T, E, h), inertia.J_inverse)

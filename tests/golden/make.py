@@ -34,12 +34,14 @@ def table_3_1() -> list[str]:
 
 #: What can be made by itself.
 PARTS = ("small", "effects", "runs", "fingerprints", "table_3_1")
+#: What is made in any case, where anything of the vectors is: digests and counts, after a change of the schema by hand.
+ALONE = ("manifest",)
 
 
 def main(parts: tuple[str, ...] = PARTS) -> int:
     """Make, compare, say."""
-    if unknown := [p for p in parts if p not in PARTS]:
-        print(f"{unknown[0]} is none of {', '.join(PARTS)}", file=sys.stderr)
+    if unknown := [p for p in parts if p not in PARTS + ALONE]:
+        print(f"{unknown[0]} is none of {', '.join(PARTS + ALONE)}", file=sys.stderr)
         return 2
     bits = np.finfo(np.longdouble).nmant + 1
     if bits < 64:

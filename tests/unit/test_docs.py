@@ -63,6 +63,14 @@ def test_the_table_of_blind_sets_is_up_to_date():
             assert not row[hits] or not row[n] or int(row[hits]) <= int(row[n]), row["set"]
 
 
+def test_the_table_of_the_judge_is_up_to_date():
+    """`python docs/make_judge_table.py` writes it anew."""
+    judge = program("docs/make_judge_table.py")
+    assert judge.PAGE.read_text(encoding="utf-8") == judge.text()
+    for row in judge.rows():
+        assert all(int(row[k] or 0) <= int(row["asked"]) for k in ("detected", "named", "top_two")), row
+
+
 def test_the_numbers_of_verdicts_are_those_of_the_calibration():
     """`python docs/make_verdict_numbers.py` writes them anew."""
     numbers = program("docs/make_verdict_numbers.py")

@@ -61,6 +61,17 @@ def points() -> Iterator[Case]:
     d = Draw(68, 53)
     none = {"mu_0": 0.0, "mu": 0.0, "s": d.vector(1e-5, 2), "xi": d.decade(1e-6, 1e-5)}
     yield ask("T3", {"F_T": ("T3", "T3")}, ("slip", "no friction", *ALL), **none)
+    yield from hardly_loaded()
+
+
+def hardly_loaded() -> Iterator[Case]:
+    """N1 of feet that carry from a newton down to a tenth of a micronewton: a tolerance of a code's own shows there."""
+    d = Draw(69, 53)
+    for xi in (8e-9, 1e-10, 1e-12, 2e-15):
+        at = xi * d.between(0.8, 1.2)
+        yield ask("N1", {"F_N": N1, "touching": T5}, ("hardly loaded", *ALL), xi=at)
+        rate = 0.5 * at * FOOT["K_N"] / FOOT["C_N"]
+        yield ask("N1", {"F_N": N1, "touching": T5}, ("hardly loaded", "compressing", *ALL), xi=at, xi_rate=rate)
 
 
 def assembly() -> Iterator[Case]:

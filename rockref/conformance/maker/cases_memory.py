@@ -39,7 +39,7 @@ def of_all_bits() -> Iterator[tuple[float, Case]]:
     yield 29.2, ask({"F_N@0": "K1"}, "leaning and turning, all bits", 1, standing(2.0**-11), lean, made=ICE,
                     stand=False, W=d.vector(0.25))  # fmt: skip
     roll = rotation((0.0007, 0.0003, 0.7))
-    yield 41.5, ask({"W@1": "A2"}, "pushed at one side, all bits", 1, standing(2.0**-12), roll, made=ICE)
+    yield 42.05, ask({"W@1": "A2"}, "pushed at one side, all bits", 1, standing(2.0**-12), roll, made=ICE)
 
 
 def on_a_single_foot() -> Iterator[tuple[float, Case]]:
@@ -49,7 +49,7 @@ def on_a_single_foot() -> Iterator[tuple[float, Case]]:
         x, W = on_one_foot(lean, 2.0**-13), [0.25, -0.5, 1.0]
         yield place, ask({"F_N@0": "K1"}, "one foot down, turning", 1, x, lean, made=ICE, stand=False, W=W)
         yield place + 6, ask({"Lambda@1": "A2"}, "one foot down", 1, x, lean, made=ICE)
-        yield place + 12.4, ask({"W@1": "A3"}, "one foot down, turning", 1, x, lean, made=ICE, W=W)
+        yield place + 12.7, ask({"W@1": "A3"}, "one foot down, turning", 1, x, lean, made=ICE, W=W)
     dragged = {"s": turned(lean, P)[:, :2] + ASIDE + 2.0**-15, "anchored": np.ones(8, bool)}
     yield 64.5, ask({"W@1": "A2"}, "one foot down, dragged", 1, x, lean, made=GLUE, **dragged)
 
@@ -58,7 +58,7 @@ def in_the_plate() -> Iterator[tuple[float, Case]]:
     """N1 of deep feet; T3 where there is no friction; A2 of feet that slide with stretched springs."""
     yield 22.5, ask({"F_N@0": "N1"}, "a millimetre deep", 1, standing(2.0**-10), made=ICE)
     far = held(np.array([[2.0**-15, 2.0**-16]] * 8))
-    yield 52.5, ask({"F_T@0": "T3"}, "no friction, anchors far away", 1, standing(), made=ICE, stand=False, **far)
+    yield 29.7, ask({"F_T@0": "T3"}, "no friction, anchors far away", 1, standing(), made=ICE, stand=False, **far)
     own = held(Draw(65).vectors(2e-3, 8, 2))
     one = {"mu": 0.25, "mu_0": 0.25}
     yield (
@@ -100,7 +100,7 @@ def told_apart() -> Iterator[tuple[float, Case]]:
     yield 63.5, ask({"Lambda@1": "A2"}, "dragged, each foot its own way", 1, standing(2.0**-12), made=GLUE, **own)
     # The damper pulls beyond both cones; a step later the foot has moved by a third of the one.
     slides: Any = {"v": [-0.08, -0.06, 0.0], "sliding": SLID, **held(TIP)}
-    yield 62.3, ask({"F_T@1": "T6"}, "slides on, between the cones", 2, standing(), made=PAIR, **slides)
+    yield 64.47, ask({"F_T@1": "T6"}, "slides on, between the cones", 2, standing(), made=PAIR, **slides)
 
 
 def memory() -> Iterator[Case]:

@@ -12,8 +12,8 @@ from rockref.conformance import exact, exact_run
 from rockref.conformance.maker.answers import body_of, start_of
 from rockref.conformance.maker.arithmetic import Doubles, converted
 from rockref.conformance.maker.bars import Case
-from rockref.conformance.maker.drawing import orthonormal
-from rockref.conformance.maker.scenes import Scene, scenes
+from rockref.conformance.maker.drawing import orthonormal, table_3_1
+from rockref.conformance.maker.scenes import Scene, released, scenes
 from rockref.conformance.vectors import problem_of
 from rockref.engines import run
 
@@ -97,11 +97,20 @@ def steps() -> Iterator[Case]:
     """One question per pattern, from the scene where it comes first."""
     seen: set[bytes] = set()
     for name in LOOKED_AT:
-        scene = scenes()[name]
-        response = states(scene)
-        for pattern, rows in patterns(response).items():
-            if pattern in seen:
-                continue
+        yield from of_scene(scenes()[name], seen)
+
+
+def elsewhere() -> Iterator[Case]:
+    """Questions of another block under another gravity: a code that has the source's numbers in its step is seen."""
+    block = table_3_1() | {"mass": 60.0, "g": 3.75}
+    yield from of_scene(Scene("elsewhere", "60 kg, 3.75 m/s2", released(block), 0.05, whole=False), set())
+
+
+def of_scene(scene: Scene, seen: set[bytes]) -> Iterator[Case]:
+    """One question per pattern of a scene that is not among the `seen` ones, to which they are added."""
+    name, response = scene.id, states(scene)
+    for pattern, rows in patterns(response).items():
+        if pattern not in seen:
             seen.add(pattern)
             some = rows[np.linspace(0, len(rows) - 1, min(CANDIDATES, len(rows))).round().astype(int)]
             asked = [at_row(scene, response, int(row)) for row in some]

@@ -11,6 +11,7 @@ import numpy as np
 
 from rockref.conformance.maker import (
     cases_alone,
+    cases_apart,
     cases_body,
     cases_derived,
     cases_full,
@@ -32,8 +33,8 @@ QUESTIONS = {
     "L1": (cases_point.all_points, cases_full.points),
     "L2": (cases_body.assembly, cases_full.assembly),
     "L3": (cases_body.exponentials, cases_body.steps, cases_body.no_rotation, cases_full.steps),
-    "L4": (cases_step.steps,),
-    "L5s": (cases_short.all_short, cases_alone.alone, cases_memory.memory),
+    "L4": (cases_step.steps, cases_step.elsewhere),
+    "L5s": (cases_short.all_short, cases_alone.alone, cases_memory.memory, cases_apart.apart),
     "L7": (cases_derived.channel,),
 }
 LAYERS = (*QUESTIONS, "LS")

@@ -5,6 +5,7 @@ import pytest
 
 from rockref.conformance import in_words, vectors
 from rockref.conformance.backend import load
+from rockref.conformance.compare import no_answer
 from rockref.conformance.judge import judge
 from rockref.conformance.scheme import extrapolated, halved
 from rockref.conformance.verdict import verdict
@@ -53,6 +54,14 @@ class Hidden(BlackBox):
     def __init__(self, backend):
         super().__init__(backend)
         self.simulate = lambda problem: vars(backend.simulate(problem)) | {"F": None}
+
+
+def test_a_run_that_cannot_be_made_is_a_failure_where_all_that_is_asked_stands_in_for_forces():
+    vector = next(v for v in vectors.layer("LS") if all(e.instead_of for e in v.expect.values()))
+    checks = no_answer(vector, "the step is too large")
+    assert {c.name for c in checks} == set(vector.expect) and all(c.failed and not c.weighed for c in checks)
+    some = next(v for v in vectors.layer("L5s") if {bool(e.instead_of) for e in v.expect.values()} == {True, False})
+    assert {c.name for c in no_answer(some, "")} == {k for k, e in some.expect.items() if not e.instead_of}
 
 
 def test_another_integrator_passes_by_runs_alone():

@@ -17,6 +17,7 @@ from rockref.conformance.law_backend import NumpyEngine
 from rockref.conformance.maker.answers import ANSWERS
 from rockref.conformance.maker.arithmetic import converted
 from rockref.conformance.maker.bars import FIFTY, converted_floats_of, is_flag
+from rockref.conformance.maker.hunting import RESOLVED, RESOLVED_BY_SCHEMES
 from rockref.conformance.rules import ORDER, PIECES
 from rockref.conformance.zoo.mistakes import BY_ID
 from rockref.engines import run
@@ -63,6 +64,15 @@ def test_an_altered_file_is_refused(tmp_path, monkeypatch):
 @pytest.mark.parametrize("name", ["MANIFEST", *LAYERS, "LS", "LE", *(f"L5/{n}" for n in RUNS)])
 def test_files_have_the_form_of_the_schema(name):
     jsonschema.validate(json.loads((FOLDER / f"{name}.json").read_text()), SCHEMA)
+
+
+def test_the_schema_states_the_bars_of_admission():
+    told = SCHEMA["$defs"]["vector"]["properties"]["resolving"]
+    assert told["additionalProperties"]["minimum"] == RESOLVED_BY_SCHEMES < RESOLVED
+    assert f": {RESOLVED:g} at least, and {RESOLVED_BY_SCHEMES:g} in layer LS" in told["description"]
+    for layer in (*LAYERS, "LS"):
+        least = RESOLVED_BY_SCHEMES if layer == "LS" else RESOLVED
+        assert all(v >= least for vector in vectors.layer(layer) for v in vector.resolving.values()), layer
 
 
 @pytest.mark.parametrize("layer", LAYERS)
@@ -141,15 +151,16 @@ def test_short_runs_that_are_judged_elsewhere_stand_at_the_end():
 
 
 def test_steps_take_the_stated_pattern():
-    patterns = set()
+    patterns = []
     for vector in vectors.layer("L4"):
         out = ask(NumpyEngine(), vector)
         assert branch_of(out["anchored"], out["sliding"]) == vector.branch, vector.id
         pattern = vector.flags[2]
         assert [i for i, c in enumerate(pattern) if c == "s"] == vector.branch["stick"], vector.id
         assert [i for i, c in enumerate(pattern) if c == "S"] == vector.branch["slip"], vector.id
-        patterns.add(pattern)
-    assert len(patterns) == len(vectors.layer("L4")) > 100
+        patterns += [pattern] if vector.flags[0] != "elsewhere" else []
+    assert len(set(patterns)) == len(patterns) > 100, "each once, but for those of another block"
+    assert len(patterns) < len(vectors.layer("L4"))
 
 
 @pytest.mark.parametrize("layer", LAYERS)
