@@ -1,0 +1,183 @@
+"""Ensembles: many runs of a block on shaken plates, over what is unknown of block, placing and motion.
+
+A run is made from its number alone: its generator is seeded with the ensemble's seed and the number, so the bits of a
+run depend neither on the workers nor on where the ensemble was interrupted.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, astuple, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from rockref.api import Model
+from rockref.model.base_motion import BaseMotion
+from rockref.model.errors import InputError
+from rockref.model.problem import Block, ContactPoints, Problem
+from rockref.model.standing import standing_posture
+from rockref.shake import extremes
+from rockref.shake.extremes import COLUMNS, Extremes
+
+#: Time after the record that a run may take to fall or to come to rest [s]. Decided: a rocking block of a metre has
+#: spent its energy in ten.
+AFTER = 10.0
+#: Runs that are made and run at a time. Decided: a few queues a thread; what is lost by an interruption.
+BLOCK = 256
+
+
+@dataclass(frozen=True)
+class Draws:
+    """What is drawn anew for every run.
+
+    heading : largest turn about the vertical to either side, uniform [degrees]
+    feet : standard deviation of the height of each foot, normal [m]
+    friction : standard deviation of the logarithm of one factor on all friction coefficients, normal
+    """
+
+    heading: float = 0.0
+    feet: float = 0.0
+    friction: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse sizes that are none (E-RANGE)."""
+        for key, value in asdict(self).items():
+            if not (math.isfinite(value) and value >= 0):
+                raise InputError("E-RANGE", f"draws: {key}", f"is {value!r}", "Give a finite number, not negative.")
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """A block, the motions of its plate, the factors on them, and what is drawn.
+
+    Runs take pairs of motion and factor in turn: run k has pair k modulo their number, so each has as many runs.
+    step [s]; after : time after the record [s]; seed : of all draws
+    """
+
+    model: Model
+    motions: tuple[BaseMotion, ...]
+    factors: tuple[float, ...] = (1.0,)
+    draws: Draws = Draws()
+    step: float = 1e-5
+    after: float = AFTER
+    seed: int = 0
+
+    def drawn(self, k: int) -> dict[str, Any]:
+        """Return what run k has: record, factor, heading [rad], heights of feet (4,) [m], factor on friction."""
+        rng = np.random.default_rng([self.seed, k])
+        heading, feet, friction = rng.uniform(-1, 1), rng.standard_normal(4), rng.standard_normal()
+        pair = k % (len(self.motions) * len(self.factors))
+        return {
+            "record": pair // len(self.factors),
+            "factor": self.factors[pair % len(self.factors)],
+            "heading": math.radians(self.draws.heading) * heading,
+            "feet": self.draws.feet * feet,
+            "friction": math.exp(self.draws.friction * friction),
+        }
+
+    def problem(self, k: int, body: tuple[Block, ContactPoints], bases: dict[Any, BaseMotion]) -> Problem:
+        """Return run k; body, what the model makes; bases, the scaled motions made so far, which is added to."""
+        own = self.drawn(k)
+        key = own["record"], own["factor"]
+        if key not in bases:
+            bases[key] = self.motions[own["record"]].scaled(own["factor"])
+        base, (block, points) = bases[key], body
+        points = with_feet(points, own["feet"])
+        points = replace(points, mu_0=points.mu_0 * own["friction"], mu=points.mu * own["friction"])
+        start = standing_posture(block, points, own["heading"])
+        duration = max(base.end, 0.0) + self.after
+        effects = self.model.active_effects()
+        return Problem(block, points, start, self.step, duration, 1 / extremes.TICK, effects, base=base)
+
+    def rows(self, first: int, last: int, workers: int | None = None) -> list[dict[str, Any]]:
+        """Run the runs first to last - 1 and return their rows of the table.
+
+        Raises InputError as a run does, and E-STAND with the number of a run whose block does not stand.
+        """
+        body, bases = self.model.body(), dict[Any, BaseMotion]()
+        problems = []
+        for k in range(first, last):
+            try:
+                problems.append(self.problem(k, body, bases))
+            except InputError as e:
+                raise InputError(e.code, f"run {k}: {e.where}", e.what, e.cure) from e
+        found = run_all(problems, workers)
+        return [self.row(k, f, p) for k, f, p in zip(range(first, last), found, problems, strict=True)]
+
+    def row(self, k: int, found: Extremes, problem: Problem) -> dict[str, Any]:
+        """Return the row of one run: its number, what was drawn, the peak of its motion, what was found."""
+        own, base = self.drawn(k), problem.base
+        assert base is not None
+        feet = {f"foot_{i + 1}_m": float(height) for i, height in enumerate(own["feet"])}
+        peak = float(np.max(np.hypot(base.a[:, 0], base.a[:, 1])))
+        drawn = {"run": k, "record": base.name, "factor": own["factor"], "pga_m_s2": peak}
+        drawn |= {"heading_rad": own["heading"], **feet, "friction_factor": own["friction"]}
+        return drawn | dict(zip(COLUMNS, astuple(found), strict=True))
+
+
+def with_feet(points: ContactPoints, heights: np.ndarray) -> ContactPoints:
+    """Return the points with each foot raised by its height [m]; a point's foot is the digit its name begins with.
+
+    Raises InputError (E-FEET) where heights are given to points without a foot.
+    """
+    if not np.any(heights):
+        return points
+    feet = [int(name[0]) - 1 if name[:1] in "1234" and name else -1 for name in points.names]
+    if min(feet) < 0:
+        what = f"{points.names[int(np.argmin(feet))]!r} belongs to no foot, 1 to 4"
+        raise InputError("E-FEET", "contact points", what, "Leave the draws of feet out, or begin names with a digit.")
+    P = points.P.copy()
+    P[:, 2] += heights[feet]
+    return replace(points, P=P)
+
+
+def run_all(problems: Sequence[Problem], workers: int | None = None) -> list[Extremes]:
+    """Return the extremes of runs that share step and number of points, on `workers` threads (None: all cores).
+
+    Without numba, and for effects that only the law knows, the runs are made one by one, which is a thousand times
+    slower.
+    """
+    from rockref.engines import chosen, run
+    from rockref.model.simulate import check
+
+    for problem in problems[:1]:
+        check(problem)
+    limit, every = extremes.limits(problems[0].step)
+    counts = [extremes.ticks(p, every) for p in problems]
+    if all(chosen(p, "auto") == "numba" for p in problems):
+        from rockref.engines.compiled.batch import batch_of
+        from rockref.engines.compiled.pack import with_memory
+        from rockref.engines.compiled.shaken import run_shaken
+
+        batch = batch_of([with_memory(p) for p in problems], np.array([0]))
+        number, quiet = np.array(counts, float).T
+        return [extremes.from_row(row) for row in run_shaken(batch, limit, every, number, quiet, workers)]
+    rate = 1 / (every * problems[0].step)
+    return [
+        extremes.watched(run(p.replace(output_rate=rate)), quiet)
+        for p, (_, quiet) in zip(problems, counts, strict=True)
+    ]
+
+
+def run_ensemble(
+    ensemble: Ensemble,
+    runs: int,
+    workers: int | None = None,
+    done: Callable[[int, list[dict[str, Any]]], None] | None = None,
+    have: Callable[[int], list[dict[str, Any]] | None] | None = None,
+) -> list[dict[str, Any]]:
+    """Run an ensemble block by block and return its rows.
+
+    done : called with the number of a block and its rows when it is finished.
+    have : asked for the rows of a block before it is run; None where they are not known.
+    """
+    rows: list[dict[str, Any]] = []
+    for block, first in enumerate(range(0, runs, BLOCK)):
+        known = have(block) if have is not None else None
+        own = known if known is not None else ensemble.rows(first, min(first + BLOCK, runs), workers)
+        if known is None and done is not None:
+            done(block, own)
+        rows += own
+    return rows
