@@ -10,6 +10,7 @@ MODULES: tuple[str, ...] = (
     "demo",
     "new",
     "simulate",
+    "shake",
     "compare",
     "fit",
     "identify",

@@ -28,13 +28,21 @@ def simulate(
     report: Annotated[
         Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
     ] = None,
-    duration: Annotated[float, typer.Option(help="Seconds from the release.")] = 1.5,
+    duration: Annotated[
+        float | None, typer.Option(help="Seconds from the release [1.5], or of a shaken run [record and 10 s].")
+    ] = None,
     step: Annotated[float, typer.Option(help="Time step in seconds; the source's is 1e-5.")] = 1e-5,
     rate: Annotated[float, typer.Option(help="Rows a second.")] = 2000.0,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself) or numba (compiled).")] = "auto",
     effect: Annotated[
         list[str] | None, typer.Option("--effect", help="Add an effect: id:key=value,key=value. May be repeated.")
     ] = None,
+    base: Annotated[
+        list[str] | None,
+        typer.Option("--base", help="Shake the plate by a record, on which the block stands: a file of motion."),
+    ] = None,
+    scale: Annotated[float, typer.Option(help="Factor on the record.")] = 1.0,
+    rotate: Annotated[float, typer.Option(help="Turn of the record about z, from x to y, in degrees.")] = 0.0,
     turned: Annotated[bool, typer.Option("--turned", help="Turn the block by 180 degrees before the release.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of lines.")] = False,
 ) -> None:
@@ -43,12 +51,23 @@ def simulate(
     The columns carry their units; rates are those of an ideal gyroscope, but for the sensor effects of the model. A
     block that overturns is a result, and said so.
 
+    With --base the block stands on a plate that moves, and what is said are the extremes of the run, which ends when
+    the block has fallen or rests after the record. The rows of --output go on for the whole duration.
+
     \b
     Example:
       rockref simulate -o response.csv
       rockref simulate --duration 5 --effect quadratic_drag:c=0.4 -o dragged.csv.gz --report dragged
       rockref simulate --model model.toml --turned --json
+      rockref simulate --base record.AT2 --scale 0.5 --rotate 30
     """
+    if base:
+        from rockref.commands._shaking import simulate_shaken
+
+        options = {"engine": engine, "report": report, "turned": turned, "out": out, "MODEL": given}
+        rows = {"output": output, "rate": rate, "duration": duration, "step": step}
+        return simulate_shaken(model, "+".join(base), scale, rotate, effect or [], rows, options, as_json)
+    duration = 1.5 if duration is None else duration
     from rockref import api
     from rockref.commands._models import known_files, named_model, of_file, with_effects
     from rockref.commands._progress import progress

@@ -168,6 +168,8 @@ def vertical(q: np.ndarray, b: float) -> np.ndarray:
 
 def potential(q, b, weight, K, centre, radius) -> tuple[float, np.ndarray, np.ndarray]:
     """Return energy [J] of weight and springs, its gradient (3,) [N] and its second derivatives (3, 3) [N/m]."""
+    if np.sum(q[1:] ** 2) > (b / 2) ** 2:  # beyond 30 degrees nothing stands
+        return np.inf, np.zeros_like(q), np.eye(3, dtype=q.dtype)
     n = vertical(q, b)
     depth = radius - (q[0] + np.sum(centre * n, axis=1))
     F = K * np.maximum(depth, 0)

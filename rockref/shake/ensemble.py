@@ -166,17 +166,18 @@ def run_ensemble(
     runs: int,
     workers: int | None = None,
     done: Callable[[int, list[dict[str, Any]]], None] | None = None,
-    have: Callable[[int], list[dict[str, Any]] | None] | None = None,
+    have: Callable[[int, int], list[dict[str, Any]] | None] | None = None,
 ) -> list[dict[str, Any]]:
     """Run an ensemble block by block and return its rows.
 
     done : called with the number of a block and its rows when it is finished.
-    have : asked for the rows of a block before it is run; None where they are not known.
+    have : asked for the rows of a block of so many runs before it is run; None where they are not known.
     """
     rows: list[dict[str, Any]] = []
     for block, first in enumerate(range(0, runs, BLOCK)):
-        known = have(block) if have is not None else None
-        own = known if known is not None else ensemble.rows(first, min(first + BLOCK, runs), workers)
+        last = min(first + BLOCK, runs)
+        known = have(block, last - first) if have is not None else None
+        own = known if known is not None else ensemble.rows(first, last, workers)
         if known is None and done is not None:
             done(block, own)
         rows += own

@@ -66,16 +66,16 @@ def limits(step: float) -> tuple[np.ndarray, int]:
     """Return the limits of the compiled loop, and the steps of one tick, for a step [s]."""
     every = max(1, round(TICK / step))
     tick = every * step
-    ticks_of = [math.ceil(REST_TIME / tick), math.ceil(AIR / tick)]
+    ticks_of = [math.ceil(time / tick - 1e-9) for time in (REST_TIME, AIR)]
     return np.array([np.cos(OVERTURNED), REST_SPEED**2, REST_RATE**2, *ticks_of]), every
 
 
 def ticks(problem: Problem, every: int) -> tuple[int, int]:
-    """Return how many ticks a run has, and the tick from which on it may end at rest: after its record."""
+    """Return how many ticks a run has, and the tick after which rest counts: the end of its record."""
     tick = every * problem.step
     number = math.floor(problem.duration / tick + 1e-9)
     end = -math.inf if problem.base is None else problem.base.end - problem.start.t
-    return number, 0 if end < 0 else math.ceil(end / tick)
+    return number, 0 if end < 0 else math.ceil(end / tick - 1e-9)
 
 
 def from_row(row: np.ndarray) -> Extremes:
@@ -92,11 +92,10 @@ def from_row(row: np.ndarray) -> Extremes:
 def watched(response: Response, quiet: int) -> Extremes:
     """Return the extremes of a response whose rows are the ticks, as the compiled loop finds them on the way.
 
-    quiet : the tick from which on the run may end at rest.
+    quiet : the tick after which rest counts.
     """
     limit, _ = limits(response.problem.step)
-    tick = float(np.median(np.diff(response.t)))
-    air, still_for = math.ceil(AIR / tick), math.ceil(REST_TIME / tick)
+    still_for, air = limit[3:]
     L, foot = response.Lambda, response.anchored
     heading = np.arctan2(L[:, 1, 0], L[:, 0, 0])
     points, places = response.problem.points, response.problem.start
@@ -124,8 +123,8 @@ def watched(response: Response, quiet: int) -> Extremes:
             ended = "fell"
             break
         slow = np.sum(response.v[k] ** 2) < limit[1] and np.sum(response.W[k] ** 2) < limit[2]
-        still = still + 1 if slow and np.sum(foot[k]) >= 3 else 0
-        if still >= still_for and k >= quiet:
+        still = still + 1 if slow and np.sum(foot[k]) >= 3 and k > quiet else 0
+        if still >= still_for:
             ended = "rest"
             break
     return Extremes(fell=ended == "fell", ended=ended, end=float(response.t[k]), impacts=impacts, **found, **left)

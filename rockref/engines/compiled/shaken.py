@@ -36,8 +36,8 @@ def _make_loop(groups: int, lanes: int, source: int):
     ):  # fmt: skip
         """All runs of the queue; found (B, FOUND) is written.
 
-        every : steps from tick to tick.  ticks, quiet : (B,) how many ticks a run has, and from which on it may end at
-        rest.  cursor : (LANES,) the run of each lane, -1 where it has none.  States have their accelerations given.
+        every : steps from tick to tick.  ticks, quiet : (B,) how many ticks a run has, and after which rest counts.
+        cursor : (LANES,) the run of each lane, -1 where it has none.  States have their accelerations given.
         """
         _ = groups, lanes, source  # held, so that numba's files on disk belong to this variant of this very text
         body, centres, props, memory = as_lanes(body_), as_lanes(centres_), as_lanes(props_), as_lanes(memory_)

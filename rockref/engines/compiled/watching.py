@@ -85,7 +85,7 @@ def watch_pose(lane, state, kept, found, t):
 
 @called
 def watch(lane, state, memory, foot, kept, found, limits, ticks, quiet):
-    """Look at a run after a tick; return whether it ends. It may come to rest from tick `quiet` on."""
+    """Look at a run after a tick; return whether it ends. Rest counts after tick `quiet`."""
     kept[4, lane] += 1.0
     t = state[col.TIME, lane]
     found[END] = t
@@ -100,8 +100,8 @@ def watch(lane, state, memory, foot, kept, found, limits, ticks, quiet):
         found[FELL], found[ENDED] = 1.0, HAS_FALLEN
         return True
     still = stand >= 3.0 and v2 < limits[1] and W2 < limits[2]
-    kept[2, lane] = kept[2, lane] + 1.0 if still else 0.0
-    if kept[2, lane] >= limits[3] and kept[4, lane] >= quiet:
+    kept[2, lane] = kept[2, lane] + 1.0 if still and kept[4, lane] > quiet else 0.0
+    if kept[2, lane] >= limits[3]:
         found[ENDED] = AT_REST
         return True
     return kept[4, lane] >= ticks

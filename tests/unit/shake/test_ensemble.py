@@ -61,9 +61,9 @@ def test_the_bits_of_a_run_depend_on_its_number_alone(rows):
 
 
 def test_a_block_that_stays_comes_to_rest_after_its_record_and_not_before():
-    quiet = replace(SHAKEN, motions=(noise(0, 0.02),), factors=(1.0,), after=3.0).rows(0, 2)
+    quiet = replace(SHAKEN, motions=(noise(0, 0.02),), factors=(1.0,), draws=Draws(heading=90.0), after=3.0).rows(0, 2)
     for row in quiet:
-        assert row["ended"] == "rest" and 1.0 <= row["end_s"] < 4.0 and not row["fell"]
+        assert row["ended"] == "rest" and 1.5 <= row["end_s"] < 4.0 and not row["fell"]
         assert row["tilt_rad"] < 1e-2 and row["slide_m"] < 1e-4
 
 
@@ -92,7 +92,9 @@ def test_blocks_that_are_known_are_not_run_again(monkeypatch, rows):
     assert repr(first) == repr(rows) and sorted(kept) == [0, 1, 2]
     del kept[1]
     asked = []
-    again = run_ensemble(SHAKEN, 21, done=lambda block, own: asked.append(block), have=kept.get)
+    again = run_ensemble(
+        SHAKEN, 21, done=lambda block, own: asked.append(block), have=lambda block, size: kept.get(block)
+    )
     assert repr(again) == repr(rows) and asked == [1]
 
 
