@@ -75,6 +75,8 @@ class Executable:
             return self._effect
         if piece == "sensor":
             return self._sensor
+        if piece == "shaken":
+            return lambda problem: self._run(jsonlines.question(self._new_id(), piece, flat(problem)), self.small)
         return lambda **inputs: self._run(jsonlines.question(self._new_id(), piece, inputs), self.small)
 
     def _effect(self, problem: Problem, effect: str, parameters: dict[str, Any]) -> dict[str, Any] | None:

@@ -195,9 +195,12 @@ def text(v: Verdict, colour: bool = False) -> str:
         lines.append(f"Properties (L6): {len(f.properties) - len(broken)} of {len(f.properties)} hold")
     lines += [f"  {p.name}: {p.note}" for p in broken]
     claimed = [e for e in f.effects if e.grade != "not shown"]
-    if claimed:
-        good, all_ = len([e for e in claimed if not e.failed]), len({e.effect for e in claimed})
-        lines.append(f"Effects (LE): {all_} claimed; {good} of {len(claimed)} vectors inside")
+    shaken = [e for e in claimed if e.vector.startswith("LB")]
+    if of_effects := [e for e in claimed if e not in shaken]:
+        good, all_ = len([e for e in of_effects if not e.failed]), len({e.effect for e in of_effects})
+        lines.append(f"Effects (LE): {all_} claimed; {good} of {len(of_effects)} vectors inside")
+    if shaken:
+        lines.append(f"Base motion (LB): {len([e for e in shaken if not e.failed])} of {len(shaken)} vectors inside")
     lines += [f"  {e.effect}: {e.note or bars(e.worst)} ({e.vector})" for e in claimed if e.failed]
     lines += ["Rules:"] + rule_lines(v) if v.status == "FAIL" else []
     lines += unseen(v) if v.passed and "L5s" in f.layers else []

@@ -20,8 +20,8 @@ from rockref.model.problem import Problem
 
 PROTOCOL = 1
 WHOLE = ("step", "simulate")
-#: Pieces that show effects of the catalogue.
-CLAIMS = ("effect", "sensor")
+#: Pieces that show effects of the catalogue, and runs on a plate that moves.
+CLAIMS = ("effect", "sensor", "shaken")
 
 
 def plain(value: Any) -> Any:
@@ -123,9 +123,10 @@ def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
         if piece == "effect":
             out = backend.effect(problem_of(q), q["effect"], q["parameters"])
         else:
-            out = getattr(backend, piece)(problem_of(q)) if piece in WHOLE else getattr(backend, piece)(**q)
+            whole = piece in (*WHOLE, "shaken")
+            out = getattr(backend, piece)(problem_of(q)) if whole else getattr(backend, piece)(**q)
         # Effects that are not claimed are answered with null.
-        like = "simulate" if piece == "effect" else piece
+        like = "simulate" if piece in ("effect", "shaken") else piece
         return {"id": id_, "out": None if out is None else as_mapping(out, like)}
     except ANYTHING as e:
         return {"id": id_, "error": raised(e)}

@@ -13,10 +13,11 @@ from rockref.conformance.claims import ClaimCheck, judge_claims
 from rockref.conformance.compare import Check, compare, no_answer
 from rockref.conformance.rules import PIECES
 from rockref.conformance.runs import RunCheck, judge_runs
+from rockref.conformance.shaken import judge_shaken
 from rockref.conformance.vectors import Vector
 from rockref.model.errors import InputError
 
-LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "LS", "L5", "L6", "L7", "LE")
+LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "LS", "L5", "L6", "L7", "LE", "LB")
 PROFILES = ("float64", "float32", "scheme")
 #: What a backend with another integrator is not asked: its own step is its own.
 NOT_OF_THE_SCHEME = {"integrate", "step"}
@@ -89,7 +90,7 @@ def judge(
     ----------
     backend : an object with `simulate`, and as many of the other pieces as it likes to show (`rules.PIECES`).
     layers : some of L0 .. L4, L5s (short runs), LS (short runs of other integrators), L5 (trajectories),
-        L6 (properties), L7, LE (effects that it claims); all by default.
+        L6 (properties), L7, LE (effects that it claims), LB (a plate that moves, if it claims that); all by default.
     profile : "float64", "float32", or "scheme" (the same physics by another integrator).
     progress : called with the layer and the share of it that is done.
     examples : drawn for each property of L6.
@@ -114,6 +115,8 @@ def judge(
             findings.runs = judge_runs(backend, profile, report)
         elif layer == "LE":
             findings.effects = judge_claims(backend) if profile == "float64" else []
+        elif layer == "LB":
+            findings.effects += judge_shaken(backend) if profile == "float64" else []
         elif layer == "L6":
             _properties(backend, findings, examples)
         else:

@@ -160,6 +160,10 @@ class NumpyEngine(RulesBackend):
         """A run with an effect of the catalogue."""
         return run(claimed(problem, effect, parameters), engine="numpy", dtype=self.dtype)
 
+    def shaken(self, problem: Problem) -> Any:
+        """A run on a plate that moves."""
+        return run(problem, engine="numpy", dtype=self.dtype)
+
     def sensor(self, effect: str, parameters: dict[str, Any], t: Any, crv_deg_s: Any) -> dict[str, Any]:
         """What the gyroscope makes of rates."""
         of = (catalogue.make(catalogue.find(effect), parameters, "effect"),)
@@ -185,6 +189,10 @@ class NumbaEngine:
     def effect(self, problem: Problem, effect: str, parameters: dict[str, Any]) -> Any:
         """A run with an effect of the catalogue."""
         return run(claimed(problem, effect, parameters), engine="numba")
+
+    def shaken(self, problem: Problem) -> Any:
+        """A run on a plate that moves."""
+        return run(problem, engine="numba")
 
     def step(self, problem: Problem) -> dict[str, Any]:
         """One step: a run that long, from a state that brings a, T and F."""

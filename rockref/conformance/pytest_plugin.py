@@ -66,6 +66,11 @@ def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
     if layer == "LE":
         found = claims.claims() if profile == "float64" else ()
         return [(ClaimItem, c.id, c) for c in found if asking.has(backend, c.piece)]
+    if layer == "LB":
+        from rockref.conformance.shaken import PIECE, shaken_vectors
+
+        there = profile == "float64" and asking.has(backend, PIECE)
+        return [(ShakenItem, v.id, v) for v in shaken_vectors()] if there else []
     if not of_the_profile(layer, profile):
         return []
     not_asked = NOT_OF_THE_SCHEME if profile == "scheme" else set()
@@ -153,6 +158,22 @@ class PropertyItem(_Item):
         judged = judge_one(backend, rule, drawn, EXAMPLES)
         if not judged.holds:
             raise Failed(f"{judged.name}: {judged.note}")
+
+
+class ShakenItem(_Item):
+    """One run on a plate that moves; skipped where the backend does not make it."""
+
+    def runtest(self) -> None:
+        """Ask for the run, weigh the answer."""
+        from rockref.conformance.in_words import bars
+        from rockref.conformance.shaken import judge_vector
+
+        backend, vector, _ = self.given
+        judged = judge_vector(backend, vector)
+        if judged.grade == "not shown":
+            pytest.skip("motion of the plate is not claimed")
+        if judged.failed:
+            raise Failed(f"{judged.effect}: {judged.note or bars(judged.worst)}")
 
 
 class ClaimItem(_Item):

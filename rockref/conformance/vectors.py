@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
 from rockref.model.problem import Block, ContactPoints, Problem, State
 from rockref.model.storage import unpacked
@@ -210,7 +211,11 @@ def problem_of(q: dict[str, Any]) -> Problem:
     state |= {k: np.asarray(q[k], bool) for k in ("anchored", "sliding")}
     state |= {k: np.asarray(q[k]) for k in ("a", "T", "F") if q.get(k) is not None}
     start = State(**state, t=float(q.get("t", 0.0)))
-    return Problem(block, points, start, float(q["step"]), float(q["duration"]), float(q["output_rate"]))
+    base = None
+    if q.get("base") is not None:
+        base = BaseMotion(float(q["base"]["t_0"]), float(q["base"]["dt"]), np.asarray(q["base"]["a"], float))
+    times = float(q["step"]), float(q["duration"]), float(q["output_rate"])
+    return Problem(block, points, start, *times, base=base)
 
 
 def flat(problem: Problem) -> dict[str, Any]:
@@ -220,6 +225,8 @@ def flat(problem: Problem) -> dict[str, Any]:
     q |= {k: getattr(p, k) for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu")}
     q |= {k: getattr(s, k) for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "t")}
     q |= {k: getattr(s, k) for k in ("a", "T", "F") if getattr(s, k) is not None}
+    if (base := problem.base) is not None:
+        q["base"] = {"t_0": base.t_0, "dt": base.dt, "a": base.a}
     return q | {k: getattr(problem, k) for k in ("step", "duration", "output_rate")}
 
 

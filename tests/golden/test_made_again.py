@@ -11,7 +11,7 @@ import shutil
 import numpy as np
 import pytest
 
-from rockref.conformance.maker import cases_effects, fingerprints, make, small, trajectories
+from rockref.conformance.maker import cases_base, cases_effects, fingerprints, make, small, trajectories
 from tests.golden.make import table_3_1
 
 pytestmark = [
@@ -55,6 +55,10 @@ def test_vectors_of_effects():
             assert 0.5 <= bar_here / bar_there <= 2.0, "a bar is the largest of some members, known to a factor"
             a, b = ({k: v for k, v in c.items() if k not in ("expect", "resolving")} for c in (a, b))
         assert a == b, b["id"]
+
+
+def test_vectors_of_a_plate_that_moves():
+    assert small.written(cases_base.document()) == there("LB.json")
 
 
 def test_runs_and_what_the_manifest_says_of_them():

@@ -144,7 +144,7 @@ class TestBars:
 class TestMake:
     def test_an_unknown_part_is_named(self, capsys):
         assert main(["table_3_2"]) == 2
-        assert "table_3_2 is none of small, effects, runs, fingerprints, table_3_1" in capsys.readouterr().err
+        assert "table_3_2 is none of small, effects, base, runs, fingerprints, table_3_1" in capsys.readouterr().err
 
     @pytest.mark.slow
     @pytest.mark.skipif(platform.machine() != "x86_64", reason="bars come from this extended precision")

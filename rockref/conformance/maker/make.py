@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.maker import cases_effects, fingerprints, small, trajectories
+from rockref.conformance.maker import cases_base, cases_effects, fingerprints, small, trajectories
 from rockref.conformance.vectors import SCHEMA
 from rockref.conformance.zoo.mistakes import MISTAKES
 from rockref.model.storage import write_bytes
@@ -91,7 +91,7 @@ def digests() -> dict[str, str]:
     return {p.relative_to(FOLDER).as_posix(): sha256(p.read_bytes()) for p in FOLDER.rglob("*") if p.is_file()}
 
 
-def make(parts: tuple[str, ...] = ("small", "effects", "runs", "fingerprints")) -> list[str]:
+def make(parts: tuple[str, ...] = ("small", "effects", "base", "runs", "fingerprints")) -> list[str]:
     """Make the vectors anew; returns the names of the files that differ from what was there."""
     before = digests()
     if "small" in parts:
@@ -104,6 +104,8 @@ def make(parts: tuple[str, ...] = ("small", "effects", "runs", "fingerprints")) 
                 say(f"  {line}")
     if "effects" in parts:
         put("LE.json", cases_effects.document(say))
+    if "base" in parts:
+        put("LB.json", small.written(cases_base.document()))
     runs, windows = trajectories.names()
     if "runs" in parts:
         for name, data in trajectories.files(say):

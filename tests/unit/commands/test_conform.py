@@ -70,7 +70,7 @@ class TestJudging:
         "words, layers, profile, examples",
         [
             ((), judging.LAYERS, "float64", 50),
-            (("--quick",), ("L0", "L1", "L2", "L3", "L4", "L5s", "LS", "L7", "LE"), "float64", 50),
+            (("--quick",), ("L0", "L1", "L2", "L3", "L4", "L5s", "LS", "L7", "LE", "LB"), "float64", 50),
             (("--quick", "--layers", "L6"), ("L6",), "float64", 50),
             (("--profile", "float32", "--examples", 3), judging.LAYERS, "float32", 3),
         ],

@@ -61,7 +61,7 @@ def test_an_altered_file_is_refused(tmp_path, monkeypatch):
         vectors.read_bytes("L0.json")
 
 
-@pytest.mark.parametrize("name", ["MANIFEST", *LAYERS, "LS", "LE", *(f"L5/{n}" for n in RUNS)])
+@pytest.mark.parametrize("name", ["MANIFEST", *LAYERS, "LS", "LE", "LB", *(f"L5/{n}" for n in RUNS)])
 def test_files_have_the_form_of_the_schema(name):
     jsonschema.validate(json.loads((FOLDER / f"{name}.json").read_text()), SCHEMA)
 
