@@ -77,8 +77,9 @@ def compare(vector: ShakenVector, answer: dict[str, Any]) -> ClaimCheck:
         got = answer.get(name)
         if got is None and name != "W":
             continue
-        if np.shape(got) != right.shape:
-            note = f"{name} has shape {None if got is None else np.shape(got)}, not {right.shape}"
+        shape = None if got is None else np.shape(got)
+        if shape != right.shape:
+            note = f"{name} has shape {shape}, not {right.shape}"
             return ClaimCheck("base motion", "outside", float("inf"), note)
         ratio, small = weighed_in_bars(np.asarray(got), right, bar, size_and_unit(name)[0])
         worst, negligible = max(worst, float(np.max(ratio))), negligible or bool(np.any(small))
