@@ -122,7 +122,7 @@ OF_BASE = (
     BaseMistake("ZB11", "scaled twice", _changed(0.5)),
     BaseMistake("ZB12", "the record begins anew at its end", _of(_wrapped)),
     BaseMistake("ZB13", "the last sample held after the end", _of(_held_after)),
-    BaseMistake("ZB14", "begun at the start of the run, not at t_0", _from_release),
+    BaseMistake("ZB14", "started with the run, not at t_0", _from_release),
     BaseMistake("ZB15", "x and y exchanged", _changed([[0.0, 1, 0], [1, 0, 0], [0, 0, 1]])),
     BaseMistake("ZB16", "the mean removed", _of(lambda base, t: plate_acceleration(base, t) - base.a.mean(axis=0))),
     BaseMistake("ZB17", "turned by -30 degrees for 30", _changed([[_C, _S, 0], [-_S, _C, 0], [0, 0, 1.0]])),
