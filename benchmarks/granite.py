@@ -1,0 +1,53 @@
+"""The granite blocks: log loss and accuracy of predictions held out by motion, with intervals of resampled motions.
+
+Needs the data (environment variable ROCKREF_GRANITE) and `pip install 'rockref[fast]'`; some minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+
+import numpy as np
+
+from rockref.shake.granite import CROSSOVER, FELL, load_granite, record_sizes, sizes
+from rockref.shake.granite_plane import STEP, falls, probabilities
+from rockref.shake.statistics.held_out import held_out_choice, held_out_regression
+from rockref.shake.statistics.resampling import mean_over_motions, paired_difference
+from rockref.shake.statistics.scores import hits, log_losses, repeats
+
+
+def main() -> None:
+    """Print one row a block and prediction."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--crossover", type=float, nargs="+", default=[CROSSOVER], help="Hz; 0: accelerometer alone")
+    parser.add_argument("--step", type=float, default=STEP, help="s, of the integration")
+    given = parser.parse_args()
+    data = load_granite()
+    tests = data.clean()
+    for block, name in enumerate(FELL, 1):
+        y, motion = tests[name].to_numpy(float), tests.motion.to_numpy()
+        found = {
+            "regression, sheets": held_out_regression(np.log(sizes(tests)), y, motion),
+            "regression, record": held_out_regression(np.log(record_sizes(tests)), y, motion),
+        }
+        for crossover in given.crossover:
+            fell = falls(data, tests.test, block, crossover, given.step, say=lambda text: print(text, flush=True))
+            p, numbers = probabilities(fell)
+            title = f"plane blocks, {crossover:g} Hz"
+            found[title], chosen = held_out_choice(p, y, motion)
+            for k, times in Counter(chosen.tolist()).most_common(3):
+                print(f"block {block}, {title}: {numbers[k]} for {times} of {len(chosen)} motions")
+        bar = log_losses(found["regression, sheets"], y)
+        for title, probability in found.items():
+            losses = log_losses(probability, y)
+            less = paired_difference(losses, bar, motion)
+            print(
+                f"block {block}, {title}: log loss {mean_over_motions(losses, motion)}, less the sheets' {less}, "
+                f"accuracy {mean_over_motions(hits(probability, y), motion)}"
+            )
+        print(f"block {block}: {repeats(motion, tests.pga_sheet_g, y)}")
+
+
+if __name__ == "__main__":
+    main()

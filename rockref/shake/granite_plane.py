@@ -1,0 +1,100 @@
+"""Whether the granite blocks fall, predicted by ensembles of blocks in a plane with a few shared numbers.
+
+Neither the side on which a block stood towards the table, nor its friction, nor the surface is known. So a test is a
+draw over what is unknown: the weaker edge lies on either side with probability one half, and its angle is lognormal
+about a median. Median, scatter, the stronger edge's angle over the weaker one's, the restitution and the share of
+outcomes that no model holds are shared by all motions: five numbers a block. They are chosen from a grid by the log
+loss of all other motions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from rockref.shake.granite import CROSSOVER, GraniteBlocks
+from rockref.shake.plane_block import plane_block, rock_many
+
+# decided: half of the records' interval, a hundredth of 1/p.
+STEP = 2.5e-3
+# decided: from below what the sheets' least falls allow (0.09 g is 5 degrees) to above the blocks' strongest edges.
+WEAK_DEG = tuple(np.geomspace(3.5, 18.0, 26).tolist())
+RATIOS = (1.0, 1.15, 1.3, 1.6, 2.0, 2.6)
+#: Factors on the ratio of rates that keeps the angular momentum; one is Housner's.
+RESTITUTIONS = (0.85, 0.93, 1.0)
+MEDIANS_DEG = tuple(np.arange(4.0, 16.0, 0.25).tolist())
+SCATTERS = (0.03, 0.06, 0.1, 0.15, 0.2, 0.3)
+#: Share of outcomes that no model holds, half of it on either side.
+UNHELD = (0.01, 0.02, 0.04, 0.08, 0.16)
+
+
+@dataclass(frozen=True)
+class PlaneNumbers:
+    """The shared numbers of a prediction: angles in degrees, the rest without unit."""
+
+    median_deg: float
+    scatter: float
+    ratio: float
+    restitution: float
+    unheld: float
+
+
+def plane_blocks(block: dict[str, Any]) -> np.ndarray:
+    """Return blocks (A, R, E, 2, 6) over weak angle, ratio, restitution and side, for `rock_many`.
+
+    block : height of the centre, mass and inertia, as `GraniteBlocks.block` returns them. The block is as high as its
+    mesh; the radius of gyration is the mean of the two level axes.
+    """
+    height = block["centre_height"]
+    inertia = np.asarray(block["inertia"])
+    gyration = math.sqrt(0.5 * (inertia[0, 0] + inertia[1, 1]) / block["mass"])
+    out = np.empty((len(WEAK_DEG), len(RATIOS), len(RESTITUTIONS), 2, 6))
+    for (i, weak), (j, ratio), (k, e), side in product(
+        enumerate(WEAK_DEG), enumerate(RATIOS), enumerate(RESTITUTIONS), (0, 1)
+    ):
+        reach = [height * math.tan(math.radians(angle)) for angle in (weak, weak * ratio)]
+        made = plane_block(height, (reach[side], reach[1 - side]), gyration, restitution=e)
+        out[i, j, k, side] = *made.alpha, *made.p, *made.e
+    return out
+
+
+def falls(
+    data: GraniteBlocks,
+    tests: Sequence[int],
+    block: int,
+    crossover: float = CROSSOVER,
+    step: float = STEP,
+    say: Callable[[str], None] = lambda text: None,
+) -> np.ndarray:
+    """Return whether each block of the grid fell in each test: (n, A, R, E, 2) bool. Takes some minutes for 460 tests.
+
+    block : 1 or 2;  crossover [Hz], as in `GraniteBlocks.base_motion`;  step [s];  say : is told how far it is
+    """
+    grid = plane_blocks(data.block(block))
+    flat = grid.reshape(-1, 6)
+    out = np.empty((len(tests), len(flat)), bool)
+    for k, test in enumerate(tests):
+        out[k] = rock_many(data.base_motion(int(test), crossover), flat, step=step)[:, 0] == 1.0
+        if k % 50 == 49:
+            say(f"{k + 1} of {len(tests)} tests")
+    return out.reshape(len(tests), *grid.shape[:-1])
+
+
+def probabilities(fell: np.ndarray) -> tuple[np.ndarray, list[PlaneNumbers]]:
+    """Return the probability (n, k) of falling under each choice of the shared numbers, and the choices.
+
+    fell : (n, A, R, E, 2) from `falls`; the two sides count one half each.
+    """
+    angles = np.log(np.asarray(WEAK_DEG))
+    pairs = list(product(MEDIANS_DEG, SCATTERS))
+    weights = np.array([np.exp(-0.5 * ((angles - math.log(m)) / s) ** 2) for m, s in pairs])
+    weights /= weights.sum(axis=1, keepdims=True)
+    mixed = np.einsum("ja,nare->njre", weights, fell.mean(axis=-1)).reshape(len(fell), -1)
+    columns = [0.5 * unheld + (1.0 - unheld) * mixed for unheld in UNHELD]
+    choices = product(UNHELD, pairs, RATIOS, RESTITUTIONS)
+    return np.concatenate(columns, axis=1), [PlaneNumbers(m, s, r, e, u) for u, (m, s), r, e in choices]

@@ -1,0 +1,37 @@
+"""Ensembles of plane blocks: the grid, and the mixture over what is unknown."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from rockref.shake.granite_plane import MEDIANS_DEG, RATIOS, RESTITUTIONS, WEAK_DEG, plane_blocks, probabilities
+
+MESH = {"mass": 350.0, "centre_height": 0.3, "inertia": [[20.0, -1.0, 0.0], [-1.0, 18.0, 0.0], [0.0, 0.0, 16.0]]}
+
+
+def test_the_weaker_edge_lies_on_either_side():
+    grid = plane_blocks(MESH)
+    assert grid.shape == (len(WEAK_DEG), len(RATIOS), len(RESTITUTIONS), 2, 6)
+    weak, strong = grid[4, 3, 2, 0, :2], grid[4, 3, 2, 1, :2]
+    # Degrees to radians and back by a tangent: rounding.
+    assert np.degrees(weak) == pytest.approx([WEAK_DEG[4], WEAK_DEG[4] * RATIOS[3]])
+    assert strong.tolist() == weak[::-1].tolist()
+    R2 = 0.3**2 * (1 + math.tan(math.radians(WEAK_DEG[4])) ** 2)
+    assert grid[4, 3, 2, 0, 2] == pytest.approx(math.sqrt(9.81 * math.sqrt(R2) / (19.0 / 350.0 + R2)))
+
+
+def test_a_threshold_becomes_a_lognormal_probability():
+    # Every block weaker than the middle of the grid falls, on one of its sides only.
+    threshold = math.sqrt(WEAK_DEG[12] * WEAK_DEG[13])
+    fell = np.zeros((1, len(WEAK_DEG), len(RATIOS), len(RESTITUTIONS), 2), bool)
+    fell[:, :13, :, :, 0] = True
+    p, numbers = probabilities(fell)
+    assert p.shape == (1, len(numbers))
+    for k, n in enumerate(numbers):
+        if n.scatter >= 0.1 and 6.0 <= n.median_deg <= 10.0:
+            held = 0.5 * norm.cdf(math.log(threshold / n.median_deg) / n.scatter)
+            # The grid of angles has steps of 0.066 in the logarithm: an end of the range is 2 % of the widest scatter.
+            assert p[0, k] == pytest.approx(0.5 * n.unheld + (1 - n.unheld) * held, abs=0.02)
+    assert min(MEDIANS_DEG) > min(WEAK_DEG)
