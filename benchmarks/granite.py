@@ -10,7 +10,7 @@ from collections import Counter
 
 import numpy as np
 
-from rockref.shake.granite import CROSSOVER, FELL, load_granite, record_sizes, sizes
+from rockref.shake.granite import CROSSOVER, FELL, load_granite, record_sizes, sessions, sizes
 from rockref.shake.granite_plane import STEP, falls, probabilities
 from rockref.shake.statistics.held_out import held_out_choice, held_out_regression
 from rockref.shake.statistics.resampling import mean_over_motions, paired_difference
@@ -30,14 +30,18 @@ def main() -> None:
         found = {
             "regression, sheets": held_out_regression(np.log(sizes(tests)), y, motion),
             "regression, record": held_out_regression(np.log(record_sizes(tests)), y, motion),
+            "regression, sheets and session": held_out_regression(
+                np.column_stack([np.log(sizes(tests)), sessions(tests)]), y, motion
+            ),
         }
         for crossover in given.crossover:
             fell = falls(data, tests.test, block, crossover, given.step, say=lambda text: print(text, flush=True))
-            p, numbers = probabilities(fell)
-            title = f"plane blocks, {crossover:g} Hz"
-            found[title], chosen = held_out_choice(p, y, motion)
-            for k, times in Counter(chosen.tolist()).most_common(3):
-                print(f"block {block}, {title}: {numbers[k]} for {times} of {len(chosen)} motions")
+            for title, session in (("one session", None), ("two sessions", sessions(tests))):
+                p, numbers = probabilities(fell, session)
+                title = f"plane blocks, {crossover:g} Hz, {title}"
+                found[title], chosen = held_out_choice(p, y, motion)
+                for k, times in Counter(chosen.tolist()).most_common(3):
+                    print(f"block {block}, {title}: {numbers[k]} for {times} of {len(chosen)} motions")
         bar = log_losses(found["regression, sheets"], y)
         for title, probability in found.items():
             losses = log_losses(probability, y)

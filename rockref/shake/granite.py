@@ -27,6 +27,8 @@ DISPLACEMENT_COUNT = 2e-5  # m
 ACCELERATION_RATE, DISPLACEMENT_RATE = 200.0, 50.0  # Hz
 # decided: the accelerometer leads by 11 degrees at 2 Hz and by 22 at 1 Hz; below, the displacement is the better one.
 CROSSOVER = 2.0  # Hz
+#: The break in the dates of the campaign, as YYYYMMDD.
+AFTER_BREAK = 20210801
 # decided: order 2, run forward and backward, so that no phase is added.
 ORDER = 2
 
@@ -87,6 +89,14 @@ def load_granite(folder: str | os.PathLike[str] | None = None) -> GraniteBlocks:
     if missing:
         raise InputError("E-FOLDER", str(path), f"holds no {missing[0]}", cure)
     return GraniteBlocks(path, pd.read_csv(path / "outcomes.csv"))
+
+
+def sessions(tests: Any) -> np.ndarray:
+    """Return 0 for tests before the campaign's break of thirty days, 1 for those after it (n,).
+
+    The break lies between 13 July and 12 August 2021. The blocks may have been set up anew; nothing is written down.
+    """
+    return (tests.date.to_numpy(int) > AFTER_BREAK).astype(int)
 
 
 def sizes(tests: Any) -> np.ndarray:

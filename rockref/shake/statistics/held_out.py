@@ -48,7 +48,7 @@ def held_out_choice(probability: Any, fell: Any, motion: Any) -> tuple[np.ndarra
     if p.ndim != 2 or len(p) != len(y):
         raise InputError("E-SHAPE", "probability", f"has shape {p.shape}", f"Give {len(y)} rows, a column a candidate.")
     group, number = motions(motion, len(y))
-    losses = np.column_stack([log_losses(column, y) for column in p.T])
+    losses = log_losses(p.ravel(), np.repeat(y, p.shape[1])).reshape(p.shape)
     of_motion = np.stack([losses[group == k].sum(axis=0) for k in range(number)])
     chosen = np.argmin(of_motion.sum(axis=0) - of_motion, axis=1)
     return p[np.arange(len(y)), chosen[group]], chosen
