@@ -9,10 +9,12 @@ from rockref.conformance import blackbox
 from rockref.conformance.asking import as_mapping
 from rockref.conformance.judge import finite, judge
 from rockref.conformance.runs import RunCheck, judge_rows
+from rockref.conformance.shaken import shaken_vectors
 from rockref.conformance.side_by_side import grouped, simulate
 from rockref.conformance.vectors import manifest, trajectory, window_names
 from rockref.conformance.verdict import verdict
 from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
+from rockref.conformance.zoo.of_base import OF_BASE
 
 #: Small before long: the short runs are asked only where the pieces by themselves have nothing to object.
 LAYERS = ("L0", "L1", "L2", "L3", "L4", "L7")
@@ -232,7 +234,21 @@ def page(found: dict[str, Any]) -> str:
         + misnamed(found)
         + f"\n{in_markdown(found)}\n## Resolving power of the vectors\n\n"
         "A vector is admitted only if every mistake that it is said to hunt moves it by a hundred bars.\n\n"
-        f"{power}\n"
+        f"{power}\n" + of_a_moving_plate()
+    )
+
+
+def of_a_moving_plate() -> str:
+    """The part of the page on mistakes with a plate that moves, from the vectors LB."""
+    rows = [["", "mistake with a plate that moves (B1)", "least deviation in LB [bars]"], ["---"] * 3]
+    for mistake in OF_BASE:
+        least = min(v.resolving[mistake.id] for v in shaken_vectors())
+        rows.append([mistake.id, mistake.says, f"{least:.2g}"])
+    lines = "\n".join("| " + " | ".join(r) + " |" for r in rows)
+    return (
+        "\n## A plate that moves\n\n"
+        "Runs of LB, which a backend claims by the piece `shaken`. Each mistake is outside in every one of them, and\n"
+        f"the judge names it.\n\n{lines}\n"
     )
 
 
