@@ -213,12 +213,14 @@ def _asked(campaign: "Campaign", paths: list[Path]) -> "Campaign":
     """Return the campaign after the experimenter looked at it: tilts, sides, hold-out, and which way is up."""
     from dataclasses import replace
 
+    from rockref.measure.importing.axes import other_way_up
+
     choices = campaign.choices
     if typer.confirm("Is this the first swing, and is the table right?", default=True):
         if campaign.axes.up_known or typer.confirm(_up(campaign), default=True):
             # Answered: nothing is left to remark on.
             return replace(campaign, notices=tuple(n for n in campaign.notices if n.code != "W-UP"))
-        return _found(paths, replace(choices, axes=_other_way_up(campaign)))
+        return _found(paths, replace(choices, axes=other_way_up(campaign.axes)))
     tilts = {
         run.id: typer.prompt(f"Tilt of run {run.id}", f"{run.tilt:.4f}rad", value_proc=typed.angle)
         for run in campaign.runs
@@ -227,7 +229,7 @@ def _asked(campaign: "Campaign", paths: list[Path]) -> "Campaign":
     holdout = _runs(typer.prompt("Runs that no fit may read", _listed(campaign, "holdout")))
     up = campaign.axes.up_known or typer.confirm(_up(campaign), default=True)
     changed = replace(choices, tilt=None, tilts=tilts, turned=turned, holdout=holdout)
-    campaign = _found(paths, changed if up else replace(changed, axes=_other_way_up(campaign)))
+    campaign = _found(paths, changed if up else replace(changed, axes=other_way_up(campaign.axes)))
     _tell(campaign)
     return campaign
 
@@ -240,15 +242,6 @@ def _listed(campaign: "Campaign", what: str) -> str:
 def _up(campaign: "Campaign") -> str:
     axis = "xyz"[campaign.axes.places[2]]
     return f"Does the chip's {axis} axis point up?"
-
-
-def _other_way_up(campaign: "Campaign") -> tuple[str, str, str]:
-    """Return the axes with Y and Z the other way."""
-    x, y, z = (
-        f"{'-' if sign * turn < 0 else ''}{'xyz'[place]}"
-        for place, sign, turn in zip(campaign.axes.places, campaign.axes.signs, (1, -1, -1), strict=True)
-    )
-    return x, y, z
 
 
 def _facts(campaign: "Campaign", folder: Path) -> dict[str, Any]:

@@ -70,8 +70,8 @@ def swing_in_text(run: ImportedRun, columns: int = 64, rows: int = 6) -> list[st
     for i, j in zip(across, down, strict=True):
         cells[j // 4, i // 2] |= _DOTS[i % 2][j % 4]
     lines = ["".join(chr(0x2800 + cell) for cell in row) for row in cells]
-    lines[0] += f" {math.degrees(high):+.0f} deg/s"
-    lines[-1] += f" {math.degrees(low):+.0f} deg/s"
+    lines[0] += f" {round(math.degrees(high)):+d} deg/s"
+    lines[-1] += f" {round(math.degrees(low)):+d} deg/s"
     release = int(np.searchsorted(t, 0.0) / len(t) * columns)
     impact = int(np.searchsorted(t, run.impact) / len(t) * columns)
     below = [" "] * (columns + 24)

@@ -105,3 +105,12 @@ def _roughness(motion: Motion) -> np.ndarray:
     jump_power = np.maximum(np.mean(np.diff(after, axis=0) ** 2, axis=0) - 2.0 * motion.noise**2, 0.0)
     heard = after.std(axis=0) > HEARD * motion.noise
     return np.where(heard, np.sqrt(jump_power / motion_power), 0.0)
+
+
+def other_way_up(axes: Axes) -> tuple[str, str, str]:
+    """Return the chip's axes along X, Y and Z, as they are stated, with Y and Z the other way."""
+    x, y, z = (
+        f"{'-' if sign * turn < 0 else ''}{'xyz'[place]}"
+        for place, sign, turn in zip(axes.places, axes.signs, (1, -1, -1), strict=True)
+    )
+    return x, y, z

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from rockref.measure.datasheet import BANDWIDTH_SHARE
-from rockref.measure.importing.axes import ALONE, Axes, find_axes
+from rockref.measure.importing.axes import ALONE, Axes, find_axes, other_way_up
 from rockref.measure.importing.channels import find_channels
 from rockref.measure.importing.layout import read_log
 from rockref.measure.importing.motion import Motion, find_motion
@@ -308,7 +308,7 @@ def _remarks(runs: Sequence[ImportedRun], motions: Sequence[Motion], axes: Axes,
             notices.append(Notice("W-TILT-OFF", run.source, what, "Check the tilt, its unit, and that of the rates."))
     if not axes.up_known:
         what = "no accelerometer says which end of the chip's axis is up"
-        cure = "Where it points down, give --axes with the signs of Y and Z turned."
+        cure = f"Where it points down, add --axes={','.join(other_way_up(axes))}."
         notices.append(Notice("W-UP", "the axes", what, cure))
     if math.cos(axes.askew) < ALONE:
         what = f"the rocking axis lies {math.degrees(axes.askew):.0f} degrees from the chip's axis"

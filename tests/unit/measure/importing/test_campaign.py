@@ -62,6 +62,11 @@ def test_axes_tilts_and_sides_of_each_layout(imported, layout):
     assert [run.tilt for run in campaign.runs] == pytest.approx([0.117, 0.098, 0.117], abs=1e-3)
 
 
+def test_where_nothing_says_which_end_is_up_the_other_one_is_named_ready_to_type(imported):
+    (notice,) = [n for n in imported["semicolons"].notices if n.code == "W-UP"]
+    assert notice.cure == "Where it points down, add --axes=-y,z,-x."
+
+
 @pytest.mark.parametrize("layout", foreign.LAYOUTS)
 def test_the_release_of_each_layout(imported, layout):
     for run in imported[layout].runs:
