@@ -37,7 +37,9 @@ def turning() -> Iterator[tuple[float, Case]]:
 def places() -> Iterator[tuple[float, Case]]:
     """K1 by which feet touch, before any force is looked at; T2 of a foot that is hardly stretched on ice."""
     lean = rotation((0.0008, 0.0005, 0.4))
-    yield 18.5, ask({"anchored@0": "K1"}, "which feet touch, leaning", 1, standing(), lean, made=ICE, stand=False)
+    # They slide, so that who exchanges the flags of touching and sliding shows the same.
+    slippery: Any = {"made": {"mu": 0.0, "mu_0": 0.0}, "v": [0.0625, -0.03125, 0.0]}
+    yield 18.5, ask({"anchored@0": "K1"}, "which feet touch, leaning", 1, standing(), lean, stand=False, **slippery)
     hardly = held(np.array([[0.6, 0.8]] * 8) * 2.0**-27)
     yield 29.8, ask({"F_T@0": "T2"}, "no friction, anchors nearby", 1, standing(), made=ICE, **hardly)
 
