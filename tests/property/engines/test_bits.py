@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 pytest.importorskip("numba")
 
 from rockref.engines.compiled import engine
+from rockref.model.base_motion import BaseMotion
 from rockref.model.problem import stack
 from rockref.model.response import Response
 from rockref.model.simulate import simulate as law
@@ -25,6 +26,17 @@ def assert_same_bits(a: Response, b: Response, rows=slice(None)) -> None:
 
 @given(problems())
 def test_one_run(problem):
+    assert_same_bits(law(problem), engine.simulate(problem))
+
+
+@given(problems(), st.integers(0, 2**32 - 1))
+def test_one_run_on_a_plate_that_moves(problem, seed):
+    """Records begin before or within the run, end within or after it, and have samples between steps or on them."""
+    rng = np.random.default_rng(seed)
+    dt = problem.step * rng.choice([0.3, 1.0, 2.0, 7.77])
+    t_0 = problem.start.t + problem.step * rng.choice([-50.5, -3.0, 0.0, 11.25])
+    base = BaseMotion(t_0, dt, rng.normal(size=(rng.integers(1, 40), 3)) * 30)
+    problem = problem.replace(base=base)
     assert_same_bits(law(problem), engine.simulate(problem))
 
 
