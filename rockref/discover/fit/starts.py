@@ -24,6 +24,9 @@ HORIZONS: tuple[float | None, ...] = (2.2, 3.7, None)
 STEPS = (3, 3, 4)
 #: Moves along a ridge in prior deviations.
 KICKS = (-1.4, -0.7, -0.35, 0.35, 0.7, 1.4)
+#: Mean losses between which a fit is moved along ridges (decided: below it is right; above it lacks more than a ridge
+#: could mend).
+WHITE_ENOUGH, FAR_OFF = 1.0, 5.0
 #: Share of each prior within which draws lie.
 INSIDE = (0.02, 0.98)
 #: Ridges of the null: numbers of the law that trade with each other, and the signs with which they do. Feet on one
@@ -86,7 +89,8 @@ def global_fit(
             fitter.tempered(h, stage, most)
         field = sorted(field, key=lambda h: h.loss)[: max(1, keep // 2)]
         for h in field:
-            kicked(fitter, h, stage, most)
+            if WHITE_ENOUGH < h.loss < FAR_OFF:
+                kicked(fitter, h, stage, most)
         field.sort(key=lambda h: h.loss)
         fitter.problem.say(f"starts over the whole prior: mean loss {field[0].loss:.2f}")
     best = field[0]

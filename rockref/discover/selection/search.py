@@ -35,6 +35,9 @@ STAYED = 0.5
 #: Share of the objective that an addition has to take off to join, at each stage (decided: what weak effects gain grows
 #: with the memory).
 JOINS = {"S3": 0.01, "F": 0.006}
+#: Factor on the best objective up to which a model goes on after each stage (decided: a longer memory changes the order
+#: of models by less).
+MARGINS = {"S3": 1.06, "F": 1.02}
 #: Models that go on, additions that are refined, effects at most.
 BEAM, ADDED, MOST = 4, 3, 3
 #: Hypotheses within the margin beside which one more effect is tried.
@@ -135,7 +138,7 @@ class Search:
         seen = seen_at_release(self.fitter, other)
         if seen is not None and seen.effects != now.effects:
             beam.append(self.anywhere(seen))
-        if not self.is_explained(self.best(beam)):
+        if not self.is_explained(self.best(beam)) and now.loss - WHITE <= LEAVES[0] * (other.loss - WHITE):
             beam.append(self.anywhere(now))
 
     def add(self, beam: list[FittedModel], added: Sequence[FittedModel]) -> None:
@@ -146,7 +149,7 @@ class Search:
     def may_add(self, best: FittedModel, left: float) -> bool:
         """Return whether one more effect is looked for: `left` is the mean loss that the last one was to explain."""
         added = len(set(best.effects) - set(self.problem.carried))
-        return added == 0 or (added < MOST and best.loss - WHITE <= LEAVES[added - 1] * (left - WHITE))
+        return 0 < added < MOST and best.loss - WHITE <= LEAVES[added - 1] * (left - WHITE)
 
     def moved(self, h: FittedModel) -> float:
         """Return how far the law is from its nominal numbers, in prior deviations of the number that moved most."""
@@ -196,7 +199,7 @@ class Search:
         self.fitter.widen()
         for h in beam:
             self.fitter.refine(h, stage, STEPS[stage.name])
-        beam = within(beam, BEAM)
+        beam = within(beam, BEAM, MARGINS[stage.name])
         best = beam[0]
         if len(best.effects) < MOST:
             self.test = score_test(self.fitter, self.fitter.evaluate(best, stage), stage)
@@ -207,7 +210,7 @@ class Search:
             beam = best_of_each([*beam, *(h for h in added if h.objective < bar)])
             if stage is F:
                 self.remember(added)
-        beam = within(beam, BEAM)
+        beam = within(beam, BEAM, MARGINS[stage.name])
         say(self.fitter, stage.name, beam)
         return beam
 
