@@ -61,12 +61,13 @@ def error_lines(c: Comparison) -> list[str]:
     found = []
     for k, name in enumerate(c.names):
         shares = [
-            f"{100 * share:.2g} % of the measured rates on the {words} runs"
+            f"{100 * share:.2g} % on the {words} runs"
             for use, words in (("fit", "fit"), ("holdout", "held-out"))
             if c.of(use) and math.isfinite(share := share_missed(c, k, use))
         ]
         if shares:
-            found.append(f"{name} is off by {' and '.join(shares)}, up to the second main impact.")
+            said = " and ".join(shares)
+            found.append(f"{name} is off by {said}: its error over the measured rates, up to the second main impact.")
     return found
 
 

@@ -95,8 +95,8 @@ def test_held_out_runs_have_a_table_where_there_are_some(short):
     text = said(in_full(print_comparison), alone)
     assert "fit runs" in text and "holdout runs" not in text
     # The number that counts is the last one, for the runs that there are.
-    assert "held-out runs, up to" in said(print_comparison, short).splitlines()[-1]
-    assert "the fit runs, up to the second main impact." in text.splitlines()[-1]
+    assert "held-out runs: its error over" in said(print_comparison, short).splitlines()[-1]
+    assert "% on the fit runs: its error over the measured rates, up to the second" in text.splitlines()[-1]
 
 
 @pytest.mark.parametrize("gates", [True, False])
