@@ -134,7 +134,8 @@ class Response:
 
     def energy(self) -> dict[str, np.ndarray]:
         """Energies at every row [J], each (..., T): kinetic, potential, stored_normal, stored_tangential, total, and
-        dissipated, which is what is missing of the total at the first row."""
+        dissipated, which is what is missing of the total at the first row. On a plate that moves all are seen
+        from the plate, and what B1 has given counts as negative dissipation."""
         block, points = self.problem.block, self.problem.points
         P, K_N, K_T, radius = points.P, points.K_N, points.K_T, points.radius
         if self.problem.batch:
