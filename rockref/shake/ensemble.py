@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import asdict, astuple, dataclass, replace
 from typing import Any
 
@@ -167,18 +168,27 @@ def run_ensemble(
     workers: int | None = None,
     done: Callable[[int, list[dict[str, Any]]], None] | None = None,
     have: Callable[[int, int], list[dict[str, Any]] | None] | None = None,
+    executor: Executor | None = None,
 ) -> list[dict[str, Any]]:
     """Run an ensemble block by block and return its rows.
 
-    done : called with the number of a block and its rows when it is finished.
+    done : called with the number of a block and its rows when it is finished, in the order of the blocks.
     have : asked for the rows of a block of so many runs before it is run; None where they are not known.
+    executor : runs the blocks, for example on other machines; each on `workers` threads, by default one.
     """
+    blocks = [(first, min(first + BLOCK, runs)) for first in range(0, runs, BLOCK)]
+    known = [have(k, last - first) if have is not None else None for k, (first, last) in enumerate(blocks)]
+    sent = {
+        k: executor.submit(ensemble.rows, *span, workers or 1)
+        for k, span in enumerate(blocks)
+        if executor is not None and known[k] is None
+    }
     rows: list[dict[str, Any]] = []
-    for block, first in enumerate(range(0, runs, BLOCK)):
-        last = min(first + BLOCK, runs)
-        known = have(block, last - first) if have is not None else None
-        own = known if known is not None else ensemble.rows(first, last, workers)
-        if known is None and done is not None:
-            done(block, own)
+    for k, (first, last) in enumerate(blocks):
+        own = known[k]
+        if own is None:
+            own = sent[k].result() if k in sent else ensemble.rows(first, last, workers)
+            if done is not None:
+                done(k, own)
         rows += own
     return rows

@@ -1,6 +1,8 @@
 """Ensembles: the compiled loop finds what the rows show, whatever runs beside, and a run is made from its number."""
 
 import json
+import pickle
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import astuple, replace
 
 import numpy as np
@@ -96,6 +98,15 @@ def test_blocks_that_are_known_are_not_run_again(monkeypatch, rows):
         SHAKEN, 21, done=lambda block, own: asked.append(block), have=lambda block, size: kept.get(block)
     )
     assert repr(again) == repr(rows) and asked == [1]
+
+
+def test_any_executor_runs_the_blocks_and_the_rows_are_the_same(monkeypatch, rows):
+    monkeypatch.setattr(module, "BLOCK", 8)
+    told = []
+    with ThreadPoolExecutor(2) as executor:
+        own = run_ensemble(SHAKEN, 21, done=lambda block, found: told.append(block), executor=executor)
+    assert repr(own) == repr(rows) and told == [0, 1, 2]
+    assert pickle.loads(pickle.dumps(SHAKEN)).drawn(5)["friction"] == SHAKEN.drawn(5)["friction"]  # sent to processes
 
 
 def test_without_a_compiled_twin_the_law_runs_and_the_same_is_found(monkeypatch):
