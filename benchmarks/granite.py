@@ -12,6 +12,7 @@ import numpy as np
 
 from rockref.shake.granite import CROSSOVER, FELL, load_granite, record_sizes, sessions, sizes
 from rockref.shake.granite_plane import STEP, falls, probabilities
+from rockref.shake.granite_space import fall_shares
 from rockref.shake.statistics.held_out import held_out_choice, held_out_regression
 from rockref.shake.statistics.resampling import mean_over_motions, paired_difference
 from rockref.shake.statistics.scores import hits, log_losses, repeats
@@ -20,12 +21,18 @@ from rockref.shake.statistics.scores import hits, log_losses, repeats
 def main() -> None:
     """Print one row a block and prediction."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--crossover", type=float, nargs="+", default=[CROSSOVER], help="Hz; 0: accelerometer alone")
+    parser.add_argument(
+        "--crossover", type=float, nargs="*", default=[0.0, CROSSOVER], help="Hz; 0: accelerometer alone"
+    )
     parser.add_argument("--step", type=float, default=STEP, help="s, of the integration")
+    parser.add_argument("--reach", type=float, nargs="*", default=[], help="of the feet in three dimensions")
+    parser.add_argument("--rounds", type=int, default=4, help="runs of each test in three dimensions")
+    parser.add_argument("--blocks", type=int, nargs="+", default=[1, 2])
     given = parser.parse_args()
     data = load_granite()
     tests = data.clean()
-    for block, name in enumerate(FELL, 1):
+    for block in given.blocks:
+        name = FELL[block - 1]
         y, motion = tests[name].to_numpy(float), tests.motion.to_numpy()
         found = {
             "regression, sheets": held_out_regression(np.log(sizes(tests)), y, motion),
@@ -42,6 +49,10 @@ def main() -> None:
                 found[title], chosen = held_out_choice(p, y, motion)
                 for k, times in Counter(chosen.tolist()).most_common(3):
                     print(f"block {block}, {title}: {numbers[k]} for {times} of {len(chosen)} motions")
+        for reach in given.reach:
+            share = fall_shares(data, tests.test, block, reach, given.rounds)
+            # Jeffreys' prior of a share: half a run more on either side.
+            found[f"three dimensions, reach {reach:g}"] = (given.rounds * share + 0.5) / (given.rounds + 1)
         bar = log_losses(found["regression, sheets"], y)
         for title, probability in found.items():
             losses = log_losses(probability, y)

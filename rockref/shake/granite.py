@@ -25,7 +25,8 @@ FELL = ("fell_sp1", "fell_sp2")
 ACCELERATION_COUNT = 2e-4 * 9.81  # m/s2; the accelerometer is positive against the displacement
 DISPLACEMENT_COUNT = 2e-5  # m
 ACCELERATION_RATE, DISPLACEMENT_RATE = 200.0, 50.0  # Hz
-# decided: the accelerometer leads by 11 degrees at 2 Hz and by 22 at 1 Hz; below, the displacement is the better one.
+# decided: the accelerometer leads by 11 degrees at 2 Hz and by 22 at 1 Hz. Below, the displacement is smooth; but a
+# table that pitches is felt by the accelerometer and the block, not by the displacement. Vary it.
 CROSSOVER = 2.0  # Hz
 #: The break in the dates of the campaign, as YYYYMMDD.
 AFTER_BREAK = 20210801

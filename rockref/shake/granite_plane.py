@@ -22,13 +22,13 @@ from rockref.shake.plane_block import plane_block, rock_many
 
 # decided: the interval of the records, a fiftieth of 1/p.
 STEP = 5e-3
-# decided: from below what the sheets' least falls allow (0.09 g is 5 degrees) to above the blocks' strongest edges. A
+# decided: from half of what the sheets' least falls allow (0.09 g is 5 degrees) to above the blocks' strongest edges. A
 # wider grid, of restitutions from 0.85 and ratios to 2.6, chose numbers within these.
-WEAK_DEG = tuple(np.geomspace(3.5, 16.0, 20).tolist())
+WEAK_DEG = tuple(np.geomspace(2.5, 16.0, 22).tolist())
 RATIOS = (1.0, 1.25, 1.6)
 #: Factors on the ratio of rates that keeps the angular momentum; one is Housner's.
 RESTITUTIONS = (0.93, 1.0)
-MEDIANS_DEG = tuple(np.arange(4.0, 11.1, 0.5).tolist())
+MEDIANS_DEG = tuple(np.arange(3.0, 10.1, 0.5).tolist())
 SCATTERS = (0.1, 0.15, 0.2, 0.3)
 #: Share of outcomes that no model holds, half of it on either side.
 UNHELD = (0.01, 0.02, 0.04, 0.08)
