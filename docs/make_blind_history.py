@@ -20,16 +20,24 @@ SHARES = (
     ("wrong names", "wrong_names", "n"),
     ("numbers inside their interval", "inside", "intervals"),
 )
+#: Methods: key in the source, heading, what it does.
+METHODS = (
+    (
+        "listening",
+        "A model that listens",
+        "Each run is simulated once, from its release, and listens to the gyroscope.",
+    ),
+    ("windows", "Windows", "The model was restarted in short windows; all cases are near Table 3.1."),
+)
 HEAD = """# The blind test, set by set
 
 *Written by `python docs/make_blind_history.py` from `benchmarks/blind_history.csv`.*
 
 Each row is a set of the [blind test](blind_test.md), or the part of one that one version of the discoverer diagnosed,
-in order. Verdicts stood before the truth of the row was opened. A set has the number of its seed. All cases are near
-Table 3.1. All versions here restarted the model in short windows. An interval is to hold nine numbers in ten. An empty
-cell was not measured, or nothing of the kind was drawn. Seconds a case are the median: by the `clock`, two at a time on
-two cores; by the clock on a `shared` machine; of `processor` time.
-
+in order. Verdicts stood before the truth of the row was opened. A set has the number of its seed; its blocks are `near`
+Table 3.1 or `other` ones. An interval is to hold nine numbers in ten. An empty cell was not measured, or nothing of the
+kind was drawn. Seconds a case are the median: by the `clock`, two at a time on two cores; by the clock on a `shared`
+machine; of `processor` time of one thread.
 """
 
 
@@ -48,7 +56,15 @@ def line(row: dict[str, str]) -> str:
     """A set as a row of the table."""
     error = row["size_error_percent"] and f"{row['size_error_percent']} %"
     seconds = row["seconds_median"] and f"{row['seconds_median']} ({row['clock']})"
-    cells = [row["set"], row["cases"], *(share(row, hits, n) for _, hits, n in SHARES), error, seconds, row["note"]]
+    cells = [
+        row["set"],
+        row["blocks"],
+        row["cases"],
+        *(share(row, hits, n) for _, hits, n in SHARES),
+        error,
+        seconds,
+        row["note"],
+    ]
     return f"| {' | '.join(cells)} |"
 
 
@@ -56,19 +72,32 @@ def total(found: list[dict[str, str]], hits: str, n: str) -> str:
     """All hits of all numbers, with the 95 % Wilson interval."""
     counted = [row for row in found if row[hits] and row[n]]
     a, b = (sum(int(row[key]) for row in counted) for key in (hits, n))
+    if not b:
+        return "-"
     low, high = wilson(a, b)
     return f"{a} of {b} ({100 * low:.1f} to {100 * high:.1f} %)"
 
 
+def section(key: str, title: str, words: str) -> str:
+    """Return the table of the sets of one method, and their totals."""
+    found = [row for row in rows() if row["method"] == key]
+    if not found:
+        return ""
+    heads = ["set", "blocks", "cases", *(head for head, _, _ in SHARES), "size, median error", "seconds a case", "note"]
+    lines = [f"## {title}", "", words, "", f"| {' | '.join(heads)} |"]
+    lines += ["| --- | --- | --- |" + " ---: |" * (len(heads) - 4) + " --- |", *map(line, found)]
+    blocks = list(dict.fromkeys(row["blocks"] for row in found))
+    lines += ["", "Together, with 95 % Wilson intervals:", "", f"| score | {' | '.join(blocks)} |"]
+    lines += ["| --- |" + " --- |" * len(blocks)]
+    for head, hits, n in SHARES:
+        cells = [total([row for row in found if row["blocks"] == b], hits, n) for b in blocks]
+        lines.append(f"| {head} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
 def text() -> str:
-    """The page."""
-    found = rows()
-    heads = ["set", "cases", *(head for head, _, _ in SHARES), "size, median error", "seconds a case", "note"]
-    lines = [f"| {' | '.join(heads)} |", "| --- | --- |" + " ---: |" * (len(heads) - 3) + " --- |"]
-    lines += [line(row) for row in found]
-    lines += ["", "Together, with 95 % Wilson intervals:", "", "| score | all rows |", "| --- | --- |"]
-    lines += [f"| {head} | {total(found, hits, n)} |" for head, hits, n in SHARES]
-    return HEAD + "\n".join(lines) + "\n"
+    """Return the page."""
+    return "\n".join(part for part in (HEAD, *(section(*method) for method in METHODS)) if part)
 
 
 if __name__ == "__main__":
