@@ -64,7 +64,6 @@ def test_interrupt_ends_with_130(capsys, command_that):
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        (["identify", "folder", "-o", "x"], "--resume"),
         (["blind", "make", "folder"], "Finished cases"),
         (["--version"], "start it again"),
         (["diagnose", "folder"], "start it again"),

@@ -28,12 +28,10 @@ NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 _WORDS = {
     "NORTH": "N",
     "NS": "N",
-    "N-S": "N",
     "SN": "N",
     "SOUTH": "S",
     "EAST": "E",
     "EW": "E",
-    "E-W": "E",
     "WE": "E",
     "WEST": "W",
 }
@@ -141,6 +139,7 @@ def direction_of(text: str) -> Direction:
     if re.fullmatch(r"\d{1,3}", word) and int(word) <= 360:
         return float(int(word) % 360)
     compass = {"N": 0.0, "E": 90.0, "S": 180.0, "W": 270.0}
+    word = word.replace("-", "") if word[:1].isalpha() else word
     word = _WORDS.get(word, word)
     if word in compass:
         return compass[word]
