@@ -91,9 +91,9 @@ def add_diagnosis(page: Page, record: dict[str, Any], c: Comparison, prefix: str
 
 
 TRIED = (
-    "Every effect of the catalogue was tried on top of the baseline: first by one step of everything at once, then, "
-    "for the most promising, by a refit of all parameters, release tilts and window starts, with as many iterations as "
-    "the baseline itself was given. What counts is what is gained over that."
+    "A score test predicts what each effect of the catalogue would gain on top of the baseline. The best are fitted "
+    "together with all parameters and release tilts, at growing memories. What counts is what is gained over the "
+    "baseline, which is fitted as well."
 )
 
 

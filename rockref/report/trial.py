@@ -46,8 +46,8 @@ class Dial:
 class Trial:
     """One run: times (n,) [s], rates measured and before (n, 3) [deg/s], its dials, the opening view [s].
 
-    held_out : whether no fit has read the run;  axis : about which the effect changes most;  error : of the model
-    before [deg/s]
+    held_out : whether no fit has read the run;  axis : about which the effect changes most of what is seen
+    error : of the model before [deg/s]
     """
 
     run: str
@@ -139,7 +139,9 @@ def trial(c: Comparison, effects: Sequence[str]) -> Trial:
     dials = tuple(dial(c, k, id, rows, measured, compared) for id in effects) if len(c.names) > 1 else ()
     other = dials[0].rates[OPTIMUM] if dials else measured
     difference = np.abs(drawn - other)
-    axis = int(np.nanargmax(np.nanmean(difference[compared] ** 2, axis=0)))
+    # The axis on which the eye sees most: a difference counts beside what the axis shows, noise left out.
+    shows = np.maximum(np.mean(measured[compared] ** 2, axis=0), (10 * m.noise * DEGREES) ** 2)
+    axis = int(np.nanargmax(np.nanmean(difference[compared] ** 2, axis=0) / shows))
     view = opening(t, difference[:, axis], float(m.noise[axis]) * DEGREES, impacts)
     shown = impacts[impacts <= t[-1]]
     error = rms(drawn - measured, compared)
