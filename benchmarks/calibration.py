@@ -32,6 +32,7 @@ TRIED = {
     "misfit_of_run": (1.05, 1.15, 1.25, 1.5, 2.0),
     "agreeing_run": (1.0, 1.05, 1.08, 1.15),
     "proof": (0.0, 0.1, 0.25, 0.5),
+    "remnant": (0.0, 0.02, 0.05, 0.1, 0.2),
 }
 
 Case = tuple[dict[str, Any], dict[str, Any], Evidence]

@@ -20,6 +20,7 @@ class Calibration:
     misfit_of_run: float
     agreeing_run: float
     proof: float
+    remnant: float
 
 
 @cache

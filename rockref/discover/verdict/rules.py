@@ -3,6 +3,7 @@
 1. Each hypothesis has a probability: Laplace's evidence at one temperature, times the prior odds of its effects.
 2. An effect too small to matter gives its probability to the hypothesis without it.
 3. If even the best hypothesis leaves innovations above the floor, the runs are not explained: by one run alone, or all.
+   An effect that leaves next to nothing of the misfit is indicated all the same.
 4. The verdict is the most probable set where it is certain; else the effects that are certain to be in it, summed over
    all sets; else the smallest class of sets that is certain.
 5. Held-out runs have to show what the fit runs say.
@@ -16,6 +17,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rockref.discover.evidence.evidence import Evidence, HypothesisEvidence, log_evidence
+from rockref.discover.fit.objective import WHITE
 from rockref.discover.verdict.calibration import Calibration, calibration
 
 VERDICTS = ("none", "named", "indicated", "class", "pair", "something_else", "not_trustworthy")
@@ -60,6 +62,9 @@ def decide(evidence: Evidence, numbers: Calibration | None = None) -> Verdict:
     if (run := contradicting_run(best.evidence, c)) is not None:
         return Verdict("not_trustworthy", (), best.probability, found, "run", run)
     if not is_explained(best.evidence, c):
+        if (near := nearly_explaining(evidence, found, c)) is not None:
+            effects = by_weight(evidence, near.effects)
+            return Verdict("indicated", effects, near.probability, found, "remnant", fit=near.evidence)
         reason = "sensor" if evidence.sensor_faults else "misfit"
         return Verdict("something_else", (), best.probability, found, reason)
     if best.probability < c.certain:
@@ -102,6 +107,19 @@ def contradicting_run(h: HypothesisEvidence, c: Calibration) -> str | None:
 def is_explained(h: HypothesisEvidence, c: Calibration) -> bool:
     """Return whether the innovations are as small as those of a right model, as a whole and on each run's axes."""
     return h.loss <= c.misfit and max(max(axes) for axes in h.loss_by_run_and_axis.values()) <= c.misfit_of_run
+
+
+def nearly_explaining(evidence: Evidence, found: tuple[Alternative, ...], c: Calibration) -> Alternative | None:
+    """Return the smallest set of effects that leaves next to nothing of the baseline's misfit, or None.
+
+    Another law behind the same name leaves innovations above the floor, and still explains most of what was missing.
+    """
+    null = evidence.of(evidence.carried)
+    if null is None:
+        return None
+    bearable = WHITE + c.remnant * (null.loss - WHITE)
+    near = [a for a in found if a.effects and a.evidence.loss <= bearable]
+    return min(near, key=lambda a: (len(a.effects), a.evidence.objective), default=None)
 
 
 def undecided(evidence: Evidence, found: tuple[Alternative, ...], c: Calibration) -> Verdict:

@@ -67,6 +67,14 @@ def beside(verdict: Verdict) -> str:
 
 def indication(verdict: Verdict, evidence: Evidence) -> str:
     """Return the sentence of a verdict that indicates an effect."""
+    if verdict.reason == "remnant":
+        null = evidence.of(evidence.carried)
+        assert null is not None  # what is left is a share of its misfit
+        share = (null.loss - verdict.best.loss) / (null.loss - WHITE)
+        return (
+            f"{joined(verdict.effects)} explains {100 * share:.0f} % of what the baseline leaves; the rest is "
+            "above the noise: another law of this kind, or something small beside it."
+        )
     said = f"{joined(verdict.effects)} is indicated by the fit runs"
     if verdict.reason == "or_nothing":
         return f"{said} (probability {verdict.probability:.2f}); they do not exclude that nothing is missing."

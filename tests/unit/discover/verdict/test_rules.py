@@ -84,6 +84,16 @@ def test_what_nothing_explains_is_something_else():
     assert (v.word, v.effects) == ("something_else", ())
 
 
+def test_another_law_behind_the_same_name_is_indicated():
+    null = hypothesis(objective=190000.0, loss=11.0, held=11.0)
+    more = hypothesis(("quadratic_drag", "adhesion"), 16990.0, loss=1.28)
+    found = evidence(null, hypothesis(("quadratic_drag",), loss=1.3), more)
+    v = decide(found)
+    assert (v.word, v.effects, v.reason) == ("indicated", ("quadratic_drag",), "remnant")
+    assert "96 %" in sentence(v, found)
+    assert decide(evidence(null, hypothesis(("quadratic_drag",), loss=2.0))).word == "something_else"
+
+
 def test_a_fault_of_the_sensor_is_not_blamed_on_the_block():
     found = replace(evidence(hypothesis(loss=1.8)), sensor_faults=("run01.csv hums at 50 Hz",))
     v = decide(found)
