@@ -29,6 +29,9 @@ ZERO, LAG, HUM = "zero", "lag", "hum"
 # In simulated records of 40 blocks the rates about X, Y and Z add up, from impact to impact, to means of at most 0.004,
 # 0.007 and 0.014 of the first swing's rate. decided: two and a half times that, and a tenth of a deg/s.
 ZERO_SHARES, ZERO_LEAST, LEAST_ARCS = (0.0105, 0.0175, 0.035), 0.1 * DEGREE, 3
+# decided: by what share of the change arcs may differ. Nothing keeps a block from turning about its height; such a turn
+# is not alike from arc to arc. The last tenth of a second is rest where it is no more than twice the noise.
+STEADY, AT_END, CALM = (0.5, 0.5, 0.15), 0.1, 2.0
 # decided: lags of up to four samples are looked for; six tenths of one are none of the shape of a contact.
 MOST_LAG, LEAST_LAG, SAME_LAG = 4, 0.6, 0.35
 # decided: a late channel fits better by a third at its lag than at none; of one run alone, by six tenths, which one of
@@ -95,13 +98,18 @@ def _zeros(run: Run, experiment: Experiment) -> list[SensorFault]:
     rate = rocking_rate(run.release_tilt, experiment.width, experiment.height)
     before = _zeros_before(run, experiment, impacts)
     spans = np.diff(impacts.times)
+    end = crv[t > t[-1] - AT_END]
+    at_end, calm = end.mean(axis=0), end.std(axis=0) < CALM * math.hypot(gyro.noise, gyro.resolution)
     found = []
     for axis in range(3):
         means = np.diff(np.interp(impacts.times, t, turned_angle(t, crv[:, axis]))) / spans
         last = means[len(means) // 2 :] - before[axis]
         change = float(np.median(last))
         # Clatter about an apex may pass for an impact: two such arcs turn the block away and back.
-        if np.abs(last - change).max() > 0.5 * abs(change):
+        if np.abs(last - change).max() > STEADY[axis] * abs(change):
+            continue
+        # A zero that has shifted stays so in a block that has come to rest.
+        if calm[axis] and abs(at_end[axis] - before[axis] - change) > 0.5 * abs(change):
             continue
         # An impact is known to a sample or two, in which the block turns on.
         slack = 2.0 * sample_step(t) * rate / float(np.median(spans)) + gyro.noise + gyro.resolution
