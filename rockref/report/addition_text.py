@@ -44,7 +44,7 @@ def lines(a: Addition) -> list[str]:
         if before is None or after is None:
             continue
         closed = a.gap_closed(use)
-        tail = "" if closed is None else f"; {100 * closed:.0f} % of the gap to the noise floor closed"
+        tail = "" if closed is None else f"; {100 * min(closed, 1.0):.0f} % of the gap to the noise floor closed"
         found.append(
             f"{words}: error {before['total']:.4f} to {after['total']:.4f} deg/s RMS, noise floor {a.noise:.4f}{tail}."
         )
