@@ -68,7 +68,8 @@ def reads_models(command) -> bool:
 def test_no_command_that_reads_a_model_is_forgotten():
     commands = typer.main.get_command(cli.application()).commands
     # The lab's page runs no Python: a user's own effect has no place in it, and its file is never asked for.
-    found = {name for name, command in commands.items() if reads_models(command)} - {"lab"}
+    # An ensemble holds its model: it has a test of its own.
+    found = {name for name, command in commands.items() if reads_models(command)} - {"lab", "shake"}
     assert found == {words.split()[0] for words, _ in COMMANDS.values()}
     # one common way for all of them
     assert all("--effect" in [o for p in commands[name].params for o in p.opts] for name in found)
@@ -81,6 +82,13 @@ def test_a_file_that_only_the_model_names_is_not_run(capsys, folder, name):
     code, err = said(capsys, COMMANDS[name][0])
     assert code == 2 and "MODEL: [effects.eddy_brake]" in err and "[E-TRUST]" in err
     assert "add --effect mine.py:EddyBrake" in err
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_an_ensemble_runs_no_file_that_only_the_model_names(capsys, folder):
+    before = sorted(folder.rglob("*"))
+    code, err = said(capsys, "shake MODEL record.csv -o shaken")
+    assert code == 2 and "MODEL: [effects.eddy_brake]" in err and "[E-TRUST]" in err
     assert sorted(folder.rglob("*")) == before
 
 

@@ -58,9 +58,7 @@ class CompliantSupport(Effect):
     )
     not_shaken = "has a mass of its own, which a moving table would shake too: the law has no term for that"
     confounder = "hertzian_contact"
-    experiment = (
-        "Put an accelerometer on the plate, or the plate on the floor: its ringing after an impact goes or stays."
-    )
+    experiment = "Put an accelerometer on the plate, or the plate on the floor: its ringing goes or stays."
 
     mass: float = 100.0
     frequency: float = 0.0

@@ -204,7 +204,8 @@ def test_no_input_of_a_piece_is_the_same_in_all_its_vectors():
 
 def test_every_rule_has_vectors():
     shown = {e.rule for layer in LAYERS for v in vectors.layer(layer) for e in v.expect.values()}
-    assert shown >= set(ORDER) - {"S2"}
+    # A moving plate has a layer of its own (test_shaken.py), which a backend may leave out.
+    assert shown >= set(ORDER) - {"S2", "B1"}
 
 
 @pytest.mark.parametrize("name", RUNS)

@@ -62,7 +62,8 @@ def test_a_second_fit_starts_where_the_first_one_ended(monkeypatch):
     said = []
     second = fit(monkeypatch, made(), check=False, store=store, progress=said.append)
     assert not first.from_store and second.from_store
-    assert said[0] == "nothing: from what was found before, at F"
+    lines = [report.line for report in said if report.line]
+    assert lines[0] == "the baseline: from what was found before, at F"
     assert second.evidence.objective <= first.evidence.objective + 1e-6
 
 
