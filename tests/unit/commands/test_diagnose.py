@@ -59,7 +59,7 @@ def test_the_verdict_comes_last_and_then_what_to_type(capsys, monkeypatch, made)
     said = "NAMED (probability 1.00). quadratic_drag is missing. Its size is 0.41 N m s2 (90 %: 0.38 to 0.44). Next:"
     assert said in " ".join(out.split())
     assert len(out.splitlines()) <= 12
-    for text in ("0.2500", "0.0600", "0.3500", "0.0800", "0.0500", "0.38", "0.44", "512"):
+    for text in ("0.250", "0.060", "0.350", "0.080", "0.050", "0.38", "0.44", "512"):
         assert text in out, text
     # (0.25 - 0.06) of (0.25 - 0.05), and (0.35 - 0.08) of (0.35 - 0.05).
     assert "95 %" in out and "90 %" in out
