@@ -26,8 +26,8 @@ HOPELESS = 2.5
 #: Shares of the misfit that the first, and the second effect may leave if one more is looked for (decided: what leaves
 #: more is not the cause, and no other on top of it is; of two right effects the second explains most of what is left).
 LEAVES = (0.75, 0.5)
-#: Mean loss at S3 above which nothing explains the runs, and nothing more is tried (decided: right models of the
-#: stiffest blocks leave 1.35 there).
+#: Mean loss at S3 above which nothing explains the runs, and nothing more is tried (decided: right models of
+#: stiff blocks leave up to 1.35 at F).
 UNEXPLAINED = 1.5
 #: Prior deviations that the law may move from its nominal numbers and count as a block of the source's make (decided: a
 #: tenth of every parameter of Table 3.1 is 0.3).

@@ -202,12 +202,17 @@ def run_abreast(batch: Batch, rows: tuple, target: tuple, workers: int | None) -
             batch.h, batch.samples, *rows, *target, *abreast.workspace(batch.P.shape[1]), np.zeros(LANES, np.int64),
         )  # fmt: skip
 
+    share_out(piece, pieces, workers)
+
+
+def share_out(do: Callable[[tuple], None], pieces: Sequence[tuple], workers: int) -> None:
+    """Do all pieces on `workers` threads; in this one, where one is enough."""
     if workers == 1 or len(pieces) == 1:
         for given in pieces:
-            piece(given)
+            do(given)
     else:
         with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(piece, pieces))
+            list(pool.map(do, pieces))
 
 
 def run_listening(batch: Batch, listening: Listening, workers: int | None = None) -> np.ndarray:

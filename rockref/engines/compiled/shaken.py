@@ -7,7 +7,6 @@ run. A run that ends early makes room, so no lane waits for the longest of a pac
 from __future__ import annotations
 
 import os
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
@@ -15,7 +14,7 @@ import numpy as np
 
 from rockref.engines.compiled import abreast, kernel, pack, slots
 from rockref.engines.compiled import columns as col
-from rockref.engines.compiled.batch import PIECES, Batch, checked, packs_of
+from rockref.engines.compiled.batch import PIECES, Batch, checked, packs_of, share_out
 from rockref.engines.compiled.evaluation import make_evaluation
 from rockref.engines.compiled.jit import entered
 from rockref.engines.compiled.lanes import LANES, as_lanes
@@ -117,12 +116,7 @@ def run_shaken(batch: Batch, limits: np.ndarray, every: int, ticks: Any, quiet: 
             effects, state, np.zeros((n, FOOT, LANES)), np.zeros((KEPT, LANES)), np.zeros(LANES, np.int64),
         )  # fmt: skip
 
-    if workers == 1 or len(queues) == 1:
-        for given in queues:
-            piece(given)
-    else:
-        with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(piece, queues))
+    share_out(piece, queues, workers)
     return found
 
 

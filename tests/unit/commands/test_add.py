@@ -51,7 +51,7 @@ def test_page_and_json(capsys, monkeypatch, tmp_path, made):
     assert record["error"]["gap_closed"]["fit"] == pytest.approx(0.9)
     assert record["error"]["before"]["fit"]["transverse"] == 0.25
     page = (tmp_path / "page/index.html").read_text(encoding="utf-8")
-    assert "History of the model" in page and page.count("<figure") >= 3
+    assert "History of the model" in page and page.count("<figure") == 7
 
 
 def test_unknown_effect_ends_with_2(capsys, tmp_path):

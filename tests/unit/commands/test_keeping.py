@@ -3,12 +3,13 @@
 import pytest
 
 from rockref import cli
-from rockref.commands._keeping import interruption
+from rockref.commands._keeping import checkpoints_in, interruption
 from rockref.discover import diagnose as engine
 from rockref.discover.evidence.evidence import Evidence
 from rockref.discover.fit.problem import fit_problem
 from rockref.discover.fit.stages import S3
 from rockref.discover.fit_store import FitStore
+from rockref.model.errors import Interrupted
 from tests.unit.discover import fakes
 from tests.unit.discover.test_fit_store import TABLE, fitted
 
@@ -97,3 +98,12 @@ def test_a_diagnosis_with_the_same_options_is_answered_from_what_was_kept(monkey
     ask(seed=1)
     ask(fresh=True)
     assert len(computed) == 3
+
+
+@pytest.mark.parametrize("there, words", [(("generation-3.json",), "--resume"), ((), "nothing is kept")])
+def test_an_interrupted_search_says_which_checkpoints_go_on(tmp_path, there, words):
+    for name in there:
+        (tmp_path / name).write_text("{}", encoding="utf-8")
+    with pytest.raises(Interrupted, match=words) as ended, checkpoints_in(tmp_path):
+        raise KeyboardInterrupt
+    assert all(name in str(ended.value) for name in there)
