@@ -1,8 +1,8 @@
 """Measure how well the judge judges, and write `benchmarks/judged.csv`: `python benchmarks/judged.py [PART...]`.
 
-Parts: first, second, third (lists of mistakes), scheme (other integrators), variants (correct ones), zoo. What is not
-measured keeps its rows; the rows of a first judgement are never written anew. Without a part all are measured: a
-quarter of an hour of processor time. `python docs/make_judge_table.py` makes the table of the documentation of it.
+Parts: first to fourth (lists of mistakes), scheme and "fourth scheme" (other integrators), variants (correct ones),
+zoo. What is not measured keeps its rows; the rows of a first judgement are never written anew. Without a part all are
+measured: half an hour of processor time. `python docs/make_judge_table.py` makes the table of the documentation of it.
 """
 
 from __future__ import annotations
@@ -17,19 +17,18 @@ from pathlib import Path
 from typing import Any
 
 import strangers
-import strangers_controls
-import strangers_controls_c
 
 FILE = Path(__file__).with_name("judged.csv")
 ZOO_PAGE = Path(__file__).resolve().parents[1] / "docs/reference/zoo.md"
 COLUMNS = ("judged", "way", "when", "asked", "detected", "named", "top_two")
-PARTS = (*strangers.LISTS, "scheme", "variants", "zoo")
+OF_SCHEMES = {"scheme": strangers.of_schemes, "fourth scheme": strangers.of_fourth_schemes}
+PARTS = (*strangers.LISTS, *OF_SCHEMES, "variants", "zoo")
 Row = dict[str, Any]
 
 
 def of_list(part: str) -> Iterator[Row]:
     """A list of mistakes, by pieces, by runs, by runs without forces."""
-    pairs = strangers.of_schemes() if part == "scheme" else ((m, None) for m in strangers.LISTS[part])
+    pairs = OF_SCHEMES[part]() if part in OF_SCHEMES else ((m, None) for m in strangers.LISTS[part])
     counts = strangers.counted([strangers.of_mistake(m, scheme) for m, scheme in pairs])
     for way, row in counts.items():
         yield {"way": way, "top_two": row["top two"]} | {k: row[k] for k in ("asked", "detected", "named")}
@@ -51,16 +50,16 @@ def of_zoo(_: str) -> Iterator[Row]:
 
 def of_variants(_: str) -> Iterator[Row]:
     """Correct variants, of which none is to be rejected."""
-    asked = len(strangers_controls.IN_PYTHON) + len(strangers_controls_c.IN_C)
+    asked = len(strangers.IN_PYTHON) + len(strangers.IN_C) + len(strangers.STEPS)
     yield {"way": "pieces and runs", "asked": asked, "detected": strangers.controls("")}
 
 
-def kept(parts: tuple[str, ...]) -> list[Row]:
-    """The rows that are there already and are not measured."""
+def written() -> list[Row]:
+    """The rows that are there already."""
     if not FILE.exists():
         return []
     with FILE.open(encoding="utf-8", newline="") as file:
-        return [row for row in csv.DictReader(file) if row["judged"] not in parts or row["when"] == "first"]
+        return list(csv.DictReader(file))
 
 
 def main(parts: tuple[str, ...]) -> int:
@@ -68,10 +67,14 @@ def main(parts: tuple[str, ...]) -> int:
     if unknown := [p for p in parts if p not in PARTS]:
         print(f"{unknown[0]} is none of {', '.join(PARTS)}", file=sys.stderr)
         return 2
-    rows = kept(parts)
+    before = written()
+    rows = [row for row in before if row["judged"] not in parts or row["when"] == "first"]
     for part in parts:
         measure = {"zoo": of_zoo, "variants": of_variants}.get(part, of_list)
-        rows += [{"judged": part, "when": "now", **row} for row in measure(part)]
+        made = list(measure(part))
+        known = any(row["judged"] == part for row in before)
+        for when in ("now",) if known else ("first", "now"):
+            rows += [{"judged": part, "when": when, **row} for row in made]
         rows.sort(key=lambda row: (PARTS.index(row["judged"]), row["when"] != "first"))
         with FILE.open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")

@@ -6,9 +6,10 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | third   the mistakes of `strangers_list.py`, `strangers_second.py`, `strangers_third.py`;
-                                all by default
-    --profile scheme            planted in backends with another integrator (`strangers_schemes.py`)
+    --list first | second | third | fourth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+                                by default
+    --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
+                                fourth` those of `strangers_fourth.py`)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them
 """
 
@@ -27,6 +28,7 @@ from typing import Any
 import numpy as np
 import strangers_controls
 import strangers_controls_c
+import strangers_fourth
 import strangers_list
 import strangers_schemes
 import strangers_second
@@ -46,6 +48,7 @@ LISTS = {
     "first": strangers_list.MISTAKES,
     "second": strangers_second.MISTAKES,
     "third": strangers_third.MISTAKES,
+    "fourth": strangers_fourth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -67,8 +70,16 @@ def changed(text: str, says: str, *changes: tuple[str, str]) -> str:
 
 def planted(mistake: Mistake, scheme: str | None = None) -> Any:
     """The tutorial backend, or the one with another integrator, with the mistake in it."""
-    text = SOURCE.read_text() if scheme is None else strangers_schemes.exchanged(SOURCE.read_text(), scheme)
-    return made(changed(text, mistake.says, (mistake.old, mistake.new)), mistake.says)
+    text = changed(with_step(scheme), mistake.says, (mistake.old, mistake.new), *mistake.more)
+    return made(text, mistake.says)
+
+
+def with_step(scheme: str | None) -> str:
+    """The tutorial's text, as it is or with another integrator."""
+    text = SOURCE.read_text()
+    if scheme is None:
+        return text
+    return (strangers_fourth if scheme in strangers_fourth.SCHEMES else strangers_schemes).exchanged(text, scheme)
 
 
 class Runs:
@@ -133,39 +144,58 @@ def counted(found: list[dict[str, Any]]) -> dict[str, dict[str, int]]:
 def of_schemes() -> Iterator[tuple[Mistake, str]]:
     """The mistakes that are planted in backends with another integrator, and in which: each in one, in turn."""
     yield from ((m, "symplectic Euler") for m in strangers_schemes.MISTAKES)
+    yield from in_turn((*strangers_list.MISTAKES, *strangers_second.MISTAKES), list(strangers_schemes.SCHEMES))
+
+
+def of_fourth_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The same of the fourth list and its integrators."""
+    yield from strangers_fourth.OF_STEPS
+    yield from in_turn(strangers_fourth.MISTAKES, list(strangers_fourth.SCHEMES))
+
+
+def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
+    """The mistakes that runs show and that lie outside the law's step, each in the next integrator."""
     source = SOURCE.read_text()
     step = source[source.index("def first_half") : source.index("PROPERTIES = ")]
-    schemes = list(strangers_schemes.SCHEMES)
-    for i, mistake in enumerate((*strangers_list.MISTAKES, *strangers_second.MISTAKES)):
-        scheme = schemes[i % len(schemes)]
-        whole = strangers_schemes.exchanged(source, scheme).count(mistake.old) == 1
+    for i, mistake in enumerate(mistakes):
+        text, changes = with_step(scheme := schemes[i % len(schemes)]), ((mistake.old, ""), *mistake.more)
+        whole = all(text.count(old) == 1 for old, _ in changes)
         if mistake.in_runs and whole and mistake.old not in step:
             yield mistake, scheme
 
 
-def variants() -> Iterator[tuple[str, Any, list[str]]]:
-    """Correct variants: what they do, the backend, the layers by which it is judged."""
-    for v in strangers_controls.IN_PYTHON:
-        yield v.says, made(changed(SOURCE.read_text(), v.says, *v.changes), v.says), [n for n in LAYERS if n != "L5"]
+SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
+#: Correct variants: in Python, in C, and integrators.
+IN_PYTHON = (*strangers_controls.IN_PYTHON, *strangers_fourth.IN_PYTHON)
+IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C)
+STEPS = tuple(strangers_fourth.SCHEMES)
+
+
+def variants() -> Iterator[tuple[str, Any, list[str], str]]:
+    """Correct variants: what they do, the backend, the layers and the profile by which it is judged."""
+    for scheme in STEPS:
+        yield f"step of {scheme}", made(with_step(scheme), scheme), SHORT_LAYERS, "scheme"
+    for v in IN_PYTHON:
+        yield v.says, made(changed(SOURCE.read_text(), v.says, *v.changes), v.says), SHORT_LAYERS, "float64"
     with tempfile.TemporaryDirectory() as folder:
-        for i, v in enumerate(strangers_controls_c.IN_C):
+        for i, v in enumerate(IN_C):
             source, program = Path(folder) / f"{i}.c", Path(folder) / str(i)
             source.write_text(changed(SOURCE_C.read_text(), v.says, *v.changes))
             flags = v.flags or ("-O2",)
             subprocess.run(["cc", *flags, "-std=gnu11", "-o", str(program), str(source), "-lm"], check=True)
             backend = Executable([str(program)])
-            yield v.says, backend, list(LAYERS)
+            yield v.says, backend, list(LAYERS), "float64"
             backend.close()
 
 
 def controls(only: str) -> int:
     """Judge the correct variants, with pieces and by runs alone; print each; how many are rejected."""
     rejected = asked = 0
-    for says, backend, layers in variants():
+    for says, backend, layers, profile in variants():
         if only not in says:
             continue
         asked += 1
-        told = [verdict(judge(b, layers, examples=10)) for b in (backend, RunsAlone(backend))]
+        told = [verdict(judge(b, layers, profile, examples=10)) for b in (backend, RunsAlone(backend))]
         bad = [v for v in told if not v.passed]
         rejected += bool(bad)
         print(
@@ -201,7 +231,8 @@ def main() -> None:
     asked: list[tuple[Mistake, str | None]] = [
         (m, None) for k, v in LISTS.items() if given.list in (None, k) for m in v
     ]
-    asked = list(of_schemes()) if given.profile == "scheme" else asked
+    if given.profile == "scheme":
+        asked = list(of_fourth_schemes() if given.list == "fourth" else of_schemes())
     found = []
     for mistake, scheme in asked:
         if given.only in mistake.says:

@@ -11,13 +11,15 @@ from typing import NamedTuple
 
 class Mistake(NamedTuple):
     """says; rules: the ones that may be named, the planted one first (more than one where the mistake lies between
-    them); old, new: the change; in_runs: whether a run can show it (what is derived from parameters it is given)."""
+    them); old, new: the change; in_runs: whether a run can show it (what is derived from parameters it is given); more:
+    further changes that belong to it."""
 
     says: str
     rules: tuple[str, ...]
     old: str
     new: str
     in_runs: bool = True
+    more: tuple[tuple[str, str], ...] = ()
 
 
 N1 = "max(K_N * xi + C_N * xi_rate, 0.0) if xi >= 0 else 0.0"
