@@ -191,7 +191,7 @@ def counted(steps: int = 400) -> float:
     numbers = [np.array([[Counted(x) for x in a.ravel()]], object).reshape(1, *a.shape) for a in read]
     rows = [np.zeros((1, 1, col.STATE)), np.zeros((1, 1, problem.points.n, 3))]
     kernel.LOOPS[0](
-        0, 1, *numbers, Counted(STEP), np.array([[steps]]), False, *rows,
+        0, 1, *numbers, Counted(STEP), np.zeros((1, 3)), np.array([[steps]]), False, *rows,
         np.zeros((1, 1, problem.points.n, col.MEMORY)), np.zeros(1, int),
     )  # fmt: skip
     return Counted.operations / steps

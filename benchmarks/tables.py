@@ -11,8 +11,9 @@ from rockref.model.storage import write_bytes, write_text
 
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 NAMES = {
-    "numba_one_core": "rockref, compiled, one core",
-    "numba_all_cores": "rockref, compiled, all cores",
+    "numba_one_core": "rockref, compiled, one core, one block",
+    "numba_one_thread": "rockref, compiled, one core, many blocks abreast",
+    "numba_all_cores": "rockref, compiled, all cores, many blocks abreast",
     "lammps": "LAMMPS",
     "numpy_batch_1024": "rockref, the law in NumPy, 1024 blocks at once",
     "mujoco": "MuJoCo (another contact law)",
