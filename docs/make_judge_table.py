@@ -1,4 +1,4 @@
-"""Write the table of `docs/reference/conformance.md` on how well the judge judges, from `benchmarks/judged.csv`."""
+"""Write the table of `docs/reference/judged.md` on how well the judge judges, from `benchmarks/judged.csv`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCE = ROOT / "benchmarks" / "judged.csv"
-PAGE = ROOT / "docs" / "reference" / "conformance.md"
+PAGE = ROOT / "docs" / "reference" / "judged.md"
 #: The table is the one that begins with this line; the line after it begins the rest of the page.
 HEAD = "| what is judged | shown | asked | detected | named by the right rule | in the top two |"
 NAMES = {

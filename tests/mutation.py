@@ -1,4 +1,4 @@
-"""What `mutmut run` found, against the floor and the survivors of `docs/mutation.md`: ``python -m tests.mutation``.
+"""What `mutmut run` found, against the floors of `docs/mutation.md` and known survivors: ``python -m tests.mutation``.
 
 A mutant that a test fails on, or whose tests do not come to an end, is killed; one that no test reaches survives. The
 score is the killed ones of all. Exit code 1 where it is below the floor of a folder, or where a mutant has no verdict.
@@ -6,13 +6,16 @@ score is the killed ones of all. Exit code 1 where it is below the floor of a fo
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
+KNOWN = ROOT / "benchmarks" / "mutation_survivors.csv"
 
 #: Exit codes of a mutant's tests, as mutmut writes them: pytest's own, a run that was cut off, no tests (33).
 KILLED, TIMEOUT, SURVIVED = {1, 3}, {36, 24, -24, 152, 255}, {0, 5, 33}
@@ -60,10 +63,10 @@ def found(mutants: Path) -> dict[str, dict[str, int | None]]:
     return {name: meta["exit_code_by_key"] for name, meta in codes.items() if meta["exit_code_by_key"]}
 
 
-def listed(page: str) -> set[str]:
-    """The survivors in the first column of the page's tables: "`model.contact.norm` 9, 29" are two."""
-    rows = re.findall(r"^\| `([\w.]+)` ([\d, ]+)\|", page, flags=re.MULTILINE)
-    return {f"{function} {number}" for function, numbers in rows for number in re.findall(r"\d+", numbers)}
+def listed(lines: Iterable[str]) -> set[str]:
+    """The survivors in the lines of a table: a row of `model.contact.norm` and "9, 29" tells two."""
+    rows = csv.DictReader(lines)
+    return {f"{row['function']} {number}" for row in rows for number in row["mutants"].split(", ")}
 
 
 def floors_of(page: str) -> dict[str, float]:
@@ -74,16 +77,15 @@ def floors_of(page: str) -> dict[str, float]:
     return {folder: float(percent) for percent, folder in stated}
 
 
-def report(by_file: dict[str, dict[str, int | None]], page: str) -> tuple[str, bool]:
-    """What to print, and whether the floors of the page hold."""
+def report(by_file: dict[str, dict[str, int | None]], page: str, known: set[str]) -> tuple[str, bool]:
+    """What to print, and whether the floors of the page hold; `known` are survivors that nothing can be done about."""
     lines = [f"{'file':40} {'mutants':>8} {'killed':>8} {'timeouts':>8} {'survived':>8}"]
     for name, verdicts in by_file.items():
         s = score(verdicts)
         lines.append(f"{name:40} {s.all:8} {s.killed:8} {s.timeouts:8} {len(s.survivors):8}")
     total = score({mutant: code for verdicts in by_file.values() for mutant, code in verdicts.items()})
-    known = listed(page)
-    lines += [f"survived, and not in docs/mutation.md: {name}" for name in total.survivors if name not in known]
-    lines += [f"in docs/mutation.md, and no survivor: {name}" for name in sorted(known - set(total.survivors))]
+    lines += [f"survived, and not in {KNOWN.name}: {name}" for name in total.survivors if name not in known]
+    lines += [f"in {KNOWN.name}, and no survivor: {name}" for name in sorted(known - set(total.survivors))]
     lines += [f"without a verdict: {name}" for name in total.undecided]
     holds = not total.undecided
     for folder, floor in floors_of(page).items():
@@ -95,7 +97,8 @@ def report(by_file: dict[str, dict[str, int | None]], page: str) -> tuple[str, b
 
 
 def main() -> int:
-    text, holds = report(found(ROOT / "mutants"), (ROOT / "docs" / "mutation.md").read_text("utf-8"))
+    known = listed(KNOWN.read_text("utf-8").splitlines())
+    text, holds = report(found(ROOT / "mutants"), (ROOT / "docs" / "mutation.md").read_text("utf-8"), known)
     print(text)
     return 0 if holds else 1
 

@@ -1,4 +1,4 @@
-"""The worked example of `docs/howto/own_experiment.md`, and every mistake that its page lists."""
+"""The worked example of `docs/howto/own_experiment.md`, and every mistake that `refused_records.md` lists."""
 
 import re
 import shutil
@@ -12,7 +12,7 @@ from rockref.measure import load_experiment
 from tests.shipped import program
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGE = (ROOT / "docs/howto/own_experiment.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/howto/refused_records.md").read_text(encoding="utf-8")
 HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"
 
 
