@@ -1,11 +1,15 @@
-"""Main impacts: found at the right instants, finer than a sample, in model and data alike."""
+"""Main impacts: found at the right instants, finer than a sample, in model and data alike.
+
+Then main impacts of saw-teeth that are given sample by sample, at 1 kHz.
+"""
 
 import numpy as np
 import pytest
 
 from rockref.measure.experiment import Gyro, load_experiment
 from rockref.measure.gyroscope import record, saturate
-from rockref.measure.impacts import main_impacts, swings
+from rockref.measure.impacts import checked_signal, main_impacts, swings
+from rockref.measure.running import running_mean
 from rockref.model.errors import InputError
 
 # The low-pass of 300 Hz delays slow motion by 0.75 ms, and the half-way point of a step a little more.
@@ -148,3 +152,177 @@ def test_model_rate_and_sensor_rate_agree(rocking):
     clean = main_impacts(t, crv).times
     recorded = main_impacts(*record(t, crv, Gyro(1000.0, 0.0, 300.0, 0.0))).times
     assert np.abs(recorded - clean - DELAY).max() < LATE
+
+
+CUSP = 400
+
+
+def swing(drop, top=0.5, count=1000, slope=0.001, fall=None):
+    """A rate that grows by `slope` a sample to `top` at sample CUSP, loses what `drop` says in the next samples, and
+    falls by `fall` a sample from there on."""
+    k = np.arange(count)
+    fall = slope if fall is None else fall
+    lost = np.interp(k - CUSP, np.arange(len(drop) + 1), [0.0, *np.cumsum(drop)])
+    after = np.maximum(k - CUSP - len(drop), 0)
+    return np.where(k <= CUSP, top - slope * (CUSP - k), top - lost - fall * after)
+
+
+def impacts(wx, start=0.0, **how):
+    t = start + np.arange(len(wx)) / 1000.0
+    return main_impacts(t, np.stack([wx, 0 * wx, 0 * wx], axis=-1), **how)
+
+
+def by_definition(wx, start=0.0):
+    """Middle of the drop that follows the largest rate, within 4 ms, of the mean over three samples."""
+    fine = running_mean(wx, 1)
+    peak = int(np.argmax(fine))
+    bottom = peak + int(np.argmin(fine[peak : peak + 5]))
+    down = fine[peak : bottom + 1]
+    time = start + np.interp(-0.5 * (fine[peak] + fine[bottom]), -down, np.arange(peak, bottom + 1)) / 1000.0
+    return time, fine[peak], fine[peak] - fine[bottom], peak
+
+
+@pytest.mark.parametrize(
+    "drop", [[0.05], [0.02, 0.03], [0.01, 0.05, 0.01], [0.0, 0.04], [0.02, 0.02, 0.02, 0.02, 0.02]]
+)
+@pytest.mark.parametrize("start", [0.0, 5.0])
+def test_the_instant_is_the_middle_of_the_drop(drop, start):
+    wx = swing(drop)
+    found = impacts(wx, start)
+    time, peak, size, sample = by_definition(wx, start)
+    assert found.times[0] == pytest.approx(time, abs=1e-9)
+    assert (found.peaks[0], found.drops[0]) == (pytest.approx(peak, rel=1e-9), pytest.approx(size, rel=1e-9))
+    assert (found.samples[0], found.signs[0]) == (sample, 1)
+    mirrored = impacts(-wx, start)
+    assert mirrored.signs[0] == -1 and np.array_equal(mirrored.peaks, found.peaks)
+
+
+def test_the_middle_of_a_drop_between_two_levels_is_known():
+    """Level, a drop of 0.06 over two samples, level: half way down after one sample, whatever the mean."""
+    wx = swing([0.03, 0.03], slope=1e-9, fall=0.0)
+    wx[:300] = wx[700:] = 0.0
+    found = impacts(wx)
+    # The level rises by 1e-9 a sample, so that the cusp is its end.
+    assert found.times[0] == pytest.approx(0.401, abs=1e-9)
+    assert (found.peaks[0], found.drops[0]) == (pytest.approx(0.5), pytest.approx(0.06))
+
+
+@pytest.mark.parametrize(("loss", "flat"), [(0.0099, True), (0.0101, False)])
+def test_less_than_a_hundredth_is_a_flat_top(loss, flat):
+    """Up to 1 rad/s, as good as level for 40 samples, a loss over two, level again for eight, and down."""
+    wx = np.interp(np.arange(400), [0, 100, 140, 142, 150, 230, 399], [0, 1 - 1e-9, 1, 1 - loss, 1 - loss, 0.1, 0.05])
+    found = impacts(wx)
+    if not flat:
+        # Half way down after one of the two samples.
+        assert found.drops[0] == pytest.approx(loss, rel=1e-6) and found.times[0] == pytest.approx(0.141, abs=1e-6)
+        return
+    high = np.flatnonzero(running_mean(wx, 1) >= 0.99)
+    assert (high[0], high[-1]) == (100, 149)
+    assert found.times[0] == pytest.approx(0.5e-3 * (high[0] + high[-1]), abs=1e-12)
+    assert found.samples[0] == (high[0] + high[-1]) // 2
+    assert (found.peaks[0], found.drops[0]) == (pytest.approx(1.0), 0.0)
+
+
+def test_a_flat_top_is_that_of_its_own_swing():
+    """Two swings that are cut at 0.5 rad/s: the middle of each."""
+    wx = 0.5 * np.clip(3.0 * np.sin(np.pi * np.arange(1001) / 400.0), -1.0, 1.0)
+    found = impacts(wx)
+    assert found.signs.tolist() == [1, -1, 1][: len(found)] and not found.drops[:2].any()
+    assert found.times[:2] == pytest.approx([0.2, 0.6], abs=1e-9) and found.samples[:2].tolist() == [200, 600]
+
+
+@pytest.mark.parametrize(("end", "found"), [(313, 1), (312, 0)])
+def test_a_flat_top_within_12_ms_of_the_end_is_where_the_record_was_cut(end, found):
+    """The mean over 11 samples is largest on the level, long before its end at sample 300."""
+    wx = np.interp(np.arange(end), [0, 100, 200, 300, 400], [0.0, 1.0, 1.0 - 1e-6, 1.0 - 2e-6, 0.0])
+    # It falls by a hundredth a sample from there, and is less than 0.99 of its top at once.
+    assert np.flatnonzero(running_mean(wx, 1) >= 0.99)[-1] == 300
+    assert len(impacts(wx)) == found
+
+
+@pytest.mark.parametrize(("place", "height"), [(-13, 0.03), (12, 0.21)])
+def test_the_largest_rate_is_looked_for_12_ms_about_the_smooth_one(place, height):
+    """A wild sample so far from the cusp of the mean over 11 samples is in the mean of its neighbour, too."""
+    for further, seen in ((0, True), (int(np.sign(place)), False)):
+        wx = swing([0.05], slope=0.0005)
+        smooth = int(np.argmax(running_mean(wx, 5)))
+        wx[smooth + place + further] += height
+        assert int(np.argmax(running_mean(wx, 5))) == smooth
+        assert (abs(impacts(wx).samples[0] - smooth - place - further) <= 1) == seen
+
+
+@pytest.mark.parametrize(("more", "found"), [(13, 1), (12, 0)])
+def test_a_cusp_within_12_ms_of_the_end_is_where_the_record_was_cut(more, found):
+    smooth = int(np.argmax(running_mean(swing([0.05]), 5)))
+    assert len(impacts(swing([0.05], count=smooth + more))) == found
+
+
+@pytest.mark.parametrize(("first", "found"), [(12, 1), (11, 0)])
+def test_a_cusp_within_12_ms_of_the_begin_is_how_the_block_was_thrown(first, found):
+    wx = swing([0.05])
+    smooth = int(np.argmax(running_mean(wx, 5)))
+    cut = wx[smooth - first :]
+    # The shorter mean at the begin is lower, since the rate grows.
+    assert int(np.argmax(running_mean(cut, 5))) == first
+    assert len(impacts(cut)) == found
+
+
+@pytest.mark.parametrize(("thrown", "found"), [([], 1), ([0.3], 0)])
+def test_at_100_hz_two_samples_are_kept_from_the_ends_and_three_are_looked_at_for_the_drop(thrown, found):
+    """The mean over three samples has its cusp at the third sample; where the first one is missing, at its first."""
+    wx = np.array([0.3, 0.6, 0.9, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0, 0.0])[len(thrown) :]
+    t = np.arange(len(wx)) / 100.0
+    got = main_impacts(t, np.stack([wx, 0 * wx, 0 * wx], axis=-1))
+    assert len(got) == found
+    if found:
+        # From (0.6 + 0.9 + 0.5)/3 to (0.4 + 0.3 + 0.2)/3.
+        assert got.samples[0] == 2 and got.drops[0] == pytest.approx(2.0 / 3.0 - 0.3, rel=1e-12)
+
+
+def test_swings_below_a_twentieth_of_the_largest_rate_are_not_looked_at():
+    """Saw-teeth of 1, -0.055 and 0.045 rad/s; the mean over 11 samples takes a little of each."""
+    k = np.arange(1000)
+    tooth = np.interp(k % 333, [0, 200, 202, 332], [0.0, 1.0, 0.9, 0.0])
+    wx = tooth * np.repeat([1.0, -0.055, 0.045, 0.0], [333, 333, 333, 1])
+    found = impacts(wx)
+    assert found.signs.tolist() == [1, -1]
+    assert impacts(wx, least_rate=0.5).signs.tolist() == [1]
+    assert impacts(wx, least_rate=0.01).signs.tolist() == [1, -1, 1]
+    assert len(impacts(wx, least_rate=1.5)) == 0
+
+
+def test_none_has_columns_of_numbers():
+    found = impacts(np.zeros(100))
+    kinds = [column.dtype.kind for column in (found.times, found.signs, found.peaks, found.drops, found.samples)]
+    assert kinds == ["f", "i", "f", "f", "i"]
+    assert [a.dtype.kind for a in (impacts(swing([0.05])).signs, impacts(swing([0.05])).samples)] == ["i", "i"]
+
+
+def test_a_swing_ends_after_the_middle_one_of_its_changes_of_sign():
+    x = np.array([2.0, 0.5, -0.5, 0.5, -0.5, -2.0])
+    assert swings(x, 1.0) == [(0, 3, 1), (3, 6, -1)]
+    assert swings(-x, 1.0) == [(0, 3, -1), (3, 6, 1)]
+    assert swings(np.array([2.0, -2.0]), 1.0) == [(0, 1, 1), (1, 2, -1)]
+    # Five changes, one after three samples without, and one back that comes after the next swing has begun.
+    assert swings(np.array([2.0, 0.5, -0.5, 0.5, -0.5, 0.5, -2.0]), 1.0) == [(0, 4, 1), (4, 7, -1)]
+    assert swings(np.array([2.0, 0.5, 0.4, 0.3, -0.5, -2.0]), 1.0) == [(0, 4, 1), (4, 6, -1)]
+    assert swings(np.array([2.0, 0.5, -2.0, 0.5, -2.0]), 1.0) == [(0, 2, 1), (2, 5, -1)]
+    # What only reaches the threshold is not beyond it.
+    assert swings(np.array([2.0, -1.0, 2.0]), 1.0) == [(0, 3, 1)]
+
+
+def test_what_is_no_run_is_refused_and_what_is_one_is_made_numbers():
+    t, crv = checked_signal(list(range(8)), [[0, 1, 2]] * 8)
+    assert t.dtype == crv.dtype == np.float64 and crv.shape == (8, 3)
+    shapes = "Give (N,) and (N, 3) with at least 8 samples."
+    finite = "a value is not finite. Cut the run before it."
+    for wrong, said in (
+        ((np.arange(7.0), np.zeros((7, 3))), f"shapes (7,) and (7, 3). {shapes}"),
+        ((np.arange(8.0), np.zeros((9, 3))), f"shapes (8,) and (9, 3). {shapes}"),
+        ((np.zeros((8, 3)), np.zeros((8, 3))), f"shapes (8, 3) and (8, 3). {shapes}"),
+        ((np.arange(8.0), np.full((8, 3), np.nan)), finite),
+        ((np.full(8, np.inf), np.zeros((8, 3))), finite),
+    ):
+        with pytest.raises(InputError) as caught:
+            checked_signal(*wrong)
+        assert str(caught.value) == f"arguments t, crv: {said} [E-SIGNAL]"
