@@ -37,7 +37,7 @@ POINT_SETS = ("eight_points", "four_points", "custom")
 
 
 def _same(a: Any, b: Any) -> bool:
-    """Whether two values of a model are equal, of arrays every number."""
+    """Return whether two values of a model are equal, of arrays every number."""
     if isinstance(a, ContactPoints) and isinstance(b, ContactPoints):
         a, b = vars(a), vars(b)
     if isinstance(a, dict) and isinstance(b, dict):
@@ -97,22 +97,22 @@ class Model:
         return f"<Model: {self.mass} kg, {sides}, {self.points}, {effects}>"
 
     def __eq__(self, other: object) -> bool:
-        """Whether two models have the same values, arrays and notes included."""
+        """Return whether two models have the same values, arrays and notes included."""
         return _same(vars(self), vars(other)) if isinstance(other, Model) else NotImplemented
 
     @classmethod
     def table_3_1(cls) -> Model:
-        """The model of the source: eight points, Table 3.1."""
+        """Return the model of the source: eight points, Table 3.1."""
         return cls(origin={"source": "Table 3.1"})
 
     @classmethod
     def four_points(cls) -> Model:
-        """The model that the source's authors tried first: four corners, Table 3.1's external properties."""
+        """Return the model that the source's authors tried first: four corners, Table 3.1's external properties."""
         return cls(points="four_points", origin={"source": "Table 3.1, four points"})
 
     @classmethod
     def from_chromosome_54(cls, genes: np.ndarray, **changes: Any) -> Model:
-        """A model from 54 genes (see `rockref.model.parameters.chromosome_54`)."""
+        """Return a model from 54 genes (see `rockref.model.parameters.chromosome_54`)."""
         properties, delta_long, delta_diag, theta_0 = split_54(genes)
         parameters = Parameters(delta_diag=delta_diag, theta_0=theta_0).replace(delta_long=delta_long)
         return cls(parameters=parameters, properties=properties, **changes)
@@ -140,7 +140,7 @@ class Model:
         model_file.save(self, path)
 
     def replace(self, **changes: Any) -> Model:
-        """A copy with some values changed: fields of the model, or parameters by name (K_N=..., theta_0=...)."""
+        """Return a copy with some values changed: fields of the model, or parameters by name (K_N=..., theta_0=...)."""
         own = {f.name for f in fields(self)}
         known = set(Parameters.__dataclass_fields__) - own
         of_parameters = {k: changes.pop(k) for k in list(changes) if k in known}
@@ -205,7 +205,7 @@ class Model:
                 )
 
     def acting_parameters(self) -> tuple[str, ...]:
-        """Names of those of the twelve parameters that this model is made of, in the order of Table 3.1.
+        """Return names of those of the twelve parameters that this model is made of, in the order of Table 3.1.
 
         Stated `properties` take the place of stiffness, damping and friction, custom points that of all but theta_0,
         and four points have no inner ones. The others are in the file and change nothing.
@@ -224,14 +224,14 @@ class Model:
         return tuple(name for name in GENES_12 if name not in idle)
 
     def body(self) -> tuple[Block, ContactPoints]:
-        """Block and contact points as arrays, with the effects on geometry and mass applied."""
+        """Return block and contact points as arrays, with the effects on geometry and mass applied."""
         block, points = self.body_without_effects()
         for effect in self.active_effects():
             block, points = effect.points(block, points)
         return block, points
 
     def body_without_effects(self) -> tuple[Block, ContactPoints]:
-        """Block and contact points as arrays, as the parameters alone make them. Raises InputError."""
+        """Return block and contact points as arrays, as the parameters alone make them. Raises InputError."""
         self.check_values()
         p = self.parameters
         sides = self.width, self.depth, self.height
@@ -253,7 +253,7 @@ class Model:
         return block, points
 
     def active_effects(self) -> tuple[Effect, ...]:
-        """The effects that are not at the value at which they are absent, in the order of the step."""
+        """Return the effects that are not at the value at which they are absent, in the order of the step."""
         return in_step_order(e for e in self.effects if not e.is_absent())
 
     def problem(
@@ -270,7 +270,7 @@ class Model:
         standing: bool | None = None,
         heading: float = 0.0,
     ) -> Problem:
-        """What the engines take. Without `start`, the release posture at theta_0 (by default the model's) [rad].
+        """Return what the engines take. Without `start`, the release posture at theta_0 (by default the model's) [rad].
 
         body : what `body()` returns, where it is known already.  base : how the plate moves.
         standing : the block stands still on its feet, turned by `heading` [rad] about the vertical, and is not
@@ -312,7 +312,7 @@ def effects_of(given: Any) -> tuple[Effect, ...]:
 
 
 def point_set(properties: dict[str, Any]) -> ContactPoints:
-    """The properties of the eight points, or of the first four, in no place yet."""
+    """Return the properties of the eight points, or of the first four, in no place yet."""
     names = (EXTERNAL + INTERNAL)[: len(properties["K_N"])]
     own = {k: np.array(properties[k], float)[: len(names)] for k in PROPERTIES}
     return ContactPoints(P=np.zeros((len(names), 3)), radius=None, names=names, **own)

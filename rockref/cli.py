@@ -102,7 +102,7 @@ def _top(
         bool, typer.Option("--version", help="Print the version and stop.", callback=_print_version, is_eager=True)
     ] = False,
 ) -> None:
-    """The eight-point rocking block: simulate it, judge a backend by it, find the effect that it misses.
+    """Simulate the eight-point rocking block, judge a backend by it, find the effect that it misses.
 
     `rockref COMMAND --help` shows what a command does, with an example.
     """

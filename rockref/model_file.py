@@ -54,14 +54,14 @@ SECTIONS = (
 
 
 def unknown_key(where: str, key: str, known) -> InputError:
-    """The error for a key that nobody knows, with the nearest one that is known (E-KEY)."""
+    """Return the error for a key that nobody knows, with the nearest one that is known (E-KEY)."""
     near = difflib.get_close_matches(key, sorted(known), 1)
     cure = f"Did you mean {near[0]!r}?" if near else f"Known: {', '.join(sorted(known))}."
     return InputError("E-KEY", where, f"unknown key {key[:80]!r}", cure)
 
 
 def read_toml(path: str | os.PathLike) -> dict[str, Any]:
-    """The tables of a TOML file. Raises InputError (E-FILE, E-TOML, E-ENCODING)."""
+    """Return the tables of a TOML file. Raises InputError (E-FILE, E-TOML, E-ENCODING)."""
     raw = read_bytes(path, LARGEST_FILE)
     try:
         text = raw.decode("utf-8-sig")
@@ -90,7 +90,7 @@ def check_lines(text: str, where: str) -> None:
 
 
 def number(where: str, value: Any, size: int | None = None) -> Any:
-    """A finite float, or a tuple of `size` of them; else InputError (E-TYPE)."""
+    """Return a finite float, or a tuple of `size` of them; else InputError (E-TYPE)."""
     items = value if size is not None else [value]
     good = isinstance(items, list) and (size is None or size < 0 or len(items) == size)
     if not good or any(isinstance(a, bool) or not isinstance(a, (int, float)) for a in items):
@@ -106,7 +106,7 @@ def number(where: str, value: Any, size: int | None = None) -> Any:
 
 
 def table(where: str, tables: dict, name: str, known) -> dict:
-    """A sub-table whose keys are all known; empty where it is missing."""
+    """Return a sub-table whose keys are all known; empty where it is missing."""
     found = tables.get(name, {})
     if not isinstance(found, dict):
         raise InputError("E-TYPE", f"{where}: {name}", "is not a table", f"Write [{name}].")
@@ -117,7 +117,8 @@ def table(where: str, tables: dict, name: str, known) -> dict:
 
 
 def load(cls, path: str | os.PathLike, effects: Sequence[str] = ()):
-    """A model of class `cls` from a TOML file; `effects` are the user's own that it may have, each "file.py:Class"."""
+    """Return a model of class `cls` from a TOML file; `effects` are the user's own that it may have, each
+    "file.py:Class"."""
     for spec in effects:
         file_and_class(spec)  # an id is none
         catalogue.named(spec)
@@ -178,7 +179,7 @@ PLACES_OF_POINTS = {**{name: key for key, name in PROPERTY_KEYS.items()}, "P": "
 
 
 def key_of(where: str) -> str:
-    """Table and key of the file for the place that a check of the model names.
+    """Return table and key of the file for the place that a check of the model names.
 
     "K_N" is "[parameters] K_N_N_m", "custom_points K_N of point a" is "[custom_points] K_N_N_m of point a".
     """
@@ -212,7 +213,7 @@ def _custom_points(where: str, tables: dict) -> ContactPoints:
 
 
 def plain(value: Any) -> Any:
-    """NumPy scalars and arrays as plain numbers and lists."""
+    """Return NumPy scalars and arrays as plain numbers and lists."""
     if isinstance(value, np.ndarray):
         return value.ravel().tolist()
     if isinstance(value, np.generic):
@@ -223,7 +224,7 @@ def plain(value: Any) -> Any:
 
 
 def written(value: Any) -> Any:
-    """A value as tomlkit writes it: a long list with one entry on a line."""
+    """Return a value as tomlkit writes it: a long list with one entry on a line."""
     import tomlkit
 
     value = plain(value)

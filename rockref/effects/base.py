@@ -57,7 +57,7 @@ class Quantity(NamedTuple):
 
     @property
     def suffix(self) -> str:
-        """The unit as it stands behind a number, " N m"; nothing where the number is plain."""
+        """Return the unit as it stands behind a number, " N m"; nothing where the number is plain."""
         return "" if self.unit == "1" else f" {self.unit}"
 
 
@@ -114,25 +114,27 @@ class Effect:
 
     @classmethod
     def typical(cls) -> Effect:
-        """The effect at its typical size."""
+        """Return the effect at its typical size."""
         return cls(**{name: q.typical for name, q in cls.quantities.items()})
 
     @classmethod
     def seeds_in(cls, records) -> tuple[dict[str, float], ...]:
-        """Finite starts, as `seeds`, that records suggest: of each run times (N,) [s] and rates (N, 3) [rad/s]."""
+        """Return finite starts, as `seeds`, that records suggest: of each run times (N,) [s] and rates (N, 3)
+        [rad/s]."""
         return cls.seeds
 
     @classmethod
     def largest_on(cls, name: str, width: float, depth: float) -> float:
-        """Largest value of a parameter that a base with these sides [m] has room for; infinite unless it is a place."""
+        """Return largest value of a parameter that a base with these sides [m] has room for; infinite unless it is a
+        place."""
         return math.inf
 
     def values(self) -> dict[str, Any]:
-        """The parameters by name."""
+        """Return the parameters by name."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     def is_absent(self) -> bool:
-        """Whether every parameter that can switch the effect off is at the value at which it is absent."""
+        """Return whether every parameter that can switch the effect off is at the value at which it is absent."""
         names = self.quantities if self.switches is None else self.switches
         return all(getattr(self, name) == self.quantities[name].absent for name in names)
 
@@ -150,66 +152,68 @@ class Effect:
                 raise InputError("E-RANGE", place, f"is {value!r}{q.suffix}", f"Give {limits(q)}.")
 
     def points(self, block, points):
-        """Geometry, mass, properties of the points: returns (Block, ContactPoints). Once, before the run."""
+        """Return geometry, mass, properties of the points: returns (Block, ContactPoints). Once, before the run."""
         return block, points
 
     def release(self, block, points, state):
-        """The state at release: returns a State. Once, before the run."""
+        """Return the state at release: returns a State. Once, before the run."""
         return state
 
     def start(self, problem) -> dict[str, Any]:
-        """The effect's own memory at the start (arrays with the batch's leading axes)."""
+        """Return the effect's own memory at the start (arrays with the batch's leading axes)."""
         return {}
 
     def plate_motion(self, t, m):
-        """None, or displacement and velocity of the plate, two (..., 3) [m, m/s].
+        """Return None, or displacement and velocity of the plate, two (..., 3) [m, m/s].
 
         Where it turns, its small turn about the origin and the rate of that follow, two (..., 3) [rad, rad/s].
         """
         return None
 
     def normal_force(self, F, k, points, m):
-        """Spring and damper of every point, (..., n) [N], K_N xi + C_N xi_rate in the law; k: Kinematics.
+        """Return spring and damper of every point, (..., n) [N], K_N xi + C_N xi_rate in the law; k: Kinematics.
 
         What comes out negative, or belongs to a point above the plate, is cut to zero afterwards.
         """
         return F
 
     def friction_coefficient(self, mu_0, mu, F_N, k, points, m):
-        """Static and dynamic friction coefficient, two (..., n)."""
+        """Return static and dynamic friction coefficient, two (..., n)."""
         return mu_0, mu
 
     def point_wrench(self, problem, c, m):
-        """None, or a further force and moment (plate axes, about the centre of mass) from the points; c: Contact."""
+        """Return None, or a further force and moment (plate axes, about the centre of mass) from the points; c:
+        Contact."""
         return None
 
     def body_wrench(self, problem, c, x, Lambda, v, W, m):
-        """None, or a further force (..., 3) [N] and moment (..., 3) [N m] on the body, plate axes."""
+        """Return None, or a further force (..., 3) [N] and moment (..., 3) [N m] on the body, plate axes."""
         return None
 
     def advance(self, problem, c, h, m):
-        """Own degrees of freedom, one step h further: replaces entries of m."""
+        """Advance own degrees of freedom by one step h: replaces entries of m."""
 
     def sensor(self, t, crv):
-        """What the gyroscope makes of the crv, (..., N, 3) [rad/s] at the instants t (N,) [s]."""
+        """Return what the gyroscope makes of the crv, (..., N, 3) [rad/s] at the instants t (N,) [s]."""
         return crv
 
     def undo(self, t, crv):
-        """True instants (N,) [s] and rates (..., N, 3) [rad/s] of what `sensor` shows as crv at t: its inverse."""
+        """Return true instants (N,) [s] and rates (..., N, 3) [rad/s] of what `sensor` shows as crv at t: its
+        inverse."""
         return t, crv
 
     def heard(self, t, crv):
-        """Which of the shown rates tell the true ones: truths (..., N, 3); False where `undo` cannot know."""
+        """Return which of the shown rates tell the true ones: truths (..., N, 3); False where `undo` cannot know."""
         return np.ones(np.shape(crv), bool)
 
     @classmethod
     def changes_target(cls) -> bool:
-        """Whether the true rates behind a record depend on this effect: whether `undo` is not the default."""
+        """Return whether the true rates behind a record depend on this effect: whether `undo` is not the default."""
         return cls.undo is not Effect.undo
 
 
 def as_float(value: Any) -> Any:
-    """A whole number as a float, infinite where it is larger than every float; anything else as it is."""
+    """Return a whole number as a float, infinite where it is larger than every float; anything else as it is."""
     if isinstance(value, bool) or not isinstance(value, int):
         return value
     try:
@@ -219,7 +223,7 @@ def as_float(value: Any) -> Any:
 
 
 def implausible(effect: Effect) -> list[tuple[str, str, str]]:
-    """Parameters that lie outside what is plausible: (name, what it is, the range), in words.
+    """Return parameters that lie outside what is plausible: (name, what it is, the range), in words.
 
     A value that is absent is fine: there is nothing to be plausible.
     """
@@ -232,7 +236,7 @@ def implausible(effect: Effect) -> list[tuple[str, str, str]]:
 
 
 def limits(q: Quantity) -> str:
-    """What a quantity may be, in words: the hard limits, then the plausible range."""
+    """Return what a quantity may be, in words: the hard limits, then the plausible range."""
     unit = q.suffix
     low = "above 0" if q.least == POSITIVE else f"of at least {q.least:g}{unit}" if math.isfinite(q.least) else ""
     high = f"of at most {q.most:g}{unit}" if math.isfinite(q.most) else ""

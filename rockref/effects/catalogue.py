@@ -112,17 +112,17 @@ SHOWN = 80
 
 
 def short(words: str) -> str:
-    """Words of a command line or a file as a message shows them."""
+    """Return words of a command line or a file as a message shows them."""
     return words if len(words) <= SHOWN else words[: SHOWN - 3] + "..."
 
 
 def short_path(path: str) -> str:
-    """A path as a message shows it: its end says which file it is."""
+    """Return a path as a message shows it: its end says which file it is."""
     return path if len(path) <= SHOWN else "..." + path[3 - SHOWN :]
 
 
 def find(id: str, where: str = "effect") -> type[Effect]:
-    """The effect of this id: of the catalogue, or a user's own that this process was told of. No file is run for it.
+    """Return effect of this id: of the catalogue, or a user's own that this process was told of. No file is run for it.
 
     Raises InputError (E-EFFECT) where nobody knows it, with the nearest name.
     """
@@ -137,12 +137,12 @@ def find(id: str, where: str = "effect") -> type[Effect]:
 
 
 def names_file(words: str) -> bool:
-    """Whether words are those of a user's own effect, a file or a class in it."""
+    """Return whether words are those of a user's own effect, a file or a class in it."""
     return words.strip().endswith(".py") or ".py:" in words
 
 
 def named(words: str, where: str = "effect") -> type[Effect]:
-    """The effect that a user names: by id, or his own as "path/to/file.py:Class", whose file is then run.
+    """Return the effect that a user names: by id, or his own as "path/to/file.py:Class", whose file is then run.
 
     For words of the user's alone, from the command line or an argument; what data say goes to `find`. A user's own is
     known by its id from then on, in this process, and model files may name its file.
@@ -160,7 +160,7 @@ def named(words: str, where: str = "effect") -> type[Effect]:
 
 
 def of_releases(words: Sequence[str], where: str = "--effect") -> tuple[type[Effect], ...]:
-    """The effects that a user names for records of a gyroscope, each as in `named`.
+    """Return the effects that a user names for records of a gyroscope, each as in `named`.
 
     Raises InputError (E-EFFECT) for one that is given twice, or that only tracked poses of tosses show.
     """
@@ -183,7 +183,7 @@ def own_effect(spec: str) -> type[Effect]:
 
 
 def make(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
-    """An effect with some parameters given by name. Raises InputError (E-KEY, E-TYPE, E-RANGE)."""
+    """Return an effect with some parameters given by name. Raises InputError (E-KEY, E-TYPE, E-RANGE)."""
     for name in given:
         if name not in kind.quantities:
             near = difflib.get_close_matches(name.lower(), kind.quantities, 1)
@@ -195,7 +195,7 @@ def make(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
 
 
 def brought_in(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
-    """An effect that somebody asks for by words or in a file.
+    """Return an effect that somebody asks for by words or in a file.
 
     Where he gives none of the parameters that bring it in, these are typical: who names an effect wants it there. To
     have it absent he writes the value at which it is. Raises InputError (E-KEY, E-TYPE, E-RANGE).
@@ -207,7 +207,7 @@ def brought_in(kind: type[Effect], given: dict[str, Any], where: str) -> Effect:
 
 
 def parse(text: str, where: str = "--effect") -> Effect:
-    """An effect from words: "quadratic_drag:c=0.4", "gyro_scale:x=1.02,y=0.98", "my_effect.py:Class:a=1".
+    """Return an effect from words: "quadratic_drag:c=0.4", "gyro_scale:x=1.02,y=0.98", "my_effect.py:Class:a=1".
 
     Without a parameter that brings it in, it has its typical size.
 
@@ -224,7 +224,7 @@ def parse(text: str, where: str = "--effect") -> Effect:
 
 
 def numbers_of(words: str, name: str, where: str) -> dict[str, float]:
-    """Parameters from "key=value,key=value". Raises InputError (E-KEY for one that is given twice, E-TYPE)."""
+    """Return parameters from "key=value,key=value". Raises InputError (E-KEY for one that is given twice, E-TYPE)."""
     given: dict[str, float] = {}
     for word in filter(None, (w.strip() for w in words.split(","))):
         key, equals, value = (part.strip() for part in word.partition("="))
@@ -239,7 +239,7 @@ def numbers_of(words: str, name: str, where: str) -> dict[str, float]:
 
 
 def from_table(where: str, table: Any, beside: Path | None = None) -> tuple[Effect, ...]:
-    """Effects from the [effects] table of a model file: a sub-table of parameters for each id.
+    """Return effects from the [effects] table of a model file: a sub-table of parameters for each id.
 
     A sub-table without a parameter that brings the effect in means its typical size, as on the command line. A user's
     own effect has `file = "my_effect.py:Class"` in its sub-table, looked for in the folder `beside`, which is that of
@@ -270,7 +270,7 @@ def from_table(where: str, table: Any, beside: Path | None = None) -> tuple[Effe
 
 
 def found_file(file: Any, beside: Path | None, place: str) -> str:
-    """A model file's "file.py:Class", as it is found from the current folder. Raises InputError (E-TYPE)."""
+    """Return a model file's "file.py:Class", as it is found from the current folder. Raises InputError (E-TYPE)."""
     if not isinstance(file, str):
         raise InputError("E-TYPE", f"{place} file", f"is {file!r}"[:80], 'Write file = "path/to/file.py:Class".')
     path, _, name = file.rpartition(":")
@@ -280,7 +280,7 @@ def found_file(file: Any, beside: Path | None, place: str) -> str:
 
 
 def trusted(spec: str, place: str) -> str:
-    """A model file's "file.py:Class", if the user has named that very file himself; nothing is run to know that.
+    """Return a model file's "file.py:Class", if the user has named that very file himself; nothing is run to know that.
 
     Raises InputError: E-TRUST for one that he has not named, E-FILE where there is none, E-EFFECT as `load_user`.
     """
@@ -298,7 +298,7 @@ def trusted(spec: str, place: str) -> str:
 
 
 def to_table(effects: Iterable[Effect], beside: Path | None = None) -> dict[str, dict[str, Any]]:
-    """The [effects] table of a model file in the folder `beside`: `from_table` reads it back to the same effects."""
+    """Return [effects] table of a model file in the folder `beside`: `from_table` reads it back to the same effects."""
     table = {}
     for effect in effects:
         values = {name: value for name, value in effect.values().items() if value is not None}
@@ -307,7 +307,7 @@ def to_table(effects: Iterable[Effect], beside: Path | None = None) -> dict[str,
 
 
 def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
-    """The effects in the order in which they act; a user's own after the built-in ones, as given.
+    """Return the effects in the order in which they act; a user's own after the built-in ones, as given.
 
     Raises InputError (E-EFFECT) where one is given twice.
     """
@@ -321,7 +321,7 @@ def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
 
 
 def at_stage(effects: Iterable[Effect], *stages: str) -> list[Effect]:
-    """The effects that stand at these stages of the measured channel, in its order."""
+    """Return the effects that stand at these stages of the measured channel, in its order."""
     acting = in_step_order(effects)
     return [effect for stage in stages for effect in acting if effect.stage == stage]
 
@@ -332,7 +332,8 @@ def analogue(
     crv: np.ndarray,
     low_pass: Callable[[np.ndarray], np.ndarray] | None = None,
 ) -> np.ndarray:
-    """What a sampler finds: crv (..., N, 3) [rad/s] at t (N,) [s], as the sensor gives it at the recorder's instants t.
+    """Return what a sampler finds: crv (..., N, 3) [rad/s] at t (N,) [s], as the sensor gives it at the recorder's
+    instants t.
 
     Misalignment, scale, low_pass (that of a data sheet, if any), bandwidth and delay, bias and drift, a user's own, and
     the clock: the recorder takes the sample of its time t at another one.
@@ -348,7 +349,7 @@ def analogue(
 
 
 def digital(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
-    """What becomes of the samples, noise included: crv (..., N, 3) [rad/s] at t (N,) [s], cut at the range.
+    """Return what becomes of the samples, noise included: crv (..., N, 3) [rad/s] at t (N,) [s], cut at the range.
 
     After the clock: what comes after the stops would interpolate across their corners, and show more than the range.
     """
@@ -358,7 +359,8 @@ def digital(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.nda
 
 
 def measured(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
-    """What the gyroscope of these effects shows: crv (..., N, 3) [rad/s] at t (N,) [s], in the order of a real one.
+    """Return what the gyroscope of these effects shows: crv (..., N, 3) [rad/s] at t (N,) [s], in the order of a real
+    one.
 
     `analogue`, then `digital`. Noise and rounding belong to a data sheet and come between and after:
     `rockref.measure.gyroscope.record`.
@@ -370,7 +372,7 @@ def measured(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.nd
 def undone(
     effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray, bandwidth: float | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """True instants (N,) [s] and rates (..., N, 3) [rad/s] behind a record crv at t: `measured` run backwards.
+    """Return true instants (N,) [s] and rates (..., N, 3) [rad/s] behind a record crv at t: `measured` run backwards.
 
     bandwidth : of the data sheet's low-pass [Hz], if any. Raises InputError (E-STEP) for a low-pass of uneven rows.
     """
@@ -385,7 +387,8 @@ def undone(
 
 
 def heard(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
-    """Which rates of a record crv (..., N, 3) [rad/s] tell the true ones, row by row along its own axes: truths."""
+    """Return which rates of a record crv (..., N, 3) [rad/s] tell the true ones, row by row along its own axes:
+    truths."""
     told = np.ones(np.shape(crv), bool)
     for effect in reversed(at_stage(effects, *STAGES)):
         told &= effect.heard(t, crv)

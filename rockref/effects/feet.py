@@ -9,7 +9,8 @@ from rockref.model.problem import ContactPoints
 
 
 def foot_numbers(points: ContactPoints, effect: str) -> np.ndarray:
-    """Foot of every point, 0 to 3, (n,). Raises InputError (E-FEET) for a name that does not begin with 1 to 4."""
+    """Return foot of every point, 0 to 3, (n,). Raises InputError (E-FEET) for a name that does not begin with 1 to
+    4."""
     for name in points.names:
         if name[:1] not in ("1", "2", "3", "4"):
             raise InputError(
@@ -22,5 +23,5 @@ def foot_numbers(points: ContactPoints, effect: str) -> np.ndarray:
 
 
 def of_foot(points: ContactPoints, values, effect: str) -> np.ndarray:
-    """Four values, one a foot, spread over the points: (n,), in the points' dtype."""
+    """Return four values, one a foot, spread over the points: (n,), in the points' dtype."""
     return np.array(values, points.K_N.dtype)[foot_numbers(points, effect)]

@@ -33,7 +33,7 @@ def guard(kind: type[Effect], spec: str) -> None:
 
 
 def guarded(hook: Callable, spec: str, name: str) -> Callable:
-    """The hook, with its result looked over."""
+    """Return the hook, with its result looked over."""
 
     @functools.wraps(hook)
     def looked_over(self, *arguments):
@@ -59,7 +59,7 @@ def guarded(hook: Callable, spec: str, name: str) -> Callable:
 
 
 def line_in(error: BaseException, path: Path) -> str:
-    """ ", line N" of the last line of this file through which the error came; "" where there is none."""
+    """Return ", line N" of the last line of this file through which the error came; "" where there is none."""
     lines = [
         f.lineno for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).resolve() == path.resolve()
     ]
@@ -71,7 +71,7 @@ class NotFinite(InputError):
 
 
 def are_finite(things: Any) -> bool:
-    """Whether all arrays among these arguments of a hook are finite, (F, k, points, m) for example."""
+    """Return whether all arrays among these arguments of a hook are finite, (F, k, points, m) for example."""
     if isinstance(things, (np.ndarray, float)):
         return np.asarray(things).dtype.kind != "f" or bool(np.all(np.isfinite(things)))
     inside = things.values() if isinstance(things, dict) else things if isinstance(things, tuple) else ()
@@ -79,7 +79,7 @@ def are_finite(things: Any) -> bool:
 
 
 def wrong(where: str, what: str, cure: str) -> InputError:
-    """The error for a result that the step cannot use."""
+    """Return the error for a result that the step cannot use."""
     return InputError("E-EFFECT", where, what, cure)
 
 
@@ -100,14 +100,14 @@ def numbers(where: str, key: str, a: Any, shape: tuple[int, ...]) -> None:
 
 
 def pair(where: str, given: Any) -> tuple[Any, Any]:
-    """The two results of a hook that gives back two. Raises InputError (E-EFFECT)."""
+    """Return the two results of a hook that gives back two. Raises InputError (E-EFFECT)."""
     if not isinstance(given, tuple) or len(given) != 2:
         raise wrong(where, f"gives back {type(given).__name__}", "Return two things, with a comma between them.")
     return given
 
 
 def look_at_points(where: str, arguments: tuple, result: Any) -> None:
-    """A Block, and contact points with one number each of every property."""
+    """Refuse what is no Block, with contact points that have one number each of every property."""
     block, points = pair(where, result)
     if not isinstance(block, Block) or not isinstance(points, ContactPoints):
         raise wrong(where, f"gives back {type(block).__name__}, {type(points).__name__}", "Return block, points.")
@@ -124,7 +124,7 @@ def look_at_points(where: str, arguments: tuple, result: Any) -> None:
 
 
 def look_at_release(where: str, arguments: tuple, result: Any) -> None:
-    """A State like the one that came in."""
+    """Refuse what is no State like the one that came in."""
     if not isinstance(result, State):
         raise wrong(where, f"gives back {type(result).__name__}", "Return dataclasses.replace(state, ...).")
     for key in ("x", "Lambda", "v", "W"):
@@ -132,7 +132,7 @@ def look_at_release(where: str, arguments: tuple, result: Any) -> None:
 
 
 def look_at_start(where: str, arguments: tuple, result: Any) -> None:
-    """A dict of arrays whose leading axes are those of the problem."""
+    """Refuse what is no dict of arrays whose leading axes are those of the problem."""
     if not isinstance(result, dict):
         raise wrong(where, f"gives back {type(result).__name__}", "Return a dict of arrays, or leave it out.")
     batch = arguments[0].batch
@@ -147,7 +147,8 @@ MOTION = ("displacement", "velocity", "turn", "rate of turn")
 
 
 def look_at_plate_motion(where: str, arguments: tuple, result: Any) -> None:
-    """None, or displacement and velocity, with turn and rate of turn or without; how many runs is not known here."""
+    """Refuse all but None, or displacement and velocity, with turn and rate of turn or without, of unknown number of
+    runs."""
     if result is not None:
         given = result if isinstance(result, tuple) and len(result) == len(MOTION) else pair(where, result)
         for key, a in zip(MOTION, given, strict=False):
@@ -155,42 +156,42 @@ def look_at_plate_motion(where: str, arguments: tuple, result: Any) -> None:
 
 
 def look_at_normal_force(where: str, arguments: tuple, result: Any) -> None:
-    """A force for every point."""
+    """Refuse what is no force for every point."""
     numbers(where, "F", result, np.shape(arguments[0]))
 
 
 def look_at_friction_coefficient(where: str, arguments: tuple, result: Any) -> None:
-    """Two coefficients for every point."""
+    """Refuse what is not two coefficients for every point."""
     for key, a in zip(("mu_0", "mu"), pair(where, result), strict=True):
         numbers(where, key, a, np.shape(arguments[2]))
 
 
 def look_at_wrench(where: str, arguments: tuple, result: Any) -> None:
-    """None, or a force and a moment for every run."""
+    """Refuse all but None, or a force and a moment for every run."""
     if result is not None:
         for key, a in zip(("force", "moment"), pair(where, result), strict=True):
             numbers(where, key, a, np.shape(arguments[0].start.x))
 
 
 def look_at_advance(where: str, arguments: tuple, result: Any) -> None:
-    """Memory that is finite."""
+    """Refuse memory that is not finite."""
     for key, a in arguments[3].items():
         numbers(where, f"memory {key!r}", a, np.shape(a))
 
 
 def look_at_sensor(where: str, arguments: tuple, result: Any) -> None:
-    """As many rates as came in."""
+    """Refuse another number of rates than came in."""
     numbers(where, "crv", result, np.shape(arguments[1]))
 
 
 def look_at_undo(where: str, arguments: tuple, result: Any) -> None:
-    """Instants and rates, as many as came in."""
+    """Refuse another number of instants and rates than came in."""
     for key, a, came in zip(("t", "crv"), pair(where, result), arguments, strict=True):
         numbers(where, key, a, np.shape(came))
 
 
 def look_at_heard(where: str, arguments: tuple, result: Any) -> None:
-    """A truth for every rate."""
+    """Refuse what is no truth for every rate."""
     numbers(where, "what is heard", result, np.shape(arguments[1]))
     if np.asarray(result).dtype != bool:
         raise wrong(where, f"gives back {np.asarray(result).dtype} numbers", "Return truths, such as abs(crv) < 1.")

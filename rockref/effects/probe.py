@@ -18,7 +18,7 @@ from rockref.model.release import release_posture
 
 
 def sample_problem() -> Problem:
-    """The block of the source at release, a little turning, with no effects: one run."""
+    """Return the block of the source at release, a little turning, with no effects: one run."""
     p = Parameters()
     mass, width, depth, height = (BLOCK[k].value for k in ("mass", "width", "depth", "height"))
     block = Block(np.array(mass), cuboid_inertia(mass, width, depth, height), np.array(GRAVITY))
@@ -48,7 +48,7 @@ def probe(effect: Effect, spec: str) -> None:
 
 
 def sample_record() -> tuple[np.ndarray, np.ndarray]:
-    """Instants (50,) [s] and rates (50, 3) [rad/s] that a gyroscope is given, or shows."""
+    """Return instants (50,) [s] and rates (50, 3) [rad/s] that a gyroscope is given, or shows."""
     return np.arange(50) / 2000, np.full((50, 3), 0.1)
 
 
@@ -93,7 +93,7 @@ def probe_absent(effect: Effect, spec: str) -> None:
 
 
 def absent_arguments(effect: Effect) -> list[tuple[str, tuple[Any, ...]]]:
-    """The hooks whose results say whether something changes, with the arguments of the small problem."""
+    """Return the hooks whose results say whether something changes, with the arguments of the small problem."""
     problem = sample_problem()
     s, points, block = problem.start, problem.points, problem.block
     try:
@@ -114,7 +114,7 @@ def absent_arguments(effect: Effect) -> list[tuple[str, tuple[Any, ...]]]:
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two results of a hook are the same but for rounding; a load or a motion of zero is none."""
+    """Return whether two results of a hook are the same but for rounding; a load or a motion of zero is none."""
     if is_dataclass(b):
         return all(same(getattr(a, f.name), getattr(b, f.name)) for f in fields(b))
     if isinstance(b, tuple) and not all(isinstance(name, str) for name in b):

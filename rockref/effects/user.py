@@ -25,7 +25,7 @@ QUANTITY = 'Quantity("N s/m", absent=0.0, low=..., high=..., typical=...)'
 
 
 def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
-    """The effect class that "path/to/file.py:Class" names, looked over and tried once; its hooks are guarded.
+    """Return the effect class that "path/to/file.py:Class" names, looked over and tried once; its hooks are guarded.
 
     taken : ids that it must not have.
 
@@ -58,7 +58,7 @@ def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
 
 
 def file_and_class(spec: str) -> tuple[str, str]:
-    """The two parts of "path/to/file.py:Class"; nothing is looked for. Raises InputError (E-EFFECT)."""
+    """Return the two parts of "path/to/file.py:Class"; nothing is looked for. Raises InputError (E-EFFECT)."""
     path, _, name = spec.rpartition(":")
     if spec.endswith(".py"):
         names = classes_in(Path(spec)) or ["Class"]
@@ -79,7 +79,7 @@ def classes_in(path: Path) -> list[str]:
 
 
 def file_beside(file: str, beside: Path | None) -> str:
-    """A "file.py:Class" of the current folder as it is written in a file in the folder `beside`."""
+    """Return a "file.py:Class" of the current folder as it is written in a file in the folder `beside`."""
     path, _, name = file.rpartition(":")
     if beside is None or Path(path).is_absolute():
         return file

@@ -14,7 +14,7 @@ SHARE, WINDOW = 0.1, 0.1
 
 
 def horizon(t: np.ndarray, a: np.ndarray, b: np.ndarray, share: float = SHARE) -> np.ndarray:
-    """Time (3,) [s] from which b differs from a by more than `share` of the motion, by axis; infinite if never.
+    """Return time (3,) [s] from which b differs from a by more than `share` of the motion, by axis; infinite if never.
 
     t : (N,) [s];  a, b : (N, 3) rates of any one unit. The motion is the quadratic mean of a over the whole record.
     """
@@ -24,7 +24,7 @@ def horizon(t: np.ndarray, a: np.ndarray, b: np.ndarray, share: float = SHARE) -
 
 
 def difference(t: np.ndarray, a: np.ndarray, b: np.ndarray, until: float) -> np.ndarray:
-    """Quadratic mean of b - a over that of a up to `until` [s], by axis, (3,).
+    """Return quadratic mean of b - a over that of a up to `until` [s], by axis, (3,).
 
     About an axis with no motion at all, as on four even feet, it is zero, or infinite where only b moves.
     """
@@ -35,5 +35,5 @@ def difference(t: np.ndarray, a: np.ndarray, b: np.ndarray, until: float) -> np.
 
 
 def common_horizon(t: np.ndarray, responses: Sequence[np.ndarray], share: float = SHARE) -> np.ndarray:
-    """The earliest horizon (3,) of responses against the first."""
+    """Return the earliest horizon (3,) of responses against the first."""
     return np.min([horizon(t, responses[0], b, share) for b in responses[1:]], axis=0)

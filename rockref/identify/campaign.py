@@ -46,11 +46,12 @@ class Campaign:
 
     @property
     def patience(self) -> float:
-        """Seconds without any piece done after which the workers are taken to hang."""
+        """Return seconds without any piece done after which the workers are taken to hang."""
         return AT_FIRST if self.longest is None else max(LEAST, TIMES * self.longest)
 
     def __call__(self, function: Callable[..., Sequence], shared: tuple, items: Sequence) -> list:
-        """The concatenated results of `function(*shared, piece)` over pieces of `items`, in the order of the items."""
+        """Return the concatenated results of `function(*shared, piece)` over pieces of `items`, in the order of the
+        items."""
         pieces = [list(p) for p in split(items, self.workers)]
         executor = self.executor
         if executor is None:
@@ -73,7 +74,8 @@ class Campaign:
         return [result for i in range(len(pieces)) for result in done[i]]
 
     def as_done(self, function: Callable[..., Sequence], shared: tuple, items: Sequence) -> Iterator[tuple[int, Any]]:
-        """(index, result) of each item, `function(*shared, [item])[0]`, as it is done: no worker waits for another."""
+        """Yield (index, result) of each item, `function(*shared, [item])[0]`, as it is done: no worker waits for
+        another."""
         left = list(range(len(items)))
         if self.executor is None:
             for i in left:
@@ -92,7 +94,7 @@ class Campaign:
                 self.executor = self._anew(e, attempt)
 
     def _as_they_end(self, jobs: Iterable[Future]) -> Iterator[Future]:
-        """The jobs as they are done. Raises Hanging where none is done in time."""
+        """Yield the jobs as they are done. Raises Hanging where none is done in time."""
         left, started = set(jobs), time.monotonic()
         while left:
             done, left = wait(left, self.patience, FIRST_COMPLETED)
@@ -102,7 +104,8 @@ class Campaign:
             yield from done
 
     def _anew(self, error: Exception, attempt: int) -> Executor:
-        """Other workers in place of those that died or hang. Raises InputError (E-WORKERS) after some attempts."""
+        """Return other workers in place of those that died or hang. Raises InputError (E-WORKERS) after some
+        attempts."""
         for process in list((getattr(self.executor, "_processes", None) or {}).values()):
             process.kill()  # what hangs does not end by itself
         if attempt == ATTEMPTS - 1:
@@ -125,7 +128,7 @@ def _has_result(job: Future) -> bool:
 
 
 def split(items: Sequence, pieces: int) -> list[Sequence]:
-    """`items` in at most `pieces` pieces whose lengths differ by one at most."""
+    """Return `items` in at most `pieces` pieces whose lengths differ by one at most."""
     n = max(1, min(pieces, len(items)))
     edges = [round(i * len(items) / n) for i in range(n + 1)]
     return [items[a:b] for a, b in zip(edges[:-1], edges[1:], strict=True)]
@@ -135,7 +138,7 @@ def split(items: Sequence, pieces: int) -> list[Sequence]:
 def campaign(
     workers: int | None = None, dask: str | None = None, executor: Executor | None = None
 ) -> Iterator[Campaign]:
-    """A campaign on `workers` local processes (1: in this one; None: one a core), on the Dask cluster at address
+    """Open a campaign on `workers` local processes (1: in this one; None: one a core), on the Dask cluster at address
     `dask`, or on an executor of the caller's, which is left open.
 
     Raises

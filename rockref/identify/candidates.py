@@ -23,7 +23,7 @@ OUTPUT_RATE = 2000.0
 
 
 def rates(problems: Sequence[Problem], workers: int | None = 1) -> np.ndarray:
-    """crv (B, T, 3) [rad/s] of problems of one structure; NaN from where a run lost its numbers."""
+    """Return crv (B, T, 3) [rad/s] of problems of one structure; NaN from where a run lost its numbers."""
     if has_numba():
         from rockref.engines.compiled import columns as col
         from rockref.engines.compiled.batch import from_problems, run_batch
@@ -33,7 +33,7 @@ def rates(problems: Sequence[Problem], workers: int | None = 1) -> np.ndarray:
 
 
 def problem_for(model: Model, target: Target, tilt: float, step: float = STEP, start: dict | None = None) -> Problem:
-    """The release of `model` at `tilt` [rad] as the target's was, long enough to be compared with it."""
+    """Return the release of `model` at `tilt` [rad] as the target's was, long enough to be compared with it."""
     return model.problem(target.duration, step, OUTPUT_RATE, turned=target.turned, theta_0=tilt, **(start or {}))
 
 
@@ -41,7 +41,7 @@ def records(
     models: Sequence[Model], target: Target, tilts: Sequence[float], step: float = STEP, workers: int | None = 1,
     starts: Sequence[dict] | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """Times (N,) [s] and rates (B, N, 3) [rad/s] that the target's gyroscope would have recorded of each model.
+    """Return times (N,) [s] and rates (B, N, 3) [rad/s] that the target's gyroscope would have recorded of each model.
 
     A model that cannot be released (tilt beyond its tipping angle) or loses its numbers has NaN.
     """
@@ -67,7 +67,7 @@ def records(
 def evaluate(
     space: Space, targets: Sequence[Target], chromosomes: np.ndarray
 ) -> list[tuple[float, list[Terms | None]]]:
-    """Cost, and terms for each target, of chromosomes (B, G) in [0, 1]; the cost is the mean over the targets.
+    """Return cost, and terms for each target, of chromosomes (B, G) in [0, 1]; the cost is the mean over the targets.
 
     Each chromosome is computed by itself: the result does not depend on what else is in the batch.
     """
@@ -84,14 +84,14 @@ def evaluate(
 
 
 def feature_costs(space: Space, targets: Sequence[Target], chromosomes: np.ndarray) -> list[float]:
-    """The cost alone, for the search: (B,) of chromosomes (B, G)."""
+    """Return the cost alone, for the search: (B,) of chromosomes (B, G)."""
     return [cost for cost, _ in evaluate(space, targets, np.asarray(chromosomes))]
 
 
 def releases(
     space: Space, target: Target, chromosomes: Sequence[np.ndarray], step: float = STEP, workers: int | None = 1
 ) -> tuple[np.ndarray, np.ndarray]:
-    """`records` of chromosomes (B, G), released as the target was.
+    """Return `records` of chromosomes (B, G), released as the target was.
 
     The gene theta_0 says how far the stated tilt is off, the same for every target.
     """

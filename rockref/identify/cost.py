@@ -42,7 +42,7 @@ WEIGHTS = Terms(1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
 
 
 def cost_terms(found: Features, wanted: Features) -> Terms | None:
-    """The terms of a model's features against the target's; None where the model has no two main impacts."""
+    """Return the terms of a model's features against the target's; None where the model has no two main impacts."""
     if found.upper is None or found.lower is None or found.spectrum is None:
         return None
     assert wanted.upper is not None and wanted.lower is not None and wanted.spectrum is not None
@@ -62,7 +62,7 @@ def cost_terms(found: Features, wanted: Features) -> Terms | None:
 
 
 def total(terms: Terms | None, impacts: int = 0, weights: Terms = WEIGHTS) -> float:
-    """The weighted sum; for a model without two main impacts `MISSING` and one more for each that it lacks."""
+    """Return the weighted sum; for a model without two main impacts `MISSING` and one more for each that it lacks."""
     if terms is None:
         return MISSING + max(0, 2 - impacts)
     return float(sum(w * term for w, term in zip(weights, terms, strict=True)))

@@ -88,13 +88,13 @@ class Descent:
         return Place(z, r[0], float(mean_squares(r)[0]))
 
     def jacobian(self, z: np.ndarray, h: np.ndarray) -> np.ndarray:
-        """(M, Z) by central differences over h (Z,), one-sided at the end of a range."""
+        """Return (M, Z) by central differences over h (Z,), one-sided at the end of a range."""
         up, down = np.minimum(z + h, 1.0), np.maximum(z - h, 0.0)
         rs = self.residuals(np.concatenate([z + np.diag(up - z), z - np.diag(z - down)]))
         return np.nan_to_num((rs[: len(z)] - rs[len(z) :]) / (up - down)[:, None]).T
 
     def slopes(self, z: np.ndarray, change: float, h: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Jacobian (M, Z) over steps that change the response by `change`, and those steps (Z,)."""
+        """Return Jacobian (M, Z) over steps that change the response by `change`, and those steps (Z,)."""
         if h is None:
             h = np.full(len(z), FIRST)
             h = _steps(self.jacobian(z, h), change)
@@ -102,7 +102,7 @@ class Descent:
         return J, _steps(J, change)
 
     def descend(self, at: Place, change: float, steps: int | None = None) -> Place:
-        """Levenberg-Marquardt from `at`, five dampings a step side by side."""
+        """Return Levenberg-Marquardt from `at`, five dampings a step side by side."""
         damping, J, h = DAMPING, None, None
         for _ in range(self.steps if steps is None else steps):
             if J is None:
@@ -133,7 +133,7 @@ def _steps(J: np.ndarray, change: float) -> np.ndarray:
 
 
 def damped_step(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float) -> np.ndarray:
-    """The damped step, along free directions only: an unknown that would leave its range stays at the end of it."""
+    """Return damped step, along free directions only: an unknown that would leave its range stays at the end of it."""
     free = np.ones(len(z), bool)
     d = np.zeros(len(z))
     for _ in range(len(z)):
@@ -148,5 +148,5 @@ def damped_step(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float) -> 
 
 
 def ridge(A: np.ndarray) -> np.ndarray:
-    """What keeps the solution of A x = b finite where an unknown does nothing."""
+    """Return what keeps the solution of A x = b finite where an unknown does nothing."""
     return (1e-12 * np.trace(A) + 1e-30) * np.eye(len(A))

@@ -32,12 +32,12 @@ class Features:
 
     @property
     def duration(self) -> float:
-        """Time between the first two main impacts [s]."""
+        """Return time between the first two main impacts [s]."""
         return float(self.impacts[1] - self.impacts[0])
 
 
 def features(t: np.ndarray, crv: np.ndarray) -> Features:
-    """The features of a run t (N,) [s], crv (N, 3) [rad/s]. Raises InputError (E-SIGNAL)."""
+    """Return the features of a run t (N,) [s], crv (N, 3) [rad/s]. Raises InputError (E-SIGNAL)."""
     times = main_impacts(t, crv).times
     if len(times) < 2 or times[1] - times[0] < 0.05:
         return Features(times)
@@ -46,7 +46,8 @@ def features(t: np.ndarray, crv: np.ndarray) -> Features:
 
 
 def spectrum(t: np.ndarray, crv: np.ndarray, start: float, end: float) -> np.ndarray:
-    """Amplitudes (2, F) [rad/s] about Y and Z between `start` and `end` [s], as `amplitude_spectrum` gives them."""
+    """Return amplitudes (2, F) [rad/s] about Y and Z between `start` and `end` [s], as `amplitude_spectrum` gives
+    them."""
     step = sample_step(t)
     size = round(1 / (LINE * step))
     first, last = np.searchsorted(t, (start, end))

@@ -39,7 +39,7 @@ class Question:
 
 
 def question(experiment: Path, base: Model | None = None, genes: int = 12, search_runs: str | None = None) -> Question:
-    """What is to be identified from an experiment's fit runs.
+    """Return what is to be identified from an experiment's fit runs.
 
     base : gives what is not searched;  genes : 12 or 54;  search_runs : of the evolutionary search, as "01,06".
 
@@ -71,7 +71,7 @@ def answered(
     effort: Effort = Effort(),  # noqa: B008 - frozen
     rounds: int = ROUNDS,
 ) -> tuple[dict[str, Any], Model]:
-    """The record (`rockref.identify.outcome.record`) and the model that answer a question.
+    """Return the record (`rockref.identify.outcome.record`) and the model that answer a question.
 
     folder : of the checkpoints;  report : called with (space, stage, progress).  Raises InputError (E-RESUME, ...).
     """

@@ -60,11 +60,11 @@ class Space:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the genes."""
+        """Return names of the genes."""
         return tuple(gene.name for gene in self.genes)
 
     def values(self, u: np.ndarray) -> np.ndarray:
-        """Values in the genes' units, (..., G), of u (..., G) in [0, 1]."""
+        """Return values in the genes' units, (..., G), of u (..., G) in [0, 1]."""
         low, high, log = self._bounds()
         u = np.asarray(u, float)
         # Both branches are computed; ranges that begin at zero have no logarithm and take the other one.
@@ -72,7 +72,8 @@ class Space:
         return np.where(log, low * ratio**u, low + (high - low) * u)
 
     def units(self, values: np.ndarray) -> np.ndarray:
-        """u (..., G) of values (..., G) in the genes' units; outside [0, 1] where a value is outside its range."""
+        """Return u (..., G) of values (..., G) in the genes' units; outside [0, 1] where a value is outside its
+        range."""
         low, high, log = self._bounds()
         values = np.asarray(values, float)
         ratio = np.where(log, high / np.where(low > 0, low, 1), 2)
@@ -80,7 +81,7 @@ class Space:
         return np.where(log, by_log, (values - low) / (high - low))
 
     def slopes(self, u: np.ndarray) -> np.ndarray:
-        """d(values)/d(u) at u, (..., G): what turns an error in u into one in the gene's unit."""
+        """Return d(values)/d(u) at u, (..., G): what turns an error in u into one in the gene's unit."""
         low, high, log = self._bounds()
         ratio = np.where(log, high / np.where(low > 0, low, 1), math.e)
         return np.where(log, self.values(u) * np.log(ratio), high - low)
@@ -92,12 +93,12 @@ class Space:
 
 
 def genes_12(tilt: float, tilt_range: float = TILT_RANGE) -> tuple[Gene, ...]:
-    """The twelve genes of Table 3.1; the release angle within `tilt` +- `tilt_range` [rad]."""
+    """Return the twelve genes of Table 3.1; the release angle within `tilt` +- `tilt_range` [rad]."""
     return tuple(gene(name, tilt, tilt_range) for name in GENES_12)
 
 
 def gene(name: str, tilt: float, tilt_range: float = TILT_RANGE) -> Gene:
-    """One of the twelve genes of Table 3.1."""
+    """Return one of the twelve genes of Table 3.1."""
     unit = TABLE_3_1[name].unit
     if name == "theta_0":
         return Gene(name, unit, tilt - tilt_range, tilt + tilt_range)
@@ -105,7 +106,7 @@ def gene(name: str, tilt: float, tilt_range: float = TILT_RANGE) -> Gene:
 
 
 def genes_54(tilt: float, mass: float, tilt_range: float = TILT_RANGE) -> tuple[Gene, ...]:
-    """The 54 genes: six properties of each of eight points, four heights, the diagonal, the release angle.
+    """Return the 54 genes: six properties of each of eight points, four heights, the diagonal, the release angle.
 
     The ranges are those of the twelve; damping C = 2 beta sqrt(K m) spans what they span together.
     """
@@ -122,17 +123,17 @@ def genes_54(tilt: float, mass: float, tilt_range: float = TILT_RANGE) -> tuple[
 
 
 def space_12(model: Model, tilt: float | None = None) -> Space:
-    """The twelve genes on `model`'s block; the release angle about `tilt` [rad], by default the model's."""
+    """Return the twelve genes on `model`'s block; the release angle about `tilt` [rad], by default the model's."""
     return Space("12", genes_12(model.parameters.theta_0 if tilt is None else tilt), model)
 
 
 def space_54(model: Model, tilt: float | None = None) -> Space:
-    """The 54 genes on `model`'s block; the release angle about `tilt` [rad], by default the model's."""
+    """Return the 54 genes on `model`'s block; the release angle about `tilt` [rad], by default the model's."""
     return Space("54", genes_54(model.parameters.theta_0 if tilt is None else tilt, model.mass), model)
 
 
 def model_of(space: Space, u: np.ndarray) -> Model:
-    """The model of a chromosome u (G,) in [0, 1].
+    """Return the model of a chromosome u (G,) in [0, 1].
 
     Raises InputError (E-KEY) for a kind that is not known.
     """
@@ -157,7 +158,7 @@ def _model_of_54(model: Model, values: np.ndarray) -> Model:
 
 
 def chromosome(space: Space, parameters: Parameters) -> np.ndarray:
-    """u (12,) of twelve parameters; for kind "12" only (E-KEY)."""
+    """Return u (12,) of twelve parameters; for kind "12" only (E-KEY)."""
     from rockref.model.parameters import chromosome_12
 
     if space.kind != "12":

@@ -40,18 +40,19 @@ class Identifiability:
     at_floor: bool = True
 
     def digits(self) -> dict[str, float]:
-        """Errors in parts of the last significant digit of Table 3.1, for the unknowns that it has."""
+        """Return errors in parts of the last significant digit of Table 3.1, for the unknowns that it has."""
         last = {name: given.precision for name, given in TABLE_3_1.items()}
         owners = [name.split(" of ")[0] for name in self.names]
         return {n: float(e / last[o]) for n, o, e in zip(self.names, owners, self.errors, strict=True) if o in last}
 
     def determined(self) -> dict[str, bool]:
-        """Whether an unknown is known within half its last digit, two standard deviations; none above the floor."""
+        """Return whether an unknown is known within half its last digit, two standard deviations; none above the
+        floor."""
         return {name: self.at_floor and 2 * error < 0.5 for name, error in self.digits().items()}
 
 
 def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> Identifiability:
-    """Errors, correlations and trade-offs at the end of a polish."""
+    """Return errors, correlations and trade-offs at the end of a polish."""
     unknowns = Unknowns(space, targets)
     information = end.jacobian.T @ end.jacobian
     # A direction that the data do not see at all has no information; the pseudo-inverse would call it certain.
@@ -79,8 +80,8 @@ def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> I
 def profile(
     space: Space, targets: Sequence[Target], end: Polished, name: str, reach: float, points: int = 5
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Values (P,) of one unknown about its end, up to `reach` in its unit, and the least chi2 (P,) of each by one
-    Gauss-Newton step of all others: a valley that stays flat is not determined.
+    """Return values (P,) of one unknown about its end, up to `reach` in its unit, and the least chi2 (P,) of each by
+    one Gauss-Newton step of all others: a valley that stays flat is not determined.
 
     Raises ValueError for a name that is no unknown.
     """

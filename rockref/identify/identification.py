@@ -37,7 +37,7 @@ class Identified:
 
     @property
     def at_floor(self) -> bool:
-        """Whether the residual is the noise."""
+        """Return whether the residual is the noise."""
         return self.polished.at_floor
 
 
@@ -88,7 +88,7 @@ def identify(
 
 
 def fingerprint(space: Space, targets: Sequence[Target]) -> dict[str, Any]:
-    """What is searched and against what: genes, block, digests of the targets."""
+    """Return what is searched and against what: genes, block, digests of the targets."""
     return {
         "kind": space.kind,
         "genes": [asdict(gene) for gene in space.genes],
@@ -99,7 +99,7 @@ def fingerprint(space: Space, targets: Sequence[Target]) -> dict[str, Any]:
 
 
 def digest(target: Target) -> str:
-    """SHA-256 of a target's times and rates."""
+    """Return SHA-256 of a target's times and rates."""
     return hashlib.sha256(
         np.ascontiguousarray(target.t).tobytes() + np.ascontiguousarray(target.crv).tobytes()
     ).hexdigest()

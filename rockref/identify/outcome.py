@@ -29,7 +29,7 @@ def record(
     settings: Settings,
     inputs: dict[str, str],
 ) -> dict[str, Any]:
-    """Everything that an identification says, for JSON; the same inputs give the same record, to the last bit.
+    """Return everything that an identification says, for JSON; the same inputs give the same record, to the last bit.
 
     inputs : digests of the files that were read, by name.
     """
@@ -85,7 +85,7 @@ def record(
 
 
 def found_model(end: Identified, known: Identifiability, inputs: dict[str, str], seed: int) -> Model:
-    """The identified model with its uncertainty (one standard deviation, SI) and where it came from."""
+    """Return the identified model with its uncertainty (one standard deviation, SI) and where it came from."""
     model = model_of(end.space, end.polished.u)
     errors = {n: float(e) for n, e in zip(known.names, known.errors, strict=True) if not n.startswith("theta_0 of")}
     return model.replace(
@@ -103,5 +103,5 @@ def _plain(found: dict[str, str | None]) -> dict[str, str]:
 
 
 def files_in(folder: Path) -> dict[str, Path]:
-    """Where the files of an identification lie in its folder."""
+    """Return where the files of an identification lie in its folder."""
     return {"result": folder / "identification.json", "model": folder / "model.toml"}

@@ -22,7 +22,7 @@ class Pieces:
         self.folder, self.identity = folder, identity
 
     def kept(self, name: str, of: Any = None) -> dict[str, Any] | None:
-        """The result of a piece that is done, or None. Raises InputError (E-FILE) where the file cannot be read."""
+        """Return result of a piece that is done, or None. Raises InputError (E-FILE) where the file cannot be read."""
         path = self._path(name)
         if not path.exists():
             return None
@@ -33,7 +33,7 @@ class Pieces:
             raise InputError("E-FILE", str(path), f"is no piece of a study ({e})", "Remove the file.") from e
 
     def once(self, name: str, make: Callable[[], dict[str, Any]], of: Any = None) -> dict[str, Any]:
-        """The result of a piece: kept, or made now and written whole."""
+        """Return the result of a piece: kept, or made now and written whole."""
         found = self.kept(name, of)
         if found is None:
             found = self._keep(name, make(), of)
@@ -46,7 +46,7 @@ class Pieces:
         make: Callable[[list], Iterable[tuple[int, dict[str, Any]]]],
         of: Any = None,
     ) -> list[dict[str, Any]]:
-        """The results of pieces of one kind, in the order of their keys.
+        """Return the results of pieces of one kind, in the order of their keys.
 
         make : takes the keys that are left and gives (index, result) as they are done; each is kept at once.
         """
@@ -59,7 +59,7 @@ class Pieces:
         return self.folder / f"{name}.json"
 
     def _identity(self, of: Any) -> Any:
-        """As it comes back from a file."""
+        """Return an item as it comes back from a file."""
         return json.loads(json.dumps({**self.identity, "of": of}))
 
     def _keep(self, name: str, result: dict[str, Any], of: Any) -> dict[str, Any]:

@@ -84,7 +84,7 @@ class Polished:
 
     @property
     def at_floor(self) -> bool:
-        """Whether the residual is the noise."""
+        """Return whether the residual is the noise."""
         return self.chi2 < FLOOR
 
 
@@ -98,7 +98,7 @@ def polish(
     z: bool = False,
     effort: Effort = Effort(),  # noqa: B008 - frozen
 ) -> Polished:
-    """Least squares within the ranges, from the chromosome u (G,), or with `z` from the unknowns u (Z,).
+    """Fit by least squares within the ranges, from the chromosome u (G,), or with `z` from the unknowns u (Z,).
 
     report : called with the mean square after each gain.
     """
@@ -134,7 +134,8 @@ def polish(
 
 
 def _long_moves(descent: Descent, at: Place) -> Place:
-    """Each unknown moved a long way, alone and with the others following; a short descent from the best places."""
+    """Return each unknown moved a long way, alone and with the others following; a short descent from the best
+    places."""
     J, _ = descent.slopes(at.z, CHANGES[1])
     trials = np.array([z for i in range(len(at.z)) for shift in SHIFTS for z in _moved(J, at, i, shift)])
     chi2 = mean_squares(descent.residuals(trials))
@@ -146,7 +147,7 @@ def _long_moves(descent: Descent, at: Place) -> Place:
 
 
 def _in_window(descent: Descent, z: np.ndarray, after: float) -> Place:
-    """The end of the descents that look no further than `after` [s] beyond the first main impact."""
+    """Return the end of the descents that look no further than `after` [s] beyond the first main impact."""
     at = descent.place(z)
     for change in CHANGES[:2]:
         at = descent.descend(at, change)
@@ -161,7 +162,8 @@ def _in_window(descent: Descent, z: np.ndarray, after: float) -> Place:
 
 
 def _moved(J: np.ndarray, at: Place, i: int, shift: float) -> list[np.ndarray]:
-    """z with unknown i shifted: alone, and with the others where the slopes say that they follow (at most a tenth)."""
+    """Return z with unknown i shifted: alone, and with the others where the slopes say that they follow (at most a
+    tenth)."""
     alone = at.z.copy()
     alone[i] = np.clip(alone[i] + shift, 0.0, 1.0)
     others = np.arange(len(at.z)) != i

@@ -30,7 +30,7 @@ class Growth:
 
     @property
     def digits_per_impact(self) -> float:
-        """Decimal digits that are lost from one main impact to the next."""
+        """Return decimal digits that are lost from one main impact to the next."""
         return float(np.log10(self.per_impact))
 
 
@@ -80,7 +80,7 @@ def check_impacts(impacts: np.ndarray, duration: float) -> None:
 
 
 def slope(y: np.ndarray) -> float:
-    """Slope of the straight line through y at 0, 1, 2, ..; NaN for fewer than two."""
+    """Return slope of the straight line through y at 0, 1, 2, ..; NaN for fewer than two."""
     if len(y) < 2:
         return float("nan")
     k = np.arange(len(y)) - (len(y) - 1) / 2

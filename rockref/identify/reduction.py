@@ -45,13 +45,14 @@ class Together:
 
     @property
     def comes_out(self) -> bool:
-        """Whether the search itself made the members one: they end within half the spread that chance would give, and
-        move together more than with the rest."""
+        """Return whether the search itself made the members one: they end within half the spread that chance would
+        give, and move together more than with the rest."""
         return bool(self.spread < 0.5 * self.chance and self.correlation > self.others + 0.1)
 
 
 def ways(space: Space, found: Found, mass: float) -> tuple[tuple[str, ...], np.ndarray]:
-    """Names and ways (generations, genes) of the best chromosomes in [0, 1], with damping as ratio beta (3.8)."""
+    """Return names and ways (generations, genes) of the best chromosomes in [0, 1], with damping as ratio beta
+    (3.8)."""
     u = np.array(found.history.best)
     names = list(space.names)
     values = space.values(u)
@@ -65,7 +66,8 @@ def ways(space: Space, found: Found, mass: float) -> tuple[tuple[str, ...], np.n
 
 
 def evolve_together(space: Space, found: Found, mass: float) -> tuple[tuple[str, ...], np.ndarray]:
-    """Names and correlation (G, G) of the genes' ways, from generation to generation; genes that never move have 0."""
+    """Return names and correlation (G, G) of the genes' ways, from generation to generation; genes that never move have
+    0."""
     names, u = ways(space, found, mass)
     # Changes, not values: two genes that drift steadily for their own reasons would look alike.
     steps = np.diff(u, axis=0)
@@ -79,7 +81,7 @@ def evolve_together(space: Space, found: Found, mass: float) -> tuple[tuple[str,
 
 
 def groups(space: Space, found: Found, mass: float) -> list[Together]:
-    """How far the groups of the source's reduction came out of a 54-gene search."""
+    """Return how far the groups of the source's reduction came out of a 54-gene search."""
     names, correlation = evolve_together(space, found, mass)
     last = ways(space, found, mass)[1][-1]
     table = []

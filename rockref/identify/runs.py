@@ -37,19 +37,19 @@ class RunError:
 
     @property
     def over_noise(self) -> float:
-        """Quadratic mean of the difference over the noise; 1 is the noise floor."""
+        """Return quadratic mean of the difference over the noise; 1 is the noise floor."""
         return float(np.sqrt(np.mean(np.square(self.rms))) / self.noise)
 
     @property
     def over_noise_stated(self) -> float:
-        """The same with the release angle as stated."""
+        """Return the same with the release angle as stated."""
         return float(np.sqrt(np.mean(np.square(self.rms_stated))) / self.noise)
 
 
 def run_error(
     space: Space, end: Polished, target: Target, use: str, step: float = STEP, workers: int | None = None
 ) -> RunError:
-    """Error of the model at the end of a polish on one run."""
+    """Return error of the model at the end of a polish on one run."""
     tilt_gene = space.names.index("theta_0")
     shared = np.delete(end.u, tilt_gene)
 
@@ -77,5 +77,5 @@ def run_error(
 def run_errors(
     space: Space, end: Polished, fitted: Sequence[Target], holdout: Sequence[Target] = (), step: float = STEP
 ) -> list[RunError]:
-    """The table of all runs, fitted ones first."""
+    """Return the table of all runs, fitted ones first."""
     return [run_error(space, end, t, use, step) for use, ts in (("fit", fitted), ("holdout", holdout)) for t in ts]

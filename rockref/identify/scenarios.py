@@ -56,14 +56,14 @@ LONG = 15.0
 
 
 def scenario_space(defects: Sequence[str], tilt: float, block: Model | None = None) -> Space:
-    """The genes of a four-point model with these defects, released at `tilt` +- 0.08 degrees [rad]."""
+    """Return the genes of a four-point model with these defects, released at `tilt` +- 0.08 degrees [rad]."""
     model = (Model.four_points() if block is None else block).replace(points="four_points", theta_0=tilt, effects=())
     genes = [gene(name, tilt) for name in COMMON] + [g for name in defects for g in DEFECTS[name]]
     return Space(":".join((PREFIX, *defects)), tuple(genes), model)
 
 
 def model_of_scenario(space: Space, values: np.ndarray) -> Model:
-    """The model of a scenario's genes (G,)."""
+    """Return the model of a scenario's genes (G,)."""
     v = dict(zip(space.names, map(float, values), strict=True))
     parameters = Parameters(
         K_N=v["K_N"], K_T=v["K_T"], beta_ext=v["beta_ext"], beta_int=v["beta_ext"], mu_ext=v["mu_ext"],
@@ -87,7 +87,7 @@ _EFFECTS: dict[str, Callable] = {
 
 
 def start_of(space: Space, u: np.ndarray) -> dict[str, float]:
-    """What the release needs beside the model: the out-of-plane angle of the wire [rad]."""
+    """Return what the release needs beside the model: the out-of-plane angle of the wire [rad]."""
     if "out_of_plane" not in space.names:
         return {}
     return {"out_of_plane": float(space.values(u)[space.names.index("out_of_plane")])}
@@ -100,7 +100,8 @@ REFERENCE = ("eight_points",)
 def try_scenarios(
     target: Target, settings: Settings, work: Campaign, scenarios: Sequence[Sequence[str]] = (REFERENCE, *SCENARIOS)
 ) -> Iterator[tuple[int, dict[str, Any]]]:
-    """One row a scenario (`try_scenario`), with its index, as it is done; all are fitted with the same budget."""
+    """Return one row a scenario (`try_scenario`), with its index, as it is done; all are fitted with the same
+    budget."""
     return work.as_done(_several, (target, settings), [tuple(s) for s in scenarios])
 
 
@@ -136,14 +137,14 @@ def try_scenario(target: Target, settings: Settings, defects: tuple[str, ...]) -
 
 
 def words(defects: Sequence[str]) -> str:
-    """A scenario in words."""
+    """Return a scenario in words."""
     if tuple(defects) == REFERENCE:
         return "eight points"
     return "four points" + (", uneven or off: " + ", ".join(defects) if defects else ", no defect")
 
 
 def returns_to_plane(model: Model, duration: float = LONG, **start) -> float:
-    """When the last planar arcs begin [s]; infinite where the motion stays 3-D, or never left the plane."""
+    """Return when the last planar arcs begin [s]; infinite where the motion stays 3-D, or never left the plane."""
     from rockref.engines import run
 
     response = run(model.problem(duration, output_rate=1000.0, **start), engine="auto")

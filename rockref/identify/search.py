@@ -161,7 +161,7 @@ def _random(seed: int, generation: int, purpose: int) -> np.random.Generator:
 
 
 def versions() -> dict[str, str | None]:
-    """Versions of what a search computes with."""
+    """Return versions of what a search computes with."""
     from importlib.metadata import PackageNotFoundError, version
 
     found: dict[str, str | None] = {}

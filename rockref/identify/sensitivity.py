@@ -47,8 +47,8 @@ class Family:
 
 
 def family(labels: Sequence[str], crv: np.ndarray, align: bool = False) -> Family:
-    """Responses (R, N, 3) [rad/s] at the output rate, compared with the first; with `align` shifted in time, for the
-    comparison only, so that their first main impacts coincide."""
+    """Return responses (R, N, 3) [rad/s] at the output rate, compared with the first; with `align` shifted in time, for
+    the comparison only, so that their first main impacts coincide."""
     t = np.arange(crv.shape[1]) / OUTPUT_RATE
     impacts = tuple(main_impacts(t, c).times for c in crv)
     compared = list(crv)
@@ -64,7 +64,7 @@ def _shifted(t: np.ndarray, crv: np.ndarray, shift: float) -> np.ndarray:
 
 
 def varied(model: Model) -> tuple[str, ...]:
-    """The parameters that are varied: of the twelve, those that act in this model.
+    """Return the parameters that are varied: of the twelve, those that act in this model.
 
     Raises InputError (E-MOOT) where only the release angle does.
     """
@@ -78,7 +78,7 @@ def varied(model: Model) -> tuple[str, ...]:
 def time_steps(
     model: Model, steps: Sequence[float] = STEPS, duration: float = 6.0, workers: int | None = None
 ) -> Family:
-    """Fig. 3.5: the same release with several time steps [s], the finest first.
+    """Return Fig. 3.5: the same release with several time steps [s], the finest first.
 
     Raises InputError: E-STEP for one, or for one that is too large; E-RANGE, E-RATE for what is no step.
     """
@@ -96,7 +96,7 @@ def time_steps(
 def last_digits(
     model: Model, seed: int = 0, trials: int = 10, duration: float = 6.0, step: float = STEP, workers: int | None = None
 ) -> Family:
-    """Fig. 3.6: eleven parameters off by +-0.5 of their last digit each, at random, theta_0 kept."""
+    """Return Fig. 3.6: eleven parameters off by +-0.5 of their last digit each, at random, theta_0 kept."""
     rng, genes = np.random.default_rng(seed), chromosome_12(model.parameters)
     half = np.array([0.5 * given.precision for given in TABLE_3_1.values()])
     half[GENES_12.index("theta_0")] = 0.0
@@ -109,7 +109,8 @@ def last_digits(
 def release_angle(
     model: Model, error: float = RELEASE_ERROR, duration: float = 6.0, step: float = STEP, workers: int | None = None
 ) -> Family:
-    """Fig. 3.7: released at theta_0 and at theta_0 +- `error` [rad]; compared from the first main impact of each on."""
+    """Return Fig. 3.7: released at theta_0 and at theta_0 +- `error` [rad]; compared from the first main impact of each
+    on."""
     tilt = model.parameters.theta_0
     tilts = (tilt, tilt - error, tilt + error)
     crv = rates([model.problem(duration, step, OUTPUT_RATE, theta_0=x) for x in tilts], workers)
@@ -137,7 +138,7 @@ def significant_digits(
     most: int = 6,
     duration: float = 1.6,
 ) -> list[Digits]:
-    """The column of Table 3.1: the fewest digits at which rounding one parameter no longer changes the response.
+    """Return the column of Table 3.1: the fewest digits at which rounding one parameter no longer changes the response.
 
     A value with d digits may be off by half of the last. The response has not changed where the quadratic mean of the
     difference up to the second main impact is below `threshold` of that of the response, about both the transverse and
@@ -184,10 +185,10 @@ def significant_digits(
 
 
 def unit_of_digit(value: float, d: int) -> float:
-    """One unit of the d-th significant digit of a value: 0.1170, 4 -> 0.0001."""
+    """Return one unit of the d-th significant digit of a value: 0.1170, 4 -> 0.0001."""
     return 10.0 ** (int(np.floor(np.log10(abs(value)) + 1e-12)) - d + 1)
 
 
 def stated_digits(value: float, precision: float) -> int:
-    """Significant digits of a value printed with this precision: 0.1170, 0.0001 -> 4."""
+    """Return significant digits of a value printed with this precision: 0.1170, 0.0001 -> 4."""
     return round(np.floor(np.log10(abs(value)) + 1e-12) - np.log10(precision)) + 1

@@ -40,7 +40,7 @@ class Study:
     growth: Growth
 
     def families(self) -> dict[str, Family]:
-        """The families by name."""
+        """Return the families by name."""
         return {"time_step": self.steps, "last_digits": self.last_digits, "release_angle": self.angles}
 
 
@@ -76,7 +76,7 @@ def study(
 
 
 def record(study: Study) -> dict[str, Any]:
-    """What the study found, for JSON.
+    """Return what the study found, for JSON.
 
     Null: a horizon that was not reached within the run; a change that is infinite, where nothing moved before.
     """

@@ -32,7 +32,7 @@ class Fact:
 
 
 def facts(response: Response) -> list[Fact]:
-    """The facts of a run of `LONG` [s] from the release of Table 3.1."""
+    """Return the facts of a run of `LONG` [s] from the release of Table 3.1."""
     impacts = response.main_impacts()
     found = phases(response.t, response.W)
     return [

@@ -37,17 +37,18 @@ class Target:
 
     @property
     def until(self) -> float:
-        """The second main impact [s]: up to here the runs repeat."""
+        """Return the second main impact [s]: up to here the runs repeat."""
         return float(self.features.impacts[1])
 
     @property
     def duration(self) -> float:
-        """How long a simulation must be to be compared [s]; a model that is slower by 6 % is still seen (decided)."""
+        """Return how long a simulation must be to be compared [s]; a model that is slower by 6 % is still seen
+        (decided)."""
         return 1.06 * self.until + 0.02
 
 
 def target(name: str, t: np.ndarray, crv: np.ndarray, gyro: Gyro, tilt: float, turned: bool = False) -> Target:
-    """A target from a record t (N,) [s], crv (N, 3) [rad/s].
+    """Return a target from a record t (N,) [s], crv (N, 3) [rad/s].
 
     Raises
     ------
@@ -63,14 +64,14 @@ def target(name: str, t: np.ndarray, crv: np.ndarray, gyro: Gyro, tilt: float, t
 
 
 def seen_until(seen: Target, after: float) -> Target:
-    """The target, looked at no further than `after` [s] beyond its first main impact."""
+    """Return the target, looked at no further than `after` [s] beyond its first main impact."""
     first, second = seen.features.impacts[:2]
     end = np.array([first, min(second, first + after)])
     return replace(seen, features=replace(seen.features, impacts=end))
 
 
 def targets_of(experiment: Experiment, runs: tuple[Run, ...] | None = None) -> tuple[Target, ...]:
-    """The fit runs of an experiment (or `runs`) as targets.
+    """Return the fit runs of an experiment (or `runs`) as targets.
 
     Raises
     ------
@@ -89,7 +90,7 @@ def targets_of(experiment: Experiment, runs: tuple[Run, ...] | None = None) -> t
 
 
 def chosen_runs(targets: tuple[Target, ...], names: str | None) -> tuple[Target, ...]:
-    """The targets with these names, written as "01,06"; without names the first. Raises InputError (E-RUN)."""
+    """Return the targets with these names, written as "01,06"; without names the first. Raises InputError (E-RUN)."""
     if names is None:
         return targets[:1]
     known = {t.name: t for t in targets}
@@ -105,7 +106,7 @@ def chosen_runs(targets: tuple[Target, ...], names: str | None) -> tuple[Target,
 
 
 def twin(model: Model, step: float, seed: int | None, gyro: Gyro = GYRO, duration: float = 1.6) -> Target:
-    """A reference simulated with another step, recorded with the noise that `seed` draws (None: no noise)."""
+    """Return a reference simulated with another step, recorded with the noise that `seed` draws (None: no noise)."""
     from rockref.engines import run
 
     response = run(model.problem(duration, step, 2000.0), engine="auto")

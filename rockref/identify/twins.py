@@ -36,7 +36,8 @@ WITHIN = 1.0
 def twin_experiments(
     model: Model, seeds: Sequence[int], settings: Settings, work: Campaign, effort: Effort = EFFORT
 ) -> Iterator[tuple[int, dict[str, Any]]]:
-    """One row a seed (`twin_experiment`), with its index, as it is done; the seeds are spread over the workers."""
+    """Return one row a seed (`twin_experiment`), with its index, as it is done; the seeds are spread over the
+    workers."""
     return work.as_done(_several, (model, settings, effort), list(seeds))
 
 
@@ -81,5 +82,5 @@ def twin_experiment(model: Model, seed: int, settings: Settings, effort: Effort 
 
 
 def within(row: dict[str, Any]) -> list[str]:
-    """Names of the parameters of a row that came back within one unit of their last digit."""
+    """Return names of the parameters of a row that came back within one unit of their last digit."""
     return [name for name, p in row["parameters"].items() if abs(p["off"]) < WITHIN]

@@ -22,32 +22,32 @@ class Unknowns:
 
     @property
     def shared(self) -> list[int]:
-        """Indices of the genes that all targets share."""
+        """Return indices of the genes that all targets share."""
         return [i for i, name in enumerate(self.space.names) if name != "theta_0"]
 
     @property
     def tilt_gene(self) -> int:
-        """Index of the gene theta_0."""
+        """Return index of the gene theta_0."""
         return self.space.names.index("theta_0")
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the unknowns."""
+        """Return names of the unknowns."""
         return (*(self.space.names[i] for i in self.shared), *(f"theta_0 of {t.name}" for t in self.targets))
 
     def chromosome(self, z: np.ndarray, k: int) -> np.ndarray:
-        """The chromosome (G,) of target k."""
+        """Return the chromosome (G,) of target k."""
         u = np.empty(len(self.space.genes))
         u[self.shared] = z[: len(self.shared)]
         u[self.tilt_gene] = z[len(self.shared) + k]
         return u
 
     def z(self, u: np.ndarray) -> np.ndarray:
-        """The unknowns of a chromosome (G,): every target has its release angle."""
+        """Return the unknowns of a chromosome (G,): every target has its release angle."""
         return np.concatenate((u[self.shared], np.full(len(self.targets), u[self.tilt_gene])))
 
     def in_units(self, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Values of the unknowns and d(value)/dz, (Z,) each, in the genes' units."""
+        """Return values of the unknowns and d(value)/dz, (Z,) each, in the genes' units."""
         n = len(self.shared)
         slopes, values = np.empty(len(z)), np.empty(len(z))
         for k in range(len(self.targets)):
@@ -61,7 +61,7 @@ class Unknowns:
 def residuals(
     space: Space, targets: Sequence[Target], zs: np.ndarray, step: float = STEP, workers: int | None = None
 ) -> np.ndarray:
-    """(B, M) simulated minus recorded crv over the noise, up to the second main impact, for unknowns zs (B, Z).
+    """Return (B, M) simulated minus recorded crv over the noise, up to the second main impact, for unknowns zs (B, Z).
 
     Target by target, axis by axis; NaN where a run is lost. Rows that differ in the release angle of another target
     alone are one simulation of this one.
@@ -78,11 +78,12 @@ def residuals(
 
 
 def mean_squares(r: np.ndarray) -> np.ndarray:
-    """Mean square (B,) of residuals (B, M); infinite where a run is lost."""
+    """Return mean square (B,) of residuals (B, M); infinite where a run is lost."""
     return np.nan_to_num(np.mean(np.square(r), axis=1), nan=np.inf)
 
 
 def signal_costs(space: Space, targets: Sequence[Target], step: float, zs: Sequence[np.ndarray]) -> list[float]:
-    """Mean square of the residual over the noise, (B,) of unknowns zs (B, Z); lost runs count as very wrong ones."""
+    """Return mean square of the residual over the noise, (B,) of unknowns zs (B, Z); lost runs count as very wrong
+    ones."""
     costs = mean_squares(residuals(space, targets, np.asarray(zs), step, workers=1))
     return [float(c) for c in np.minimum(costs, 1e12)]

@@ -30,7 +30,7 @@ PLACES, LEAST_GAIN = 2, 0.02
 
 
 def along(short: Descent, whole: Descent, z: np.ndarray, rounds: int) -> Place:
-    """The best place of `whole` along the valley of `short`, which looks at the record without its end, from z (Z,).
+    """Return best place of `whole` along the valley of `short`, which looks at the record without its end, from z (Z,).
 
     Then the whole record is walked in half strides, both ways: that is a profile. Its places join the ends of `whole`.
     """
@@ -48,7 +48,7 @@ def along(short: Descent, whole: Descent, z: np.ndarray, rounds: int) -> Place:
 
 
 def beside(whole: Descent, at: Place) -> Place:
-    """The best place beside an end: the whole record walked in half strides, which join the ends of `whole`."""
+    """Return the best place beside an end: the whole record walked in half strides, which join the ends of `whole`."""
     near = _both_ways(whole, whole, at.z, STRIDE / 2, LEFT_WHOLE)
     whole.ends.extend(near)
     return _best_end(whole, [at, *near], CHANGES[1:])
@@ -59,7 +59,7 @@ def _both_ways(short: Descent, whole: Descent, z: np.ndarray, stride: float, lef
 
 
 def _best_end(whole: Descent, places: list[Place], changes: tuple[float, ...]) -> Place:
-    """The best of the places and of the ends of descents from the best few."""
+    """Return the best of the places and of the ends of descents from the best few."""
     best = min(places, key=lambda p: p.chi2)
     for at in sorted(places, key=lambda p: p.chi2)[:PLACES]:
         for change in changes:
@@ -69,7 +69,7 @@ def _best_end(whole: Descent, places: list[Place], changes: tuple[float, ...]) -
 
 
 def walk(short: Descent, whole: Descent, z: np.ndarray, stride: float, left: float = LEFT) -> list[Place]:
-    """Places of `whole` along the valley of `short` from z (Z,) on, `stride` by `stride`, until it is left."""
+    """Return places of `whole` along the valley of `short` from z (Z,) on, `stride` by `stride`, until it is left."""
     if WALKED not in short.unknowns.names:
         return []
     i, at, best, since = short.unknowns.names.index(WALKED), short.place(z), np.inf, 0
@@ -91,7 +91,7 @@ def walk(short: Descent, whole: Descent, z: np.ndarray, stride: float, left: flo
 
 
 def _moved(J: np.ndarray, at: Place, i: int, stride: float) -> np.ndarray:
-    """z (Z,) with unknown i moved, the others where the slopes J (M, Z) say that they follow."""
+    """Return z (Z,) with unknown i moved, the others where the slopes J (M, Z) say that they follow."""
     others = np.arange(len(at.z)) != i
     A = J[:, others].T @ J[:, others]
     z = at.z.copy()
@@ -101,7 +101,7 @@ def _moved(J: np.ndarray, at: Place, i: int, stride: float) -> np.ndarray:
 
 
 def _refitted(short: Descent, J: np.ndarray, at: Place, i: int) -> Place:
-    """One step of least squares of all unknowns but i."""
+    """Return one step of least squares of all unknowns but i."""
     held = J.copy()
     held[:, i] = 0.0
     trials = np.array([damped_step(held, at.r, at.z, DAMPING * f) for f in FACTORS])

@@ -40,7 +40,7 @@ class WasmBackend:
         self.module = Module()
 
     def derived(self, **p: Any) -> dict[str, Any]:
-        """G1, G2, P1 to P3."""
+        """Apply G1, G2, P1 to P3."""
         names = {f"delta_long_{i}": p["delta_long"][i - 1] for i in (1, 2, 3, 4)}
         given = {**p, **names, "g": 0.0, "foot_radius": 0.0, "points": 8, "theta_0": 0.0}
         model = numbers([given.get(name, 0.0) for name in layout.MODEL])
@@ -50,7 +50,7 @@ class WasmBackend:
         return {"inertia": body[col.J : col.J + 9].reshape(3, 3), "P": P, **own}
 
     def release(self, mass: Any, g: Any, P: Any, K_N: Any, theta_0: Any) -> dict[str, Any]:
-        """R1, the release posture."""
+        """Apply R1, the release posture."""
         body, P, state = np.zeros(col.BODY), numbers(P), np.zeros(col.STATE)
         body[[col.MASS, col.GRAVITY]], body[[col.J, col.J + 4, col.J + 8]] = (float(mass), float(g)), 1.0
         props = np.zeros((len(P), col.PROPS))
@@ -59,7 +59,7 @@ class WasmBackend:
         return {"x": state[0:3], "Lambda": state[6:15].reshape(3, 3)}
 
     def kinematics(self, x: Any, Lambda: Any, v: Any, W: Any, P: Any) -> dict[str, Any]:
-        """K1."""
+        """Apply K1."""
         P = numbers(P)
         out = np.zeros((len(P), 10))
         self.module.call("piece_kinematics", *map(numbers, (x, Lambda, v, W)), len(P), P, out)
@@ -68,7 +68,7 @@ class WasmBackend:
     def contact_law(
         self, xi, xi_rate, u_t, v_slide, s, anchored, sliding, K_N, C_N, K_T, C_T, mu_0, mu
     ) -> dict[str, Any]:
-        """N1, N2, T1 to T6 for one point."""
+        """Apply N1, N2, T1 to T6 for one point."""
         prop, memory, F = numbers([K_N, K_T, C_N, C_T, mu_0, mu, 0.0, 0.0]), np.zeros(col.MEMORY), np.zeros(3)
         memory[0:2], memory[2], memory[3] = s, anchored, sliding
         asked = float(xi), float(xi_rate), numbers(u_t), numbers(v_slide), prop, memory, F
@@ -78,19 +78,19 @@ class WasmBackend:
         return {"F_N": F[2], "F_T": F[:2], "s": anchor, "touching": touching, "sliding": bool(memory[3])}
 
     def assemble(self, Lambda: Any, r: Any, F: Any, mass: Any, g: Any) -> dict[str, Any]:
-        """A1 to A3."""
+        """Apply A1 to A3."""
         out, r = np.zeros(9), numbers(r)
         self.module.call("piece_assemble", numbers(Lambda), len(r), r, numbers(F), float(mass), float(g), out)
         return {"force": out[0:3], "moment": out[3:6], "T": out[6:9]}
 
     def rotate(self, Theta: Any) -> dict[str, Any]:
-        """The exponential of I3."""
+        """Return the exponential of I3."""
         Lambda = np.zeros((3, 3))
         self.module.call("piece_rotate", numbers(Theta), Lambda)
         return {"Lambda": Lambda}
 
     def integrate(self, x, v, Lambda, W, a, T, a_next, T_next, h, inertia) -> dict[str, Any]:
-        """I1 to I5 with prescribed accelerations and moments."""
+        """Apply I1 to I5 with prescribed accelerations and moments."""
         body, state, predicted = np.zeros(col.BODY), np.zeros(col.STATE), np.zeros(6)
         body[col.MASS] = 1.0
         body[col.J : col.J + 9] = numbers(inertia).ravel()
@@ -102,11 +102,11 @@ class WasmBackend:
         return pose | {"v_predicted": predicted[:3], "W_predicted": predicted[3:]}
 
     def channel(self, W: Any, Lambda: Any) -> dict[str, Any]:
-        """M1: the page shows rates in degrees."""
+        """Apply M1: the page shows rates in degrees."""
         return {"crv_deg_s": numbers(W) * DEGREES}
 
     def step(self, problem: Problem) -> dict[str, Any]:
-        """One full step from a state that brings a, T and F."""
+        """Return one full step from a state that brings a, T and F."""
         state = self.simulate(replace(problem, duration=problem.step, output_rate=1 / problem.step)).final_state
         return {k: getattr(state, k) for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "a", "T", "F")}
 
@@ -159,7 +159,7 @@ class WasmBackend:
         return self._run(shaped(problem, body, P[:m], props[:m]), props[:m].copy(), e, start)
 
     def sensor(self, effect: str, parameters: dict[str, Any], t: Any, crv_deg_s: Any) -> dict[str, Any] | None:
-        """What the gyroscope makes of rates."""
+        """Return what the gyroscope makes of rates."""
         if effect not in catalogue.EFFECTS:
             return None
         values = numbers(layout.values_of((catalogue.make(catalogue.find(effect), parameters, "effect"),)))

@@ -55,18 +55,18 @@ class BaseMotion:
         object.__setattr__(self, "a", a)
 
     def __eq__(self, other: object) -> bool:
-        """Whether two records have the same samples at the same times; names do not count."""
+        """Return whether two records have the same samples at the same times; names do not count."""
         if not isinstance(other, BaseMotion):
             return NotImplemented
         return (self.t_0, self.dt) == (other.t_0, other.dt) and np.array_equal(self.a, other.a)
 
     def __hash__(self) -> int:
-        """Hash of the samples and their times."""
+        """Return the hash of the samples and their times."""
         return hash((self.t_0, self.dt, self.a.tobytes()))
 
     @property
     def end(self) -> float:
-        """Time of the last sample [s]."""
+        """Return time of the last sample [s]."""
         return self.t_0 + (len(self.a) - 1) * self.dt
 
     def scaled(self, factor: float) -> BaseMotion:

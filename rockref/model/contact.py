@@ -70,7 +70,8 @@ def point_kinematics(x, Lambda, v, W, P, radius=None, plate=None) -> Kinematics:
 
 
 def lifted(turn: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """How far a small turn (..., 3) [rad] about the origin lifts the plate under points u (..., n, 3), (..., n) [m].
+    """Return how far a small turn (..., 3) [rad] about the origin lifts the plate under points u (..., n, 3), (..., n)
+    [m].
 
     A rate of turn [rad/s] gives the speed [m/s]. Its slope under a sliding point, some microradians, is left out.
     """
@@ -87,7 +88,8 @@ def kelvin_voigt(xi: np.ndarray, xi_rate: np.ndarray, K_N: np.ndarray, C_N: np.n
 
 
 def altered_normal_force(k: Kinematics, points, effects) -> np.ndarray:
-    """Rules N1 and N2 with effects: they change spring and damper before the no-tension cut, which is made once, last.
+    """Apply rules N1 and N2 with effects: they change spring and damper before the no-tension cut, which is made once,
+    last.
 
     effects : pairs of effect and memory  ->  (..., n) [N]. Without a change the bits are those of `kelvin_voigt`.
     """
@@ -135,7 +137,7 @@ def threshold(F_N: np.ndarray, was_sliding: np.ndarray, mu_0: np.ndarray, mu: np
 
 
 def norm(F: np.ndarray) -> np.ndarray:
-    """Length of plane vectors, (..., n, 2) -> (..., n).
+    """Return length of plane vectors, (..., n, 2) -> (..., n).
 
     Where the sum of squares leaves the normal numbers the larger component is taken out first: otherwise a force of
     1e-170 N has length zero and passes the test of the cone although it is outside.

@@ -42,27 +42,27 @@ class Energy(NamedTuple):
 
     @property
     def mechanical(self) -> np.ndarray:
-        """Kinetic and potential energy of the block [J]."""
+        """Return kinetic and potential energy of the block [J]."""
         return self.kinetic + self.potential
 
     @property
     def total(self) -> np.ndarray:
-        """Mechanical energy and what the contact springs store [J]."""
+        """Return mechanical energy and what the contact springs store [J]."""
         return self.kinetic + self.potential + self.stored_normal + self.stored_tangential
 
 
 def kinetic_energy(v: np.ndarray, W: np.ndarray, mass: np.ndarray, J: np.ndarray) -> np.ndarray:
-    """m v.v / 2 + W.J W / 2 [J]; v, W (..., 3); mass (...); J (..., 3, 3)."""
+    """Return m v.v / 2 + W.J W / 2 [J]; v, W (..., 3); mass (...); J (..., 3, 3)."""
     return mass * dot(v, v) / 2 + dot(W, apply(J, W)) / 2
 
 
 def potential_energy(x: np.ndarray, mass: np.ndarray, g: np.ndarray) -> np.ndarray:
-    """m g z [J]; x (..., 3)."""
+    """Return m g z [J]; x (..., 3)."""
     return mass * g * x[..., 2]
 
 
 def spring_energy(xi, touching, u_t, s, K_N, K_T) -> tuple[np.ndarray, np.ndarray]:
-    """What the normal and the tangential springs of the touching points store [J], two (...)."""
+    """Return what the normal and the tangential springs of the touching points store [J], two (...)."""
     stretch = u_t - s
     normal = np.where(touching, K_N * xi * xi / 2, 0)
     tangential = np.where(touching, K_T * (stretch[..., 0] ** 2 + stretch[..., 1] ** 2) / 2, 0)
@@ -100,12 +100,12 @@ class Balance(NamedTuple):
 
     @property
     def residual(self) -> np.ndarray:
-        """What the step itself creates or loses: mechanical energy plus contact work against the start [J]."""
+        """Return what the step itself creates or loses: mechanical energy plus contact work against the start [J]."""
         return self.mechanical - self.mechanical[0] + self.work_normal + self.work_friction
 
 
 def balance(response: Response) -> Balance:
-    """The energy account of the response of one block, recorded at every step: point feet, no effects.
+    """Return the energy account of the response of one block, recorded at every step: point feet, no effects.
 
     Raises
     ------
@@ -136,5 +136,5 @@ def balance(response: Response) -> Balance:
 
 
 def from_start(increments: np.ndarray) -> np.ndarray:
-    """Sums of the increments so far, with zero at the start, (N,) -> (N+1,)."""
+    """Return sums of the increments so far, with zero at the start, (N,) -> (N+1,)."""
     return np.concatenate([np.zeros(1, increments.dtype), np.cumsum(increments)])

@@ -49,7 +49,7 @@ def eight_points(width: float, depth: float, height: float, delta_long, delta_di
 
 
 def four_points(width: float, depth: float, height: float) -> np.ndarray:
-    """The four corners of the base in body axes, (4, 3) [m]: the model that the authors tried first ("Defects")."""
+    """Return four corners of the base in body axes, (4, 3) [m]: the model that the authors tried first ("Defects")."""
     return np.array([(sx * width / 2, sy * depth / 2, -height / 2) for sx, sy in CORNER_SIGNS])
 
 

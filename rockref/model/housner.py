@@ -23,17 +23,19 @@ class HousnerResponse(NamedTuple):
 
 
 def frequency_parameter(mass: float, J_G: float, R: float, g: float) -> float:
-    """p = sqrt(m g R / I_O), I_O = J_G + m R^2 [rad/s]. mass [kg]; J_G about the rocking axis [kg m2]; R [m]."""
+    """Return p = sqrt(m g R / I_O), I_O = J_G + m R^2 [rad/s]. mass [kg]; J_G about the rocking axis [kg m2]; R [m]."""
     return float(np.sqrt(mass * g * R / (J_G + mass * R * R)))
 
 
 def velocity_ratio(mass: float, J_G: float, R: float, alpha: float) -> float:
-    """Angular velocity after an impact over that before: 1 - (2 m R^2 / I_O) sin^2(alpha); alpha, slenderness [rad]."""
+    """Return angular velocity after an impact over that before: 1 - (2 m R^2 / I_O) sin^2(alpha); alpha, slenderness
+    [rad]."""
     return 1 - 2 * mass * R * R / (J_G + mass * R * R) * float(np.sin(alpha)) ** 2
 
 
 def first_impact(theta_0: float, alpha: float, p: float) -> float:
-    """Time from rest at theta_0 [rad] to the first impact [s], small angles: cosh(p t) = alpha / (alpha - theta_0)."""
+    """Return time from rest at theta_0 [rad] to the first impact [s], small angles: cosh(p t) = alpha / (alpha -
+    theta_0)."""
     return float(np.arccosh(alpha / (alpha - theta_0)) / p)
 
 
@@ -58,7 +60,8 @@ def housner(
     output_rate: float,
     step: float = 1e-4,
 ) -> HousnerResponse:
-    """Free rocking from rest at tilt theta_0 by the full (not linearised) equation, RK4, impacts found by bisection.
+    """Simulate free rocking from rest at tilt theta_0 by the full (not linearised) equation, RK4, impacts found by
+    bisection.
 
     mass [kg]; width, height [m] in the rocking plane; J_G about the rocking axis through the centre of mass [kg m2];
     g [m/s2]; theta_0 [rad]; duration [s]; output_rate [Hz]; step of the integration [s].
@@ -100,7 +103,8 @@ def housner(
 
 
 def rk4(theta: float, rate: float, h: float, side: float, p2: float, alpha: float) -> tuple[float, float]:
-    """Tilt [rad] and rate [rad/s] after h [s] on the corner line of this side (1 or -1); p2 = p^2 [1/s2], alpha [rad].
+    """Return tilt [rad] and rate [rad/s] after h [s] on the corner line of this side (1 or -1); p2 = p^2 [1/s2], alpha
+    [rad].
 
     The equation, beyond the corner line too: theta" = -p^2 side sin(alpha - side theta).
     """
@@ -116,7 +120,7 @@ def rk4(theta: float, rate: float, h: float, side: float, p2: float, alpha: floa
 
 
 def to_impact(theta: float, rate: float, h: float, side: float, p2: float, alpha: float) -> float:
-    """Time [s], at most h, to the impact within a step of h; arguments as `rk4`."""
+    """Return time [s], at most h, to the impact within a step of h; arguments as `rk4`."""
     low, high = 0.0, h
     for _ in range(HALVINGS):
         middle = (low + high) / 2

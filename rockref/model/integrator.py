@@ -45,7 +45,7 @@ class Inertia(NamedTuple):
 
 
 def prepared_inertia(block: Block) -> Inertia:
-    """The inertia as the step uses it: as a diagonal, which costs a tenth, where the body axes are principal.
+    """Return the inertia as the step uses it: as a diagonal, which costs a tenth, where the body axes are principal.
 
     A batch needs full matrices as soon as one of its blocks does. The others keep the inverse that they have alone,
     1 / J: that by cofactors differs from it in the last bit.
@@ -64,7 +64,7 @@ def prepared_inertia(block: Block) -> Inertia:
 
 
 def times(J: np.ndarray, a: np.ndarray) -> np.ndarray:
-    """J a for an inertia given as matrix or as diagonal; a (..., 3)."""
+    """Return J a for an inertia given as matrix or as diagonal; a (..., 3)."""
     return J * a if J.ndim == a.ndim else apply(J, a)
 
 
@@ -98,7 +98,8 @@ def update_momentum(JW, T, T_next, E, h):
 
 
 def update_rates(W, JW, JW_next, J_inverse):
-    """W at n+1 [rad/s] from J W at n and n+1 [kg m2/s], body axes, by its increment. All (..., 3); J^-1 as in `times`.
+    """Return W at n+1 [rad/s] from J W at n and n+1 [kg m2/s], body axes, by its increment. All (..., 3); J^-1 as in
+    `times`.
 
     J^-1 (J W) is W but for a rounding that is the same in every step: over 1e5 steps it would add up to 1e-12 of the
     angular momentum. The increment is small, and so is what is rounded of it.
@@ -107,17 +108,17 @@ def update_rates(W, JW, JW_next, J_inverse):
 
 
 def angular_acceleration(T, W, JW, J_inverse):
-    """A = J^-1 (T - W x J W) [rad/s2], body axes (Euler's equations). All (..., 3); J^-1 as in `times`."""
+    """Return A = J^-1 (T - W x J W) [rad/s2], body axes (Euler's equations). All (..., 3); J^-1 as in `times`."""
     return times(J_inverse, T - cross(W, JW))
 
 
 def acting(problem: Problem, memory) -> tuple:
-    """Pairs of effect and memory, in the order in which they act; none for the law alone."""
+    """Return pairs of effect and memory, in the order in which they act; none for the law alone."""
     return tuple(zip(problem.effects, memory, strict=True)) if problem.effects else ()
 
 
 def plate_motion(effects, t: float):
-    """Displacement and velocity of the plate, two (..., 3), summed over the effects; None while it is fixed.
+    """Return displacement and velocity of the plate, two (..., 3), summed over the effects; None while it is fixed.
 
     Where an effect turns it, its turn and the rate of that follow.
 
@@ -130,7 +131,7 @@ def plate_motion(effects, t: float):
 
 
 def evaluate_contact(problem: Problem, state: State, x, Lambda, v, W, turn, t, memory) -> Contact:
-    """Rules K1 to T6 for all points at one instant, with the effects that act on them.
+    """Apply rules K1 to T6 for all points at one instant, with the effects that act on them.
 
     `state` brings the anchors of the last step; `turn` (..., 3) [rad, plate axes] is the rotation since then, which
     only round feet and some effects need; `memory` holds one mapping per effect, whose entries it may replace.
@@ -163,7 +164,7 @@ def evaluate_contact(problem: Problem, state: State, x, Lambda, v, W, turn, t, m
 
 
 def resultants(problem: Problem, c: Contact, x, Lambda, v, W, memory) -> tuple[np.ndarray, np.ndarray]:
-    """Rules A1 to A3 and B1 with the effects that add loads: acceleration [m/s2], body moment [N m], (..., 3)."""
+    """Apply rules A1 to A3 and B1 with the effects that add loads: acceleration [m/s2], body moment [N m], (..., 3)."""
     block = problem.block
     force = assembly.resultant_force(c.F, block.mass, block.g)
     moment = assembly.resultant_moment(c.k.r, c.F)
@@ -177,7 +178,7 @@ def resultants(problem: Problem, c: Contact, x, Lambda, v, W, memory) -> tuple[n
 
 
 def evaluate(problem: Problem, state: State, x, Lambda, v, W, turn, t):
-    """One force evaluation: acceleration, body moment, contact, and the memories of the effects afterwards."""
+    """Return one force evaluation: acceleration, body moment, contact, and the memories of the effects afterwards."""
     memory = tuple(dict(m) for m in state.memory)
     c = evaluate_contact(problem, state, x, Lambda, v, W, turn, t, memory)
     a, T = resultants(problem, c, x, Lambda, v, W, memory)
@@ -185,7 +186,7 @@ def evaluate(problem: Problem, state: State, x, Lambda, v, W, turn, t):
 
 
 def first_evaluation(problem: Problem) -> State:
-    """The start with accelerations, anchors, forces and memories filled in, as the first step needs them.
+    """Return the start with accelerations, anchors, forces and memories filled in, as the first step needs them.
 
     A state that comes from a run has them already; it is left as it is, so that the run continues bit for bit.
     """
@@ -202,7 +203,7 @@ def first_evaluation(problem: Problem) -> State:
 
 
 def step(problem: Problem, state: State, inertia: Inertia) -> State:
-    """Rules I1 to I5: the state one step of length h later.
+    """Apply rules I1 to I5: the state one step of length h later.
 
     Decided (the source is silent): the contact forces at n+1 take x and Lambda at n+1 and the velocities predicted
     from n, v + h a and W + h A, so that a step costs one force evaluation.

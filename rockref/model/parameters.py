@@ -77,7 +77,7 @@ class Parameters:
     theta_0: float = TABLE_3_1["theta_0"].value
 
     def replace(self, **changes) -> Parameters:
-        """A copy with some values changed; unknown names raise InputError (E-KEY)."""
+        """Return a copy with some values changed; unknown names raise InputError (E-KEY)."""
         unknown = [k for k in changes if k not in self.__dataclass_fields__]
         if unknown:
             raise InputError("E-KEY", unknown[0], "is no parameter", f"Known: {', '.join(self.__dataclass_fields__)}.")
@@ -106,7 +106,7 @@ def common_damping_ratio(beta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def point_properties(parameters: Parameters, mass: float, external: np.ndarray) -> dict[str, np.ndarray]:
-    """The six properties of every point from the twelve parameters.
+    """Return the six properties of every point from the twelve parameters.
 
     external : (n,) bool, which points are external ones  ->  K_N, K_T, C_N, C_T, mu_0, mu, each (n,).
     """
@@ -126,33 +126,34 @@ def point_properties(parameters: Parameters, mass: float, external: np.ndarray) 
 
 
 def chromosome_12(parameters: Parameters) -> np.ndarray:
-    """The twelve genes in the order of Table 3.1, (12,)."""
+    """Return the twelve genes in the order of Table 3.1, (12,)."""
     p = parameters
     return np.array([p.K_N, p.K_T, p.beta_int, p.beta_ext, p.mu_int, p.mu_ext, *p.delta_long, p.delta_diag, p.theta_0])
 
 
 def from_chromosome_12(genes: np.ndarray) -> Parameters:
-    """Parameters from twelve genes, (12,)."""
+    """Return parameters from twelve genes, (12,)."""
     K_N, K_T, beta_int, beta_ext, mu_int, mu_ext, d1, d2, d3, d4, delta_diag, theta_0 = _genes(genes, 12)
     return Parameters(K_N, K_T, beta_int, beta_ext, mu_int, mu_ext, (d1, d2, d3, d4), delta_diag, theta_0)
 
 
 def chromosome_54(parameters: Parameters, mass: float) -> np.ndarray:
-    """The 54 genes: six properties for each of 1ext..4ext, 1int..4int, then delta_long, delta_diag, theta_0, (54,)."""
+    """Return the 54 genes: six properties for each of 1ext..4ext, 1int..4int, then delta_long, delta_diag, theta_0,
+    (54,)."""
     properties = point_properties(parameters, mass, np.arange(8) < 4)
     per_point = np.stack([properties[k] for k in PROPERTIES], axis=-1).ravel()
     return np.concatenate([per_point, parameters.delta_long, [parameters.delta_diag, parameters.theta_0]])
 
 
 def split_54(genes: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray, float, float]:
-    """Properties of the eight points, delta_long (4,) [m], delta_diag [m], theta_0 [rad] from 54 genes."""
+    """Return properties of the eight points, delta_long (4,) [m], delta_diag [m], theta_0 [rad] from 54 genes."""
     g = np.array(_genes(genes, 54))
     per_point = g[:48].reshape(8, 6)
     return {k: per_point[:, i] for i, k in enumerate(PROPERTIES)}, g[48:52], float(g[52]), float(g[53])
 
 
 def reduce_54(genes: np.ndarray, mass: float) -> Parameters:
-    """The twelve parameters nearest to 54 genes: (3.7) to (3.9) read backwards, with means over the points.
+    """Return the twelve parameters nearest to 54 genes: (3.7) to (3.9) read backwards, with means over the points.
 
     Stiffness: mean over the eight points; damping ratio: mean of the normal and tangential ratios of the four points;
     friction: mean of the static and dynamic coefficients of the four points.

@@ -47,7 +47,7 @@ class ContactPoints:
 
     @property
     def n(self) -> int:
-        """How many points there are."""
+        """Return how many points there are."""
         return self.P.shape[-2]
 
 
@@ -83,7 +83,8 @@ class State:
 
     @classmethod
     def at_rest(cls, x: Any, Lambda: Any, n: int, v: Any = None, W: Any = None) -> State:
-        """A state without contact history: x (..., 3), Lambda (..., 3, 3), n points, rates zero where not given."""
+        """Return a state without contact history: x (..., 3), Lambda (..., 3, 3), n points, rates zero where not
+        given."""
         x = np.asarray(x)
         batch = x.shape[:-1]
         return cls(
@@ -98,7 +99,7 @@ class State:
 
 
 def complete_state(**fields) -> State:
-    """A State from all its fields, which are taken as they are.
+    """Return a State from all its fields, which are taken as they are.
 
     A frozen dataclass assigns its fields one by one with a check; fifteen of them would cost a step a thirtieth of its
     time.
@@ -127,12 +128,12 @@ class Problem:
     base: BaseMotion | None = None
 
     def replace(self, **changes: Any) -> Problem:
-        """A copy with some fields changed."""
+        """Return a copy with some fields changed."""
         return replace(self, **changes)
 
     @property
     def batch(self) -> tuple[int, ...]:
-        """Shape of the leading axes; () for one block."""
+        """Return shape of the leading axes; () for one block."""
         return self.start.x.shape[:-1]
 
 
@@ -145,7 +146,7 @@ ARRAYS_OF_STATE = {"x": 1, "v": 1, "Lambda": 2, "W": 1, "s": 2, "anchored": 1, "
 
 
 def batch_fastest(a: np.ndarray, core_axes: int, batch: tuple[int, ...], dtype) -> np.ndarray:
-    """A copy of `a`, broadcast to the batch, in the memory order of `rotation.empty`."""
+    """Return a copy of `a`, broadcast to the batch, in the memory order of `rotation.empty`."""
     a = np.asarray(a)
     core = a.shape[a.ndim - core_axes :]
     b = empty(batch, core, bool if a.dtype == bool else dtype)
@@ -161,7 +162,7 @@ def _convert(thing, axes: dict[str, int], batch, dtype):
 
 
 def precision(problem: Problem, dtype=None) -> np.dtype:
-    """In what a problem is computed: `dtype`, or that of the start's positions.
+    """Return the precision of a problem: `dtype`, or that of the start's positions.
 
     Raises
     ------
@@ -179,7 +180,7 @@ def precision(problem: Problem, dtype=None) -> np.dtype:
 
 
 def as_arrays(problem: Problem, dtype=None) -> Problem:
-    """The same problem with every array of one dtype (float32, float64 or longdouble) and of the batch's shape.
+    """Return the same problem with every array of one dtype (float32, float64 or longdouble) and of the batch's shape.
 
     Without `dtype` the positions of the start decide. Raises InputError (E-TYPE) for another one.
     """
@@ -203,7 +204,8 @@ def _stack(things, axes: dict[str, int]):
 
 
 def stack(problems: list[Problem]) -> Problem:
-    """Many single problems side by side as one batch; step, duration, rate, effects and base motion must be the same.
+    """Stack many single problems side by side as one batch; step, duration, rate, effects and base motion must be the
+    same
 
     Raises
     ------

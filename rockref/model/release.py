@@ -10,7 +10,8 @@ from rockref.model.rotation import apply, exponential, product
 
 
 def tipping_angle(block: Block, points: ContactPoints, side: int = 1) -> float:
-    """Tilt [rad] at which the centre of mass stands above the pivot points; released beyond it the block overturns."""
+    """Return tilt [rad] at which the centre of mass stands above the pivot points; released beyond it the block
+    overturns."""
     P = points.P
     return float(np.arctan2(np.max(P[:, 1] * side), -np.min(P[:, 2])))
 
@@ -40,7 +41,7 @@ def check_roll(points: ContactPoints, out_of_plane: float) -> None:
 
 
 def pivot_points(points: ContactPoints, theta_0: float, side: int) -> tuple[int, int]:
-    """The two points on which the tilted block rests: the lowest with x > 0 and the lowest with x < 0."""
+    """Return the two points on which the tilted block rests: the lowest with x > 0 and the lowest with x < 0."""
     P = points.P
     height = -side * np.sin(theta_0) * P[:, 1] + np.cos(theta_0) * P[:, 2]
     found = []
@@ -64,7 +65,7 @@ def release_posture(
     turned: bool = False,
     out_of_plane: float = 0.0,
 ) -> State:
-    """The state at release: at rest, in equilibrium with the wire, half the weight on each of the two pivot points.
+    """Return state at release: at rest, in equilibrium with the wire, half the weight on each of the two pivot points.
 
     The block leans to +y of the laboratory by a turn of -theta_0 about X, then the small roll about Y that makes both
     pivot points touch; penetration m g / (2 K_N) at each, anchors at the touching points, zero velocity.
@@ -159,7 +160,7 @@ def check_clear(points: ContactPoints, x, Lambda, depth) -> None:
 
 
 def settled_height(height_i, height_j, K_i, K_j, weight):
-    """Height of the centre of mass [m] at which the springs of two points carry the weight [N], without tension.
+    """Return height of the centre of mass [m] at which the springs of two points carry the weight [N], without tension.
 
     height_i, height_j : heights of the points from the centre of mass [m] (negative).
     """

@@ -68,7 +68,7 @@ class Response:
         return f"<Response: {blocks}{span}, {self.F.shape[-2]} points>"
 
     def __getitem__(self, index) -> Response:
-        """One response of a batch."""
+        """Return one response of a batch."""
         if not self.problem.batch:
             raise InputError("E-BATCH", "response", "is of one block", "Only a batch can be indexed.")
         rows = {k: getattr(self, k)[index] for k in ("x", "v", "Lambda", "W", "F", "s", "anchored", "sliding")}
@@ -76,7 +76,7 @@ class Response:
 
     @property
     def crv(self) -> np.ndarray:
-        """The crv about X, Y, Z in deg/s, (..., T, 3): what an ideal gyroscope shows (M1).
+        """Return the crv about X, Y, Z in deg/s, (..., T, 3): what an ideal gyroscope shows (M1).
 
         Effects of the sensor are not in it; `rockref.effects.catalogue.measured` applies them to W.
         """
@@ -84,24 +84,25 @@ class Response:
 
     @property
     def tilt(self) -> np.ndarray:
-        """Signed tilt about the main axis [rad], (..., T): negative at release (the block leans to +y), zero when it
-        passes upright."""
+        """Return signed tilt about the main axis [rad], (..., T): negative at release (the block leans to +y), zero
+        when it passes upright."""
         return np.arctan2(self.Lambda[..., 2, 1], self.Lambda[..., 2, 2])
 
     @property
     def overturned(self) -> bool:
-        """Whether the block fell over (a result, not an error)."""
+        """Return whether the block fell over (a result, not an error)."""
         return bool(np.any(self.Lambda[..., 2, 2] < np.cos(OVERTURNED)))
 
     def state(self, row: int) -> State:
-        """The state at a recorded row, without the accelerations: a start for another run (not bit for bit; the
+        """Return the state at a recorded row, without the accelerations: a start for another run (not bit for bit; the
         `final_state` is)."""
         c = len(self.problem.batch)
         at = {k: np.take(getattr(self, k), row, axis=c) for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding")}
         return State(t=float(self.t[row]), **at)
 
     def main_impacts(self) -> np.ndarray:
-        """Instants of the main impacts [s]: where the block passes upright, between two rows by linear interpolation.
+        """Return instants of the main impacts [s]: where the block passes upright, between two rows by linear
+        interpolation.
 
         Only crossings with a swing count: between two of them the tilt must exceed a thousandth of the largest
         (decided), so that the rest at the end gives none. One block only.
@@ -133,9 +134,9 @@ class Response:
         return found
 
     def energy(self) -> dict[str, np.ndarray]:
-        """Energies at every row [J], each (..., T): kinetic, potential, stored_normal, stored_tangential, total, and
-        dissipated, which is what is missing of the total at the first row. On a plate that moves all are seen
-        from the plate, and what B1 has given counts as negative dissipation."""
+        """Return energies at every row [J], each (..., T): kinetic, potential, stored_normal, stored_tangential, total,
+        and dissipated, which is what is missing of the total at the first row. On a plate that moves all are seen from
+        the plate, and what B1 has given counts as negative dissipation."""
         block, points = self.problem.block, self.problem.points
         P, K_N, K_T, radius = points.P, points.K_N, points.K_T, points.radius
         if self.problem.batch:
@@ -150,7 +151,7 @@ class Response:
         return {**e._asdict(), "total": e.total, "dissipated": e.total[..., :1] - e.total}
 
     def to_frame(self) -> pandas.DataFrame:
-        """The response of one block as a table; the column names carry the units.
+        """Return the response of one block as a table; the column names carry the units.
 
         t_s, wx_deg_s .. wz_deg_s, x_m .. z_m, qw .. qz (body to plate), and for every point, for example, fx_1ext_N ..
         fz_1ext_N, contact_1ext, slip_1ext. Rates are those of `crv`, without effects of the sensor.
@@ -160,7 +161,8 @@ class Response:
         return pandas.DataFrame(self.columns("to_frame"))
 
     def columns(self, asked: str = "columns") -> dict[str, np.ndarray]:
-        """The columns of `to_frame`, each (rows,), by name. Raises InputError (E-BATCH) for a batch, about `asked`."""
+        """Return the columns of `to_frame`, each (rows,), by name. Raises InputError (E-BATCH) for a batch, about
+        `asked`."""
         if self.problem.batch:
             raise InputError("E-BATCH", asked, "was asked of a batch", "Index the response first: response[i].")
         columns = {"t_s": self.t}
@@ -174,7 +176,7 @@ class Response:
 
 
 def pick_state(state: State, index) -> State:
-    """One state of a batch."""
+    """Return one state of a batch."""
     arrays = {k: getattr(state, k) for k in ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "a", "T", "F")}
     memory = tuple({k: a[index] for k, a in m.items()} for m in state.memory)
     picked: dict[str, Any] = {k: None if a is None else a[index] for k, a in arrays.items()}
@@ -182,7 +184,7 @@ def pick_state(state: State, index) -> State:
 
 
 def pick(problem: Problem, index) -> Problem:
-    """One problem of a batch."""
+    """Return one problem of a batch."""
     block = replace(problem.block, **{k: getattr(problem.block, k)[index] for k in ("mass", "inertia", "g")})
     arrays = {k: getattr(problem.points, k) for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu", "radius")}
     picked: dict[str, Any] = {k: None if a is None else a[index] for k, a in arrays.items()}

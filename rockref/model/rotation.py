@@ -25,7 +25,7 @@ RECIPROCALS = {
 
 
 def empty(batch: tuple[int, ...], core: tuple[int, ...], dtype) -> np.ndarray:
-    """New array of shape `batch + core` whose batch axes vary fastest in memory.
+    """Return new array of shape `batch + core` whose batch axes vary fastest in memory.
 
     NumPy runs its inner loop along the axis that is contiguous; for a thousand blocks that must be the batch,
     not the three components. One block (no batch axes) gets an ordinary array.
@@ -37,7 +37,7 @@ def empty(batch: tuple[int, ...], core: tuple[int, ...], dtype) -> np.ndarray:
 
 
 def components(a: np.ndarray):
-    """The components of three-vectors, to be unpacked: (..., 3) -> three views (...).
+    """Return the components of three-vectors, to be unpacked: (..., 3) -> three views (...).
 
     Of a single vector they are numbers, with which NumPy works four times faster than with arrays of no axes.
     """
@@ -45,7 +45,8 @@ def components(a: np.ndarray):
 
 
 def plain_components(a: np.ndarray):
-    """The same; of a single vector in float64 Python's numbers, which have its bits and are three times faster again.
+    """Return the same; of a single vector in float64 Python's numbers, which have its bits and are three times faster
+    again.
 
     For sums and products only: Python raises where it divides by zero.
     """
@@ -53,12 +54,12 @@ def plain_components(a: np.ndarray):
 
 
 def somewhere(mask) -> bool:
-    """Whether a truth, or any of an array of them, holds."""
+    """Return whether a truth, or any of an array of them, holds."""
     return bool(np.count_nonzero(mask)) if isinstance(mask, np.ndarray) else bool(mask)
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Scalar product of three-vectors, (..., 3), (..., 3) -> (...), summed left to right."""
+    """Return scalar product of three-vectors, (..., 3), (..., 3) -> (...), summed left to right."""
     a_x, a_y, a_z = components(a)
     b_x, b_y, b_z = components(b)
     return a_x * b_x + a_y * b_y + a_z * b_z
@@ -69,7 +70,7 @@ NEXT, NEXT_BUT_ONE = np.array([1, 2, 0]), np.array([2, 0, 1])
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Vector product of three-vectors, (..., 3); the smaller of the two is broadcast over the other.
+    """Return vector product of three-vectors, (..., 3); the smaller of the two is broadcast over the other.
 
     Of two single vectors in plain numbers. Of more, where the components lie side by side in memory, as those of one
     block do, all three at once, in half the time; where the batch does, one after the other, so that it stays the
@@ -91,32 +92,32 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def apply(A: np.ndarray, a: np.ndarray) -> np.ndarray:
-    """Matrix times vector, (..., 3, 3), (..., 3) -> (..., 3), summed left to right."""
+    """Return matrix times vector, (..., 3, 3), (..., 3) -> (..., 3), summed left to right."""
     return np.add.reduce(A * a[..., None, :], axis=-1)
 
 
 def apply_transposed(A: np.ndarray, a: np.ndarray) -> np.ndarray:
-    """Transposed matrix times vector, (..., 3, 3), (..., 3) -> (..., 3), summed left to right."""
+    """Return transposed matrix times vector, (..., 3, 3), (..., 3) -> (..., 3), summed left to right."""
     return np.add.reduce(A * a[..., None], axis=-2)
 
 
 def apply_to_points(A: np.ndarray, P: np.ndarray) -> np.ndarray:
-    """Matrix times each of n vectors, (..., 3, 3), (..., n, 3) -> (..., n, 3), summed left to right."""
+    """Return matrix times each of n vectors, (..., 3, 3), (..., n, 3) -> (..., n, 3), summed left to right."""
     return np.add.reduce(A[..., None, :, :] * P[..., None, :], axis=-1)
 
 
 def product(A: np.ndarray, B: np.ndarray) -> np.ndarray:
-    """Matrix product, (..., 3, 3), (..., 3, 3) -> (..., 3, 3), summed left to right."""
+    """Return matrix product, (..., 3, 3), (..., 3, 3) -> (..., 3, 3), summed left to right."""
     return np.add.reduce(A[..., None] * B[..., None, :, :], axis=-2)
 
 
 def transposed(A: np.ndarray) -> np.ndarray:
-    """The transposed matrix, (..., 3, 3)."""
+    """Return the transposed matrix, (..., 3, 3)."""
     return A.swapaxes(-1, -2)
 
 
 def inverse(A: np.ndarray) -> np.ndarray:
-    """Inverse of a regular 3x3 matrix by its cofactors, (..., 3, 3)."""
+    """Return inverse of a regular 3x3 matrix by its cofactors, (..., 3, 3)."""
     cofactors = np.stack(
         [cross(A[..., 1, :], A[..., 2, :]), cross(A[..., 2, :], A[..., 0, :]), cross(A[..., 0, :], A[..., 1, :])],
         axis=-2,
@@ -126,7 +127,7 @@ def inverse(A: np.ndarray) -> np.ndarray:
 
 
 def hat(a: np.ndarray) -> np.ndarray:
-    """The skew matrix with hat(a) b = a x b, (..., 3) -> (..., 3, 3)."""
+    """Return the skew matrix with hat(a) b = a x b, (..., 3) -> (..., 3, 3)."""
     a_x, a_y, a_z = a[..., 0], a[..., 1], a[..., 2]
     H = empty(a.shape[:-1], (3, 3), a.dtype)
     H[..., 0, 0], H[..., 0, 1], H[..., 0, 2] = 0, -a_z, a_y
@@ -136,7 +137,7 @@ def hat(a: np.ndarray) -> np.ndarray:
 
 
 def series_coefficients(t, terms: int) -> tuple:
-    """sin(theta)/theta and (1 - cos(theta))/theta^2 as power series in t = theta^2, by Horner's rule.
+    """Return sin(theta)/theta and (1 - cos(theta))/theta^2 as power series in t = theta^2, by Horner's rule.
 
     t : (...) array, or one number of NumPy's or Python's.
 
@@ -151,7 +152,7 @@ def series_coefficients(t, terms: int) -> tuple:
 
 
 def exp_minus_identity(Theta: np.ndarray) -> np.ndarray:
-    """exp(hat(Theta)) - I by Rodrigues' formula, (..., 3) [rad] -> (..., 3, 3).
+    """Return exp(hat(Theta)) - I by Rodrigues' formula, (..., 3) [rad] -> (..., 3, 3).
 
     The identity is left out because a step turns the block by some 1e-5 rad: added to I, the increment would lose
     five digits to rounding, and, with a constant rate, the same digits in every step. Angles up to pi.
@@ -188,12 +189,12 @@ def exp_minus_identity(Theta: np.ndarray) -> np.ndarray:
 
 
 def exponential(Theta: np.ndarray) -> np.ndarray:
-    """Rotation matrix exp(hat(Theta)), (..., 3) [rad] -> (..., 3, 3)."""
+    """Return rotation matrix exp(hat(Theta)), (..., 3) [rad] -> (..., 3, 3)."""
     return exp_minus_identity(Theta) + np.eye(3, dtype=Theta.dtype)
 
 
 def logarithm(Lambda: np.ndarray) -> np.ndarray:
-    """Rotation vector of a rotation matrix, (..., 3, 3) -> (..., 3) [rad], |result| <= pi.
+    """Return rotation vector of a rotation matrix, (..., 3, 3) -> (..., 3) [rad], |result| <= pi.
 
     For output and for comparisons, not for the step: it uses arctan2. Via the unit quaternion, whose largest
     component is taken first (Shepperd 1978, J. Guid. Control 1:223-224), so that no angle loses digits.
@@ -206,7 +207,7 @@ def logarithm(Lambda: np.ndarray) -> np.ndarray:
 
 
 def quaternion(Lambda: np.ndarray) -> np.ndarray:
-    """Unit quaternion (w, x, y, z), w >= 0, of a rotation matrix, (..., 3, 3) -> (..., 4)."""
+    """Return unit quaternion (w, x, y, z), w >= 0, of a rotation matrix, (..., 3, 3) -> (..., 4)."""
     L = Lambda
     xx, yy, zz = L[..., 0, 0], L[..., 1, 1], L[..., 2, 2]
     ww, xx, yy, zz = 1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz
@@ -221,7 +222,7 @@ def quaternion(Lambda: np.ndarray) -> np.ndarray:
 
 
 def from_quaternion(q: np.ndarray) -> np.ndarray:
-    """Rotation matrix of a quaternion (w, x, y, z) of any length, (..., 4) -> (..., 3, 3)."""
+    """Return rotation matrix of a quaternion (w, x, y, z) of any length, (..., 4) -> (..., 3, 3)."""
     w, x, y, z = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
     n = w * w + x * x + y * y + z * z
     L = np.empty(q.shape[:-1] + (3, 3), q.dtype)

@@ -26,7 +26,8 @@ RECORDED = ("x", "v", "Lambda", "W", "F", "s", "anchored", "sliding")
 
 
 def largest_step(problem: Problem) -> float:
-    """Longest stable step [s], all points touching and sticking at once; the least of a batch; infinite without points.
+    """Return longest stable step [s], all points touching and sticking at once; the least of a batch; infinite without
+    points.
 
     The step of an oscillator x" = -d x' - w^2 x, with the force taken at the predicted velocity, is stable while
     (w h)^2 / 4 + d h <= 1 (the roots of its amplification matrix; a test finds the same limit numerically). w^2 and d
@@ -62,7 +63,7 @@ def stiffest(problem: Problem) -> str:
 
 
 def rounded_down(a: float) -> float:
-    """A positive number cut to two digits."""
+    """Return a positive number cut to two digits."""
     place = 10.0 ** (np.floor(np.log10(a)) - 1)
     return float(np.floor(a / place * (1 - 1e-12)) * place)
 
@@ -211,12 +212,13 @@ def check_names(points: ContactPoints) -> None:
 
 
 def whole_part(quotient: float) -> int:
-    """How many whole ones are in it; what is short of one by the rounding of a quotient counts as one."""
+    """Return how many whole ones are in it; what is short of one by the rounding of a quotient counts as one."""
     return int(np.floor(quotient * (1 + 4 * np.finfo(float).eps) + 1e-9))
 
 
 def output_steps(problem: Problem) -> np.ndarray:
-    """Numbers of the steps that are recorded: for each output instant i / output_rate the nearest step, from 0."""
+    """Return numbers of the steps that are recorded: for each output instant i / output_rate the nearest step, from
+    0."""
     last = whole_part(problem.duration / problem.step)
     rows = whole_part(last * problem.step * problem.output_rate) + 1
     return np.unique(np.rint(np.arange(rows) / (problem.output_rate * problem.step)).astype(np.int64))
@@ -277,12 +279,12 @@ def simulate(
 
 
 def time_before_core(problem: Problem, column: np.ndarray) -> np.ndarray:
-    """(time, batch..., core...) -> (batch..., time, core...), as a view."""
+    """Return (time, batch..., core...) -> (batch..., time, core...), as a view."""
     return np.moveaxis(column, 0, len(problem.batch))
 
 
 def not_finite(problem: Problem, good: State, inertia: Inertia) -> NumericalError:
-    """The error that names the step and the contact points at which the numbers were lost, found from a good state.
+    """Return error that names the step and the contact points at which the numbers were lost, found from a good state.
 
     Raises InputError itself: E-ANGLE where a step turns the block too far, by a finite angle, at which step; and what
     an effect refuses.
@@ -304,8 +306,8 @@ def not_finite(problem: Problem, good: State, inertia: Inertia) -> NumericalErro
 
 
 def turned_too_far(problem: Problem, state: State, inertia: Inertia, refused: InputError) -> NumericalError:
-    """The error for a step, from `state`, whose angle is no number; raises `refused` (E-ANGLE) with the step's number
-    and time where it is one."""
+    """Return the error for a step, from `state`, whose angle is no number; raises `refused` (E-ANGLE) with the step's
+    number and time where it is one."""
     JW = times(inertia.J, state.W)
     A = angular_acceleration(state.T, state.W, JW, inertia.J_inverse)
     Theta = rotation_increment(state.W, A, state.x.dtype.type(problem.step))
@@ -317,12 +319,12 @@ def turned_too_far(problem: Problem, state: State, inertia: Inertia, refused: In
 
 
 def step_name(count: int, t: float) -> str:
-    """The place of a step in a run, for an error; t [s]."""
+    """Return the place of a step in a run, for an error; t [s]."""
     return f"step {count} (t = {t:.6g} s)"
 
 
 def lost_numbers(problem: Problem, count: int, t: float, block: np.ndarray, where: str) -> NumericalError:
-    """The error of a run without numbers from step `count`, time t [s], on; `block`, its place in the batch."""
+    """Return the error of a run without numbers from step `count`, time t [s], on; `block`, its place in the batch."""
     of_batch = f" of block {', '.join(map(str, block))}" if problem.batch else ""
     return NumericalError(
         "E-NAN",
@@ -333,15 +335,15 @@ def lost_numbers(problem: Problem, count: int, t: float, block: np.ndarray, wher
 
 
 def pose_lost(state: State) -> np.ndarray:
-    """Whether position or rotation is no longer finite, (...)."""
+    """Return whether position or rotation is no longer finite, (...)."""
     return ~np.all(np.isfinite(state.x) & np.all(np.isfinite(state.Lambda), axis=-1), axis=-1)
 
 
 def body_lost(state: State) -> np.ndarray:
-    """Whether position, rotation or angular velocity is no longer finite, (...)."""
+    """Return whether position, rotation or angular velocity is no longer finite, (...)."""
     return ~np.all(np.isfinite(state.x) & np.isfinite(state.W) & np.all(np.isfinite(state.Lambda), axis=-1), axis=-1)
 
 
 def forces_lost(state: State) -> np.ndarray:
-    """Which contact forces are no longer finite, (..., n)."""
+    """Return which contact forces are no longer finite, (..., n)."""
     return ~np.all(np.isfinite(np.asarray(state.F)), axis=-1)

@@ -79,7 +79,7 @@ def read_bytes(path: str | os.PathLike, limit: int) -> bytes:
 
 
 def too_large(path: str | os.PathLike, limit: int) -> InputError:
-    """The error for a file, or what is packed in it, of more than `limit` bytes (E-SIZE)."""
+    """Return the error for a file, or what is packed in it, of more than `limit` bytes (E-SIZE)."""
     what = f"more than {limit // 2**20} MiB" if limit >= 2**20 else f"more than {limit} bytes"
     return InputError("E-SIZE", str(path), f"holds {what}", "Cut the file to what belongs to it.")
 

@@ -76,12 +76,12 @@ class Setup:
 
     @property
     def is_other(self) -> bool:
-        """Whether the block is not near Table 3.1."""
+        """Return whether the block is not near Table 3.1."""
         return self.parameters is not None
 
     @property
     def nominal_tilt(self) -> float:
-        """The stated tilt [rad] that belongs to the parameter theta_0."""
+        """Return the stated tilt [rad] that belongs to the parameter theta_0."""
         return self.runs[0][2] if self.is_other else NOMINAL_TILT
 
     def parameters_by(self, rng: np.random.Generator, spread: float) -> dict[str, float]:
@@ -149,5 +149,5 @@ def _log_uniform(rng: np.random.Generator, limits: tuple[float, float]) -> float
 
 
 def _rounded(value: float) -> float:
-    """A number as it is stated: three digits."""
+    """Return a number as it is stated: three digits."""
     return float(f"{value:.3g}")

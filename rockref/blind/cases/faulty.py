@@ -17,7 +17,7 @@ BEGINS = (0.1, 0.35)
 
 
 def held_axis(t: np.ndarray, rates: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray, dict[str, Any]]:
-    """One axis repeats its value for a sixteenth to an eighth of the record; the others go on."""
+    """Make one axis repeat its value for a sixteenth to an eighth of the record; the others go on."""
     axis, first = int(rng.integers(3)), int(rng.uniform(*BEGINS) * len(t))
     last = first + int(rng.uniform(1 / 16, 1 / 8) * len(t))
     out = rates.copy()
@@ -26,19 +26,19 @@ def held_axis(t: np.ndarray, rates: np.ndarray, rng: np.random.Generator) -> tup
 
 
 def wrapped(t: np.ndarray, rates: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray, dict[str, Any]]:
-    """A number too large for its register comes out with the other sign."""
+    """Make a number too large for its register come out with the other sign."""
     limit = float(rng.uniform(0.5, 0.8)) * float(np.abs(rates).max())
     return (rates + limit) % (2.0 * limit) - limit, {"limit": limit}
 
 
 def sample_and_hold(t: np.ndarray, rates: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray, dict[str, Any]]:
-    """The logger asks four to ten times as often as the sensor answers, and writes the last answer again."""
+    """Ask four to ten times as often as the sensor answers, and write the last answer again."""
     times = int(rng.integers(4, 11))
     return rates[np.arange(len(t)) // times * times], {"times": times}
 
 
 def burst(t: np.ndarray, rates: np.ndarray, rng: np.random.Generator) -> tuple[np.ndarray, dict[str, Any]]:
-    """Four to nine samples of one axis read twice to ten times the largest rate."""
+    """Read four to nine samples of one axis as two to ten times the largest rate."""
     axis, first, length = int(rng.integers(3)), int(rng.uniform(*BEGINS) * len(t)), int(rng.integers(4, 10))
     value = float(rng.choice([-1.0, 1.0]) * rng.uniform(2.0, 10.0)) * float(np.abs(rates).max())
     out = rates.copy()

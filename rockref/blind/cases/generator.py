@@ -110,7 +110,7 @@ def make_case(
 
 
 def _world(setup: Setup, parameters: dict[str, float]) -> World:
-    """The block of a setup on its plate, with what is typical of hidden effects there."""
+    """Return the block of a setup on its plate, with what is typical of hidden effects there."""
     world, scale = build(parameters, setup.block), scaling.scale_of(setup.block, parameters)
     world.sensor = copy.deepcopy(setup.sensor)
     world.factors = scaling.factors(scale) if setup.is_other else {}
@@ -127,7 +127,8 @@ def _record(
     rng: np.random.Generator,
     sensor_rng: np.random.Generator,
 ) -> tuple[list[Table], list[dict[str, Any]]]:
-    """Tables (t [s], rates [rad/s]) of all runs, and what is true of each: its tilt [rad], what befell it alone."""
+    """Return tables (t [s], rates [rad/s]) of all runs, and what is true of each: its tilt [rad], what befell it
+    alone."""
     tables, truths = [], []
     for number, (id, _use, stated, turned) in enumerate(setup.runs):
         jitter = JITTER * rng.normal()
@@ -162,7 +163,7 @@ def _write(folder: Path, name: str, baseline: str, setup: Setup, tables: Sequenc
 
 
 def _head(name: str, baseline: str, setup: Setup) -> str:
-    """The text of experiment.toml: what an experimenter knows."""
+    """Return the text of experiment.toml: what an experimenter knows."""
     block, sensor = setup.block, setup.sensor
     head = f"""name = "{name}"
 kind = "release"

@@ -14,14 +14,14 @@ from rockref.blind.simulator.world import World
 
 
 def quadratic_drag(world: World, rng, size, other, given):
-    """Air drag, as of a sail."""
+    """Hide air drag, as of a sail."""
     c = pick(given, "c", world.factor("quadratic_drag.c") * about(rng, 0.4 * size))
     world["drag"], world["drag_form"] = c, other
     return said({"c": c}, "each pair of faces for itself" if other else CATALOGUE)
 
 
 def cable_restraint(world: World, rng, size, other, given):
-    """The sensor's cable."""
+    """Hide the sensor's cable."""
     k = pick(given, "k", world.factor("cable_restraint.k") * about(rng, 5.0 * size))
     c = pick(given, "c", world.factor("cable_restraint.c") * about(rng, 0.3 * size))
     world["cable_k"], world["cable_c"], world["cable_form"] = k, c, other
@@ -29,7 +29,7 @@ def cable_restraint(world: World, rng, size, other, given):
 
 
 def lingering_wire_pull(world: World, rng, size, other, given):
-    """A wire that lets go slowly."""
+    """Hide a wire that lets go slowly."""
     force = pick(given, "force", world.factor("lingering_wire_pull.force") * about(rng, 3.0 * size))
     tau = pick(given, "tau", world.factor("lingering_wire_pull.tau") * about(rng, 0.3))
     world["wire"], world["wire_tau"], world["wire_form"] = force, tau, other
@@ -37,7 +37,7 @@ def lingering_wire_pull(world: World, rng, size, other, given):
 
 
 def base_vibration(world: World, rng, size, other, given):
-    """A floor that shakes; each run meets it at a phase of its own."""
+    """Hide a floor that shakes; each run meets it at a phase of its own."""
     amplitude = pick(given, "amplitude", world.factor("base_vibration.amplitude") * about(rng, 0.1 * size))
     frequency = pick(given, "frequency", float(rng.uniform(5.0, 22.0)))
     direction = pick(given, "direction", float(rng.uniform(-0.5, 0.5)))
@@ -54,7 +54,7 @@ def base_vibration(world: World, rng, size, other, given):
 
 
 def plate_tilt(world: World, rng, size, other, given):
-    """A plate that is not level."""
+    """Hide a plate that is not level."""
     x, y = (pick(given, axis, world.factor("plate_tilt") * signed(rng, 1e-3 * size)) for axis in "xy")
     length = np.sqrt(1.0 + x * x + y * y)
     g = world["gravity"]
@@ -63,7 +63,7 @@ def plate_tilt(world: World, rng, size, other, given):
 
 
 def compliant_support(world: World, rng, size, other, given):
-    """A plate that yields: the softer, the larger."""
+    """Hide a plate that yields: the softer, the larger."""
     mass = pick(given, "mass", world.factor("compliant_support.mass") * about(rng, 100.0))
     natural = world.factor("compliant_support.frequency") * about(rng, 60.0 / np.sqrt(size))
     frequency = pick(given, "frequency", natural)
@@ -77,7 +77,7 @@ def compliant_support(world: World, rng, size, other, given):
 
 
 def release_velocity(world: World, rng, size, other, given):
-    """A release with a push, the same in every run."""
+    """Hide a release with a push, the same in every run."""
     spin = world.factor("release_velocity")
     kick = [pick(given, k, spin * signed(rng, v * size)) for k, v in (("x", 0.02), ("y", 0.01), ("z", 0.02))]
     world.kick = np.array(kick)
@@ -88,7 +88,7 @@ def release_velocity(world: World, rng, size, other, given):
 
 
 def gyro_misalignment(world: World, rng, size, other, given):
-    """A sensor glued on slightly turned."""
+    """Hide a sensor glued on slightly turned."""
     r = np.array([pick(given, axis, signed(rng, 0.03 * size)) for axis in "xyz"])
     angle = float(np.linalg.norm(r))
     hat = np.array([[0, -r[2], r[1]], [r[2], 0, -r[0]], [-r[1], r[0], 0]])
@@ -100,7 +100,7 @@ def gyro_misalignment(world: World, rng, size, other, given):
 
 
 def gyro_scale(world: World, rng, size, other, given):
-    """A gyroscope that shows too much or too little."""
+    """Hide a gyroscope that shows too much or too little."""
     scale = [pick(given, axis, 1.0 + signed(rng, 0.02 * size)) for axis in "xyz"]
     world.sensor.scale = np.array(scale)
     if other:  # and is a little bent: a half per cent at 1 rad/s
@@ -109,7 +109,7 @@ def gyro_scale(world: World, rng, size, other, given):
 
 
 def gyro_drift(world: World, rng, size, other, given):
-    """A gyroscope that does not show zero at rest."""
+    """Hide a gyroscope that does not show zero at rest."""
     bias = [pick(given, f"bias_{a}", signed(rng, v * size)) for a, v in zip("xyz", (5e-3, 2e-3, 5e-3), strict=True)]
     drift = [pick(given, f"rate_{a}", signed(rng, 1e-3 * size)) for a in "xyz"]
     world.sensor.bias, world.sensor.drift = np.array(bias), np.array(drift)
@@ -121,14 +121,14 @@ def gyro_drift(world: World, rng, size, other, given):
 
 
 def gyro_bandwidth(world: World, rng, size, other, given):
-    """A gyroscope that is slow: the slower, the larger."""
+    """Hide a gyroscope that is slow: the slower, the larger."""
     frequency = pick(given, "frequency", about(rng, 40.0 / size))
     world.sensor.bandwidth, world.sensor.bandwidth_order = frequency, 1 if other else 2
     return said({"frequency": frequency}, "first order" if other else CATALOGUE)
 
 
 def gyro_saturation(world: World, rng, size, other, given):
-    """A gyroscope that runs into its stops: the range is a share of the largest rate of the first run."""
+    """Hide a gyroscope that runs into its stops: the range is a share of the largest rate of the first run."""
     if "range" in given:
         world.sensor.range = float(given["range"])
     else:
@@ -138,7 +138,7 @@ def gyro_saturation(world: World, rng, size, other, given):
 
 
 def clock_error(world: World, rng, size, other, given):
-    """A recorder whose seconds are not seconds."""
+    """Hide a recorder whose seconds are not seconds."""
     rate = pick(given, "rate", 1.0 + signed(rng, 0.01 * size))
     world.sensor.clock = rate
     if other:  # its rate moves by a tenth of its error a second

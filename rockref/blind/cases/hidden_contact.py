@@ -10,7 +10,7 @@ from rockref.blind.simulator.world import World
 
 
 def hertzian_contact(world: World, rng, size, other, given):
-    """A stiffening spring."""
+    """Hide a stiffening spring."""
     p = pick(given, "exponent", 1.0 + about(rng, 0.5 * size, 0.1))
     x0 = pick(given, "reference", 2e-5 * world.factor("hertzian_contact.reference"))
     world["hertz_p"], world["hertz_x0"], world["hertz_form"] = p, x0, other
@@ -18,21 +18,21 @@ def hertzian_contact(world: World, rng, size, other, given):
 
 
 def hunt_crossley_contact(world: World, rng, size, other, given):
-    """A damper that grows with depth."""
+    """Hide a damper that grows with depth."""
     a = pick(given, "a", world.factor("hunt_crossley_contact.a") * about(rng, 0.5 * size))
     world["crossley_a"], world["crossley_form"] = a, other
     return said({"a": a}, "damper grows with the root of the depth" if other else CATALOGUE)
 
 
 def hysteretic_contact(world: World, rng, size, other, given):
-    """A spring that gives back less."""
+    """Hide a spring that gives back less."""
     kappa = pick(given, "kappa", about(rng, 0.3 * size))
     world["hysteresis"], world["hysteresis_form"] = kappa, other
     return said({"kappa": kappa}, "unloading with the power 3/2" if other else CATALOGUE)
 
 
 def adhesion(world: World, rng, size, other, given):
-    """A pull toward the plate."""
+    """Hide a pull toward the plate."""
     force = pick(given, "force", world.factor("adhesion.force") * about(rng, 50.0 * size))
     reach = pick(given, "range", about(rng, 2e-5, 0.2))
     world["pull"], world["pull_range"], world["pull_form"] = force, reach, other
@@ -44,7 +44,7 @@ def _feet(factors):
 
 
 def uneven_foot_stiffness(world: World, rng, size, other, given):
-    """Feet of different stiffness."""
+    """Hide feet of different stiffness."""
     factors = uneven(rng, 0.35 * size)
     world.scale("K_N", factors)
     if other:
@@ -53,7 +53,7 @@ def uneven_foot_stiffness(world: World, rng, size, other, given):
 
 
 def uneven_foot_damping(world: World, rng, size, other, given):
-    """Feet of different damping."""
+    """Hide feet of different damping."""
     factors = uneven(rng, 0.55 * size)
     world.scale("C_N", factors)
     if not other:
@@ -62,7 +62,7 @@ def uneven_foot_damping(world: World, rng, size, other, given):
 
 
 def uneven_foot_friction(world: World, rng, size, other, given):
-    """Feet of different friction."""
+    """Hide feet of different friction."""
     factors = uneven(rng, 0.25 * size)
     world.scale("mu", factors)
     if other:  # the inner points keep theirs
@@ -71,21 +71,21 @@ def uneven_foot_friction(world: World, rng, size, other, given):
 
 
 def stribeck_friction(world: World, rng, size, other, given):
-    """Friction that falls with sliding speed."""
+    """Hide friction that falls with sliding speed."""
     ratio, velocity = pick(given, "ratio", 1.0 + about(rng, 0.5 * size)), pick(given, "velocity", about(rng, 0.01))
     world["stribeck_excess"], world["stribeck_v"], world["stribeck_form"] = ratio - 1.0, velocity, other
     return said({"ratio": ratio, "velocity": velocity}, "algebraic fall" if other else CATALOGUE)
 
 
 def viscous_friction(world: World, rng, size, other, given):
-    """A film under the feet."""
+    """Hide a film under the feet."""
     c = pick(given, "c", world.factor("viscous_friction.c") * about(rng, 1000.0 * size))
     world["viscous"], world["viscous_form"] = c, other
     return said({"c": c}, "shear thinning, power 0.8" if other else CATALOGUE)
 
 
 def load_dependent_friction(world: World, rng, size, other, given):
-    """A coefficient that falls with the load."""
+    """Hide a coefficient that falls with the load."""
     p = pick(given, "exponent", about(rng, 0.15 * size))
     load = 264.87 * world.factor("load_dependent_friction.reference")
     world["load_p"], world["load_ref"], world["load_form"] = p, load, other
@@ -93,21 +93,21 @@ def load_dependent_friction(world: World, rng, size, other, given):
 
 
 def spin_friction(world: World, rng, size, other, given):
-    """A foot that resists turning about the vertical."""
+    """Hide a foot that resists turning about the vertical."""
     radius = pick(given, "radius", world.factor("spin_friction.radius") * about(rng, 2e-3 * size))
     world["spin"], world["spin_form"] = radius, other
     return said({"radius": radius}, "weakened by sliding" if other else CATALOGUE)
 
 
 def rolling_resistance(world: World, rng, size, other, given):
-    """A foot that resists being rolled over."""
+    """Hide a foot that resists being rolled over."""
     lever = pick(given, "lever", world.factor("rolling_resistance.lever") * about(rng, 2e-4 * size))
     world["roll"], world["roll_form"] = lever, other
     return said({"lever": lever}, "lever grows with the root of the load" if other else CATALOGUE)
 
 
 def rounded_feet(world: World, rng, size, other, given):
-    """Feet that roll."""
+    """Hide feet that roll."""
     radius = pick(given, "radius", world.factor("rounded_feet.radius") * about(rng, 2e-3 * size))
     world.props[:, P["radius"]] = radius
     if other:
@@ -116,7 +116,7 @@ def rounded_feet(world: World, rng, size, other, given):
 
 
 def uneven_contact_normals(world: World, rng, size, other, given):
-    """Slopes where the feet stand."""
+    """Hide slopes where the feet stand."""
     slopes = np.array([[signed(rng, 0.009 * size) for _ in range(2)] for _ in range(4)])
     slopes *= world.factor("uneven_contact_normals")
     world.props[:, P["slope_x"]], world.props[:, P["slope_y"]] = slopes[world.foot].T
@@ -126,7 +126,7 @@ def uneven_contact_normals(world: World, rng, size, other, given):
 
 
 def mass_eccentricity(world: World, rng, size, other, given):
-    """The centre of mass off its place."""
+    """Hide the centre of mass off its place."""
     drawn = {axis: world.factor(f"mass_eccentricity.{axis}") * signed(rng, 1e-3 * size) for axis in "xyz"}
     shift = np.array([pick(given, axis, drawn[axis]) for axis in "xyz"])
     world.points -= shift
@@ -142,7 +142,7 @@ def mass_eccentricity(world: World, rng, size, other, given):
 
 
 def inertia_deviation(world: World, rng, size, other, given):
-    """An inertia that is not the cuboid's."""
+    """Hide an inertia that is not the cuboid's."""
     s = np.array([pick(given, k, 1.0 + signed(rng, 0.02 * size)) for k in ("xx", "yy", "zz")])
     root = np.sqrt(s)
     world.J *= np.outer(root, root)
@@ -157,7 +157,7 @@ def inertia_deviation(world: World, rng, size, other, given):
 
 
 def dimension_deviation(world: World, rng, size, other, given):
-    """Sides that are not as stated."""
+    """Hide sides that are not as stated."""
     s = np.array([pick(given, k, 1.0 + signed(rng, 0.005 * size)) for k in ("width", "depth", "height")])
     world.points *= s
     world["top"] *= s[2]
@@ -172,7 +172,7 @@ def dimension_deviation(world: World, rng, size, other, given):
 
 
 def foot_defects(world: World, rng, size, other, given):
-    """Eight points where the experimenter believes in four. The size scales heights and diagonal distance."""
+    """Hide eight points where the experimenter believes in four. The size scales heights and diagonal distance."""
     outer = world.points[world.external]
     inner = world.points[~world.external]
     base = inner[:, 2].copy()

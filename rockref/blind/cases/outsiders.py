@@ -40,7 +40,7 @@ def _hang(world: World, m: float, height: float, frequency: tuple[float, float, 
 
 
 def _part(world: World, mass: float, frequency: float, height: float) -> tuple[float, ...]:
-    """Mass [kg], frequency [Hz] and height [m] of a part of the source's block, for this block."""
+    """Return mass [kg], frequency [Hz] and height [m] of a part of the source's block, for this block."""
     factors = (world.factor(f"hung.{name}") for name in ("mass", "frequency", "height"))
     return tuple(f * value for f, value in zip(factors, (mass, frequency, height), strict=True))
 
@@ -50,28 +50,28 @@ HELD = 200.0
 
 
 def loose_mass_y(world: World, rng, size, other, given):
-    """A part inside that swings in the rocking plane."""
+    """Hide a part inside that swings in the rocking plane."""
     m, f, height = _part(world, about(rng, 3.0 * size), about(rng, 5.5), float(rng.uniform(0.1, 0.28)))
     _hang(world, m, height, (HELD, f, HELD), 0.03)
     return _told({"mass": m, "frequency": f, "height": height}, "a loose part, in the rocking plane", "xyz")
 
 
 def loose_mass_x(world: World, rng, size, other, given):
-    """A part inside that swings across the rocking plane."""
+    """Hide a part inside that swings across the rocking plane."""
     m, f, height = _part(world, about(rng, 3.0 * size), about(rng, 9.0), float(rng.uniform(0.1, 0.28)))
     _hang(world, m, height, (f, HELD, HELD), 0.03)
     return _told({"mass": m, "frequency": f, "height": height}, "a loose part, across the rocking plane", "xyz")
 
 
 def sloshing(world: World, rng, size, other, given):
-    """A liquid inside: slow and hardly damped, in both directions."""
+    """Hide a liquid inside: slow and hardly damped, in both directions."""
     m, f, height = _part(world, about(rng, 2.0 * size), about(rng, 2.2, 0.1), float(rng.uniform(0.0, 0.2)))
     _hang(world, m, height, (f, f, HELD), 0.01)
     return _told({"mass": m, "frequency": f}, "a liquid with a free surface", "xyz")
 
 
 def magnet(world: World, rng, size, other, given):
-    """A pole beside the top: it pulls when the block leans far to its side."""
+    """Hide a pole beside the top: it pulls when the block leans far to its side."""
     far = world.factor("magnet.length")
     force, length = world.factor("magnet.force") * about(rng, 6.0 * size), far * about(rng, 0.02)
     world["magnet"], world["magnet_y"], world["magnet_length"] = force, far * 0.09, length
@@ -79,7 +79,7 @@ def magnet(world: World, rng, size, other, given):
 
 
 def gust(world: World, rng, size, other, given):
-    """A puff of air, at another time in every run."""
+    """Hide a puff of air, at another time in every run."""
     force, time = world.factor("gust.force") * about(rng, 2.5 * size), world.factor("gust.time")
 
     def own(one: World, rng: np.random.Generator, number: int) -> dict[str, float]:
@@ -93,7 +93,7 @@ def gust(world: World, rng, size, other, given):
 
 
 def knock(world: World, rng, size, other, given):
-    """A blow of a few milliseconds across the rocking plane, at another time in every run."""
+    """Hide a blow of a few milliseconds across the rocking plane, at another time in every run."""
     impulse, time = world.factor("knock.impulse") * about(rng, 0.4 * size), world.factor("gust.time")
 
     def own(one: World, rng: np.random.Generator, number: int) -> dict[str, float]:
@@ -107,14 +107,14 @@ def knock(world: World, rng, size, other, given):
 
 
 def rotor(world: World, rng, size, other, given):
-    """A wheel that spins inside about the transverse axis: rocking turns the block about its height."""
+    """Hide a wheel that spins inside about the transverse axis: rocking turns the block about its height."""
     h = world.factor("rotor.angular_momentum") * signed(rng, 1.5 * size)
     world["rotor_y"] = h
     return _told({"angular_momentum": h}, "a spinning wheel", "xyz")
 
 
 def packet_loss(world: World, rng, size, other, given):
-    """A radio link that repeats the last packet when the next is late."""
+    """Hide a radio link that repeats the last packet when the next is late."""
     world.sensor.packet = int(rng.integers(8, 17))
     world.sensor.lost_packets = min(about(rng, 0.06 * size), 0.3)
     parameters = {"rows": float(world.sensor.packet), "share": world.sensor.lost_packets}
@@ -122,14 +122,14 @@ def packet_loss(world: World, rng, size, other, given):
 
 
 def ringing_mount(world: World, rng, size, other, given):
-    """The sensor's bracket rings after an impact."""
+    """Hide a bracket of the sensor that rings after an impact."""
     world.sensor.ring_frequency, world.sensor.ring_gain = about(rng, 60.0), min(0.25 * size, 1.0)
     parameters = {"frequency": world.sensor.ring_frequency, "share": world.sensor.ring_gain}
     return _told(parameters, "a bracket that rings", "xyz", LATER)
 
 
 def creeping_feet(world: World, rng, size, other, given):
-    """Feet on a polymer: a second spring that relaxes in milliseconds."""
+    """Hide feet on a polymer: a second spring that relaxes in milliseconds."""
     k, tau = world.factor("creeping_feet.stiffness") * about(rng, 4e7 * size), about(rng, 3e-3)
     world["creep_k"], world["creep_tau"] = k, tau
     return _told({"stiffness": k, "time": tau}, "feet with a memory", "xyz", LATER)

@@ -72,7 +72,8 @@ class Case:
 
 
 def counts(n: int, block: str = NEAR) -> dict[str, int]:
-    """How many cases of each kind n cases of a block have; twins, by twos, near the source alone, from ten cases on."""
+    """Return how many cases of each kind n cases of a block have; twins, by twos, near the source alone, from ten cases
+    on."""
     if n < len(FIRST):
         return {kind: int(kind in FIRST[:n]) for kind in SHARES}
     found = {kind: max(1, int(share * n)) for kind, share in SHARES.items()}
@@ -82,19 +83,19 @@ def counts(n: int, block: str = NEAR) -> dict[str, int]:
 
 
 def shared(n: int) -> tuple[int, int]:
-    """How many of n cases are near the source, and how many are of other blocks."""
+    """Return how many of n cases are near the source, and how many are of other blocks."""
     return n - n // OTHERS, n // OTHERS
 
 
 def plan(seed: int, near: int, other: int = 0) -> list[Case]:
-    """The cases of this seed, shuffled: so many near the source, so many of other blocks."""
+    """Return the cases of this seed, shuffled: so many near the source, so many of other blocks."""
     rng = np.random.default_rng([int(seed), 0])
     cases = _drawn(rng, near, NEAR) + _drawn(rng, other, OTHER)
     return [cases[i] for i in rng.permutation(len(cases))]
 
 
 def _drawn(rng: np.random.Generator, n: int, block: str) -> list[Case]:
-    """n cases of one kind of block."""
+    """Return n cases of one kind of block."""
     wanted = counts(n, block)
     cases = [Case(CONTROL, (), _seed(rng)) for _ in range(wanted[CONTROL])]
     cases += [Case(SINGLE, (one,), _seed(rng)) for _, one in zip(range(wanted[SINGLE]), _singles(rng), strict=False)]
@@ -114,7 +115,7 @@ def _drawn(rng: np.random.Generator, n: int, block: str) -> list[Case]:
 
 
 def listed(seed: int, words: Sequence[str], near: int | None = None, other: int = 0) -> list[Case]:
-    """Cases from words: "none", "gyro_scale", "gyro_scale:2", "plate_tilt+gyro_drift", "wrapped", "each:0.5".
+    """Return cases from words: "none", "gyro_scale", "gyro_scale:2", "plate_tilt+gyro_drift", "wrapped", "each:0.5".
 
     "each" stands for all effects of the catalogue, one a case. Every word once, near the source; or, if numbers are
     given, so many near it and so many of other blocks, the words in turn for either, shuffled.
@@ -156,7 +157,8 @@ def _listed(word: str, rng: np.random.Generator, block: str) -> Case:
 
 
 def _size(part: str, size: str) -> float:
-    """How many typical sizes; one without a number. Raises ValueError with the part for what is no positive number."""
+    """Return how many typical sizes; one without a number. Raises ValueError with the part for what is no positive
+    number."""
     try:
         found = float(size or 1.0)
     except ValueError:
@@ -171,7 +173,7 @@ def _seed(rng: np.random.Generator) -> int:
 
 
 def _singles(rng: np.random.Generator) -> Iterator[tuple[str, float]]:
-    """Every effect once, at sizes that differ from one to the next; then again at another size, and so on."""
+    """Yield every effect once, at sizes that differ from one to the next; then again at another size, and so on."""
     order = [str(id) for id in rng.permutation(list(EFFECTS))]
     while True:
         for turn in range(len(SIZES)):
@@ -180,7 +182,8 @@ def _singles(rng: np.random.Generator) -> Iterator[tuple[str, float]]:
 
 
 def _twins(rng: np.random.Generator, number: int) -> list[Case]:
-    """Two cases with one seed that differ in the cause alone, in a campaign too poor to tell the causes apart."""
+    """Return two cases with one seed that differ in the cause alone, in a campaign too poor to tell the causes
+    apart."""
     seed = _seed(rng)
     values: dict[str, dict[str, float]]
     runs: Runs

@@ -34,32 +34,32 @@ class Scale:
 
     @property
     def load(self) -> float:
-        """Weight."""
+        """Return weight."""
         return self.mass
 
     @property
     def spin(self) -> float:
-        """Angular rate of a swing, p alpha."""
+        """Return angular rate of a swing, p alpha."""
         return self.rate * self.angle
 
     @property
     def speed(self) -> float:
-        """Speed of a foot at a main impact, width p alpha."""
+        """Return speed of a foot at a main impact, width p alpha."""
         return self.width * self.spin
 
     @property
     def depth(self) -> float:
-        """Penetration at a main impact: that speed over the contact's frequency."""
+        """Return penetration at a main impact: that speed over the contact's frequency."""
         return self.speed / self.contact
 
     @property
     def sway(self) -> float:
-        """Way of the top in a swing, height alpha."""
+        """Return way of the top in a swing, height alpha."""
         return self.height * self.angle
 
     @property
     def moment(self) -> float:
-        """Restoring moment of the weight, m g R alpha."""
+        """Return restoring moment of the weight, m g R alpha."""
         return self.mass * self.radius * self.angle
 
 

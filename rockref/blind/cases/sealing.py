@@ -21,12 +21,12 @@ def write_json(path: Path, content: Any) -> None:
 
 
 def canonical(content: Any) -> bytes:
-    """The one text of a truth that is digested."""
+    """Return the one text of a truth that is digested."""
     return json.dumps(content, sort_keys=True, separators=(",", ":")).encode()
 
 
 def digest(salt: str, text: bytes) -> str:
-    """SHA-256 over salt and text: without the salt a truth cannot be found by trying seeds."""
+    """Return SHA-256 over salt and text: without the salt a truth cannot be found by trying seeds."""
     return hashlib.sha256(salt.encode() + b"\n" + text).hexdigest()
 
 
@@ -41,7 +41,7 @@ def seal(folder: Path, truth: Any, cases: dict[str, dict[str, str]], version: st
 
 
 def unseal(folder: Path) -> tuple[Any, bool]:
-    """The truth of a sealed folder, and whether it is the one whose digest was published."""
+    """Return the truth of a sealed folder, and whether it is the one whose digest was published."""
     sealed = json.loads((folder / SEALED).read_text(encoding="utf-8"))
     text = zlib.decompress(base64.b64decode(sealed["truth"]))
     published = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))["truth_sha256"]
@@ -49,6 +49,6 @@ def unseal(folder: Path) -> tuple[Any, bool]:
 
 
 def digests(folder: Path) -> dict[str, str]:
-    """SHA-256 of experiment.toml and the tables of a case."""
+    """Return SHA-256 of experiment.toml and the tables of a case."""
     names = ["experiment.toml", *sorted(path.name for path in folder.glob("run*.csv.gz"))]
     return {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in names}

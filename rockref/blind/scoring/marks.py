@@ -23,7 +23,7 @@ AXIS = {"main": "x", "transverse": "y", "longitudinal": "z", "x": "x", "y": "y",
 
 
 def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
-    """Marks of one case.
+    """Return marks of one case.
 
     truth : of `make_case`, with `kind` and `class`; verdict : what `rockref diagnose --json` prints. Marks that have no
     meaning for the kind of case are missing.
@@ -71,7 +71,7 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
 
 
 def is_right(kind: str, true: list[str], right: set[str], word: str, said: list[str]) -> bool:
-    """Whether a verdict is right as it stands, which is what its stated probability is the probability of.
+    """Return whether a verdict is right as it stands, which is what its stated probability is the probability of.
 
     true : effects that are hidden; right : those that may be named. A class is right if it holds the truth.
     """
@@ -98,19 +98,20 @@ def least_seen(limits: dict[str, dict[str, Any]]) -> dict[str, float]:
 
 
 def is_below_limit(effect: dict[str, Any], verdict: dict[str, Any]) -> bool:
-    """Whether a verdict states, in its detection limits, that an effect of this size could be there unseen."""
+    """Return whether a verdict states, in its detection limits, that an effect of this size could be there unseen."""
     return bool(effect["size"] < least_seen(verdict.get("detection_limits") or {}).get(effect["id"], 0.0))
 
 
 def on_card(effects: list[dict[str, Any]], signature: dict[str, Any]) -> bool:
-    """Whether axis and phase that a verdict writes on its card are among those that are true."""
+    """Return whether axis and phase that a verdict writes on its card are among those that are true."""
     cards = [e["card"] for e in effects if "card" in e]
     axis = AXIS.get(str(signature.get("axis")))
     return any(axis in card["axes"] and signature.get("phase") in card["phases"] for card in cards)
 
 
 def gap_closed(error: dict[str, Any]) -> float | None:
-    """Share of the gap between baseline and noise floor that is closed on held-out runs; None where there is none."""
+    """Return share of the gap between baseline and noise floor that is closed on held-out runs; None where there is
+    none."""
     try:
         floor = error["noise_floor"]
         floor = float(floor["holdout"] if isinstance(floor, dict) else floor)
@@ -123,7 +124,7 @@ def gap_closed(error: dict[str, Any]) -> float | None:
 
 
 def _sizes(effects: list[dict[str, Any]], verdict: dict[str, Any], said: list[str]) -> dict[str, Any]:
-    """Errors and coverage of the sizes that are stated, for effects whose form is the catalogue's."""
+    """Return errors and coverage of the sizes that are stated, for effects whose form is the catalogue's."""
     errors, inside = [], []
     for effect in effects:
         if effect["form"] != "catalogue" or effect["id"] not in said:

@@ -46,7 +46,8 @@ ABSENT: dict[str, dict[str, float]] = {
 
 
 def stated(amplitudes: Any, effect: str) -> dict[str, dict[str, float]]:
-    """What a verdict says of an effect: parameter -> value, low, high (where given). Keys are "effect.parameter"."""
+    """Return what a verdict says of an effect: parameter -> value, low, high (where given). Keys are
+    "effect.parameter"."""
     found = {}
     for key, entry in (amplitudes or {}).items():
         id, dot, name = str(key).partition(".")
@@ -56,7 +57,7 @@ def stated(amplitudes: Any, effect: str) -> dict[str, dict[str, float]]:
 
 
 def size_error(effect: str, truth: dict[str, float], said: dict[str, dict[str, float]]) -> float | None:
-    """Relative error of the size of an effect, or None where the verdict does not state all of it.
+    """Return relative error of the size of an effect, or None where the verdict does not state all of it.
 
     Of several components it is the length of the error over the length of the truth, each counted from its absence. For
     factors of the feet logarithms less their mean are compared, because a common factor is the baseline's stiffness,
@@ -83,7 +84,7 @@ def size_error(effect: str, truth: dict[str, float], said: dict[str, dict[str, f
 
 
 def covered(effect: str, truth: dict[str, float], said: dict[str, dict[str, float]]) -> list[bool]:
-    """For every parameter of the effect's size with a stated interval: whether the truth lies inside."""
+    """Return for every parameter of the effect's size with a stated interval: whether the truth lies inside."""
     found = []
     for name in ABSENT[effect]:
         entry = said.get(name, {})

@@ -31,7 +31,8 @@ GOALS: dict[str, dict[str, Limits]] = {
 
 
 def scores(marks: Marks, block: str = NEAR) -> list[dict[str, Any]]:
-    """Rows with the goals of a kind of block: score, value, low, high, n, goal, met (None without goal or case)."""
+    """Return rows with the goals of a kind of block: score, value, low, high, n, goal, met (None without goal or
+    case)."""
     rows = _shares(marks) + _numbers(marks)
     for row in rows:
         least, most = GOALS.get(row["score"], {}).get(block, (None, None))
@@ -43,7 +44,7 @@ def scores(marks: Marks, block: str = NEAR) -> list[dict[str, Any]]:
 
 
 def _shares(marks: Marks) -> list[dict[str, Any]]:
-    """Shares of verdicts, by kind of case."""
+    """Return shares of verdicts, by kind of case."""
     of = {kind: [m for m in marks if m["kind"] == kind] for kind in (CONTROL, SINGLE, PAIR, OUTSIDER, TWIN, FAULTY)}
     single, sound = of[SINGLE], [m for m in marks if m["kind"] != FAULTY]
     by_size = [
@@ -74,7 +75,7 @@ def _shares(marks: Marks) -> list[dict[str, Any]]:
 
 
 def _numbers(marks: Marks) -> list[dict[str, Any]]:
-    """Medians, and how often intervals hold."""
+    """Return medians, and how often intervals hold."""
     gaps = [m["gap_closed"] for m in marks if m.get("gap_closed") is not None]
     errors = [e for m in marks for e in m.get("size_errors", ())]
     inside = [c for m in marks for c in m.get("covered", ())]
@@ -130,14 +131,14 @@ def _cell(row: dict[str, Any]) -> str:
 
 
 def shown(value: float | None, percent: bool) -> str:
-    """A number of the table, or a dash."""
+    """Return a number of the table, or a dash."""
     if value is None:
         return "-"
     return f"{100 * value:.1f} %" if percent else f"{value:.0f}"
 
 
 def failures(marks: Marks) -> list[str]:
-    """A line for each case whose verdict was not right."""
+    """Return a line for each case whose verdict was not right."""
     lines = []
     for m in marks:
         good = {

@@ -48,7 +48,7 @@ class Adhesion(Effect):
         return replace(state, x=x)
 
     def pull(self, xi):
-        """Size of the pull at penetration xi [m], same shape [N]."""
+        """Return size of the pull at penetration xi [m], same shape [N]."""
         return self.force * np.clip(1 + xi / self.range, 0, 1)
 
     def point_wrench(self, problem, c, m):

@@ -68,7 +68,7 @@ class SpinFriction(Effect):
         return np.zeros_like(W), assembly.sum_over_points(moments)
 
     def _held(self, rate, v):
-        """What sliding at v (..., n, 2) [m/s] leaves of the largest moment; rate : (..., 1) [rad/s]."""
+        """Return what sliding at v (..., n, 2) [m/s] leaves of the largest moment; rate : (..., 1) [rad/s]."""
         rim = self.radius * np.abs(rate)
         size = np.sqrt(rim * rim + v[..., 0] * v[..., 0] + v[..., 1] * v[..., 1])
         moves = size > 0

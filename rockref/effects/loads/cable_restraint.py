@@ -36,7 +36,7 @@ class CableRestraint(Effect):
     height: float | None = None
 
     def attachment(self, problem, Lambda):
-        """Way from the centre of mass to the attachment, plate axes, (..., 3) [m]."""
+        """Return way from the centre of mass to the attachment, plate axes, (..., 3) [m]."""
         return arm(Lambda, half_height(problem.points) if self.height is None else self.height)
 
     def start(self, problem):

@@ -58,7 +58,7 @@ class LingeringWirePull(Effect):
         return F, cross(r, F)
 
     def left(self, t):
-        """What is left of the pull at time t (...) s, as a share."""
+        """Return what is left of the pull at time t (...) s, as a share."""
         if self.evenness > LEAST_EVENNESS:
             return np.maximum(1.0 - self.evenness * t / self.tau, 0.0) ** (1.0 / self.evenness)
         # math's exp for one time, so that a run keeps its bits; windows of a fit have a time each.

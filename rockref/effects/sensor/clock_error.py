@@ -43,5 +43,5 @@ class ClockError(Effect):
         return CubicSpline(t, crv, axis=-2)(np.clip(self.rate * t, t[0], t[-1]))
 
     def undo(self, t, crv):
-        """The rows stay, their instants become the true ones; a row that was held is dated as if it were not."""
+        """Return the rows stay, their instants become the true ones; a row that was held is dated as if it were not."""
         return t if self.is_absent() else self.rate * np.asarray(t, float), crv

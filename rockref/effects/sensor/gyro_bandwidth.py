@@ -127,7 +127,8 @@ class GyroBandwidth(Effect):
         return CubicSpline(t, smooth, axis=-2)(np.maximum(t - self.delay, t[0]))
 
     def undo(self, t, crv):
-        """The low-pass by its regularised inverse, the delay by earlier instants of the rows. Raises as `smoothed`."""
+        """Return the low-pass by its regularised inverse, the delay by earlier instants of the rows. Raises as
+        `smoothed`."""
         if self.is_absent() or len(t) < 2:
             return t, crv
         t = np.asarray(t, float)
@@ -136,7 +137,7 @@ class GyroBandwidth(Effect):
         return t - self.delay, crv
 
     def smoothed(self, t, crv):
-        """The rates (..., N, 3) [rad/s] at even t (N,) [s] after the low-pass. Raises InputError (E-STEP)."""
+        """Return the rates (..., N, 3) [rad/s] at even t (N,) [s] after the low-pass. Raises InputError (E-STEP)."""
         from scipy.signal import cont2discrete, lfilter, lfilter_zi
 
         step = even_step(t)

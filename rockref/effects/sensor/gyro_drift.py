@@ -49,6 +49,6 @@ class GyroDrift(Effect):
         return t, crv - bias - np.asarray(t, crv.dtype)[:, None] * rate
 
     def vectors(self, dtype):
-        """Bias and its rate of change, two (3,) [rad/s, rad/s2]."""
+        """Return bias and its rate of change, two (3,) [rad/s, rad/s2]."""
         bias, rate = (self.bias_x, self.bias_y, self.bias_z), (self.rate_x, self.rate_y, self.rate_z)
         return np.array(bias, dtype), np.array(rate, dtype)

@@ -57,13 +57,13 @@ class GyroMisalignment(Effect):
         return t, apply(self.rotation(crv.dtype).T, turned)
 
     def rotation(self, dtype):
-        """R (3, 3)."""
+        """Return R (3, 3)."""
         return exponential(np.array((self.x, self.y, self.z), dtype))
 
     def is_square(self) -> bool:
-        """Whether the sensor's axes are at right angles."""
+        """Return whether the sensor's axes are at right angles."""
         return not (self.xy or self.xz or self.yz)
 
     def axes(self, dtype):
-        """I + S (3, 3)."""
+        """Return I + S (3, 3)."""
         return np.array([[1, self.xy, self.xz], [self.xy, 1, self.yz], [self.xz, self.yz, 1]], dtype)

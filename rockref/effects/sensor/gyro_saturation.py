@@ -56,7 +56,8 @@ class GyroSaturation(Effect):
         return hard + self.softness * (self.range * np.tanh(crv / self.range) - hard)
 
     def undo(self, t, crv):
-        """What hard stops have cut stays cut. What soft ones show beyond their reach is the largest rate they tell."""
+        """Return what stops have left: what hard ones have cut stays cut, what soft ones show beyond their reach is the
+        largest rate they tell."""
         if self.is_absent() or not self.softness:
             return t, crv
         rates = np.linspace(-TOLD, TOLD, PLACES) * self.range
@@ -67,7 +68,8 @@ class GyroSaturation(Effect):
 
     @classmethod
     def seeds_in(cls, records):
-        """The largest rate of all records, if one shows it for longer than a cusp lasts; else none: nothing is cut."""
+        """Return the largest rate of all records, if one shows it for longer than a cusp lasts; else none: nothing is
+        cut."""
         limit = max(float(np.abs(crv).max()) for _, crv in records)
         longest = max(float(np.sum(np.abs(crv) > TOP * limit, axis=0).max() * (t[1] - t[0])) for t, crv in records)
         return ({"range": limit},) if longest >= FLAT else ()

@@ -54,7 +54,7 @@ class RoundedFeet(Effect):
         return block, replace(points, radius=self.radius * self.relative(points))
 
     def relative(self, points: ContactPoints) -> np.ndarray:
-        """(..., n) radius of every point over the geometric mean of the four feet's."""
+        """Return (..., n) radius of every point over the geometric mean of the four feet's."""
         feet, alike = (self.foot1, self.foot2, self.foot3, self.foot4), np.ones_like(points.K_N)
         if all(foot == 1 for foot in feet):
             return alike

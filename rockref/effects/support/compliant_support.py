@@ -66,11 +66,12 @@ class CompliantSupport(Effect):
     pitch: float = 0.0
 
     def bouncing(self) -> Oscillator:
-        """Mass [kg], stiffness [N/m] and damping [N s/m] of the plate in the vertical."""
+        """Return mass [kg], stiffness [N/m] and damping [N s/m] of the plate in the vertical."""
         return oscillator(self.mass, (2 * math.pi * self.frequency) ** 2 * self.mass, self.ratio)
 
     def pitching(self) -> Oscillator | None:
-        """Inertia [kg m2], stiffness [N m/rad] and damping [N m s/rad] about X; None where the plate does not pitch."""
+        """Return inertia [kg m2], stiffness [N m/rad] and damping [N m s/rad] about X; None where the plate does not
+        pitch."""
         if self.is_absent() or self.pitch <= LEAST_PITCH:
             return None
         J = self.mass * GYRATION**2
@@ -106,12 +107,12 @@ class CompliantSupport(Effect):
 
 
 def oscillator(mass: float, k: float, ratio: float) -> Oscillator:
-    """Mass or inertia, stiffness, and the damping of this ratio."""
+    """Return mass or inertia, stiffness, and the damping of this ratio."""
     return mass, k, 2 * ratio * math.sqrt(k * mass)
 
 
 def swing(m, name: str, load, of: Oscillator, h: float) -> None:
-    """One semi-implicit step of `name` and its rate under a load."""
+    """Advance `name` and its rate by one semi-implicit step under a load."""
     mass, k, damping = of
     rate = f"{name}_rate"
     m[rate] = m[rate] + h * (load - k * m[name] - damping * m[rate]) / mass
@@ -119,7 +120,8 @@ def swing(m, name: str, load, of: Oscillator, h: float) -> None:
 
 
 def moment_at_rest(problem) -> np.ndarray:
-    """Moment of the weight about X [N m], on the lowest point at the start, under which the plate is level: (...)."""
+    """Return moment of the weight about X [N m], on the lowest point at the start, under which the plate is level:
+    (...)."""
     s, points = problem.start, problem.points
     u = point_kinematics(s.x, s.Lambda, s.v, s.W, points.P, points.radius).u
     lowest = np.argmin(u[..., 2], axis=-1)
