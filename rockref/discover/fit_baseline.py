@@ -314,7 +314,7 @@ def checked(
     if best is not h:
         said = hypothesis_evidence(fitter, best, calibration().temperature)
     parameters = fitter.parameters(best)
-    width, _ = deviations(fitter, fitter.evaluate(best, F), F, calibration().temperature)
+    width, _ = deviations(fitter, best, F, calibration().temperature)
     gates = [
         stages_agree(parameters, earlier, best.z, width),
         starts_agree(parameters, other.z, best.z, width),
@@ -343,7 +343,7 @@ def other_starts(
         ends.append((other, at_s3))
         ends.sort(key=lambda end: end[0].objective)
         best = ends[0][0]
-        width, _ = deviations(fitter, fitter.evaluate(best, F), F, calibration().temperature)
+        width, _ = deviations(fitter, best, F, calibration().temperature)
         gates = [starts_agree(fitter.parameters(h), end.z, best.z, width) for end, _ in ends[1:]]
         nearest = int(np.argmin([gate.value for gate in gates]))
         if gates[nearest].passed:

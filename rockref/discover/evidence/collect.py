@@ -29,7 +29,6 @@ TRIMMED = 0.10
 
 def hypothesis_evidence(fitter: Fitter, h: FittedModel, temperature: float) -> HypothesisEvidence:
     """Return what a fit at the longest memory says of the fit runs; temperature : of the evidence."""
-    fitter.evaluate(h, F)
     deviation, H = deviations(fitter, h, F, temperature)
     runs = fitter.problem.runs
     parameters = fitter.parameters(h)

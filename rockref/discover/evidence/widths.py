@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from rockref.discover.fit.differences import jacobian
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import weight
 from rockref.discover.fit.stages import Stage
@@ -18,23 +17,20 @@ BLOCK = 0.1
 
 
 def deviations(fitter: Fitter, h: FittedModel, stage: Stage, temperature: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the standard deviation (G,) of each z, and the Gauss-Newton matrix (G, G), at a fit evaluated at a stage.
+    """Return the standard deviation (G,) of each z, and the Gauss-Newton matrix (G, G), at a fit, which is polished.
 
-    The larger of two: the sandwich, and the posterior's at the temperature of the evidence. Along a ridge of strongly
-    coupled numbers the objective is rough, fits end anywhere within some nats, and only the second is wide enough.
+    The larger of two: the sandwich, and the posterior's at the temperature of the evidence.
     """
-    assert h.r is not None
-    parameters = fitter.parameters(h)
-    J = jacobian(fitter.residuals(stage), parameters, h.z, h.r)
-    scores = (J * (weight(h.r) * h.r)).sum(axis=-1)  # (G, R, n)
+    fitter.polish(h, stage, 1)
+    spread = h.spread
+    assert spread is not None
+    scores = (spread.J * (weight(spread.r) * spread.r)).sum(axis=-1)  # (G, R, n)
     G, R, n = scores.shape
     length = max(1, round(BLOCK * fitter.problem.time_scale * fitter.problem.listener.gyro.sample_rate))
     whole = n // length * length
     blocks = scores[:, :, :whole].reshape(G, R * (whole // length), length).sum(axis=-1)
-    flat = J.reshape(G, -1)
-    data = (flat * weight(h.r).ravel()) @ flat.T
-    prior = np.eye(G)
-    inverse = np.linalg.inv(data + prior)
-    sandwich = inverse @ (blocks @ blocks.T + prior) @ inverse
-    tempered = np.linalg.inv(data / temperature + prior)
-    return np.sqrt(np.maximum(np.diag(sandwich), np.diag(tempered))), data + prior
+    inverse = np.linalg.inv(spread.information() + spread.prior())
+    sandwich = inverse @ (blocks @ blocks.T + spread.prior()) @ inverse
+    sandwich = spread.moves @ sandwich @ spread.moves.T
+    variances = np.maximum(np.diag(sandwich), np.diag(spread.covariance(temperature)))
+    return np.sqrt(variances), spread.matrix()

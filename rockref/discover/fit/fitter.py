@@ -5,6 +5,7 @@
 3. Wide central differences give the Jacobian, robust weights the Gauss-Newton matrix.
 4. Six dampings are tried at once, and the best step is taken.
 5. Stages of growing memory lead from a smooth objective to one that tells the most.
+6. At the last one, differences along the directions of the posterior find the bottom of a valley, and its width.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rockref.discover.fit.differences import NARROWER, WIDEST, Residuals, jacobian
+from rockref.discover.fit.directions import SOFTENED, Spread, softened, spread_about
 from rockref.discover.fit.objective import inflation_for, loss, mean_loss, objective, weight
 from rockref.discover.fit.problem import FitProblem
 from rockref.discover.fit.stages import Stage
@@ -35,6 +37,7 @@ class FittedModel:
     """A hypothesis at one z: its effects, innovations r (R, n, 3) of the last stage, objective [nat], mean loss.
 
     loss is that at the true noise, whatever the stage's inflation. start : z at the end of the first stage.
+    H : Gauss-Newton matrix of the last refinement;  spread : the same along directions, of the last `polish`.
     """
 
     effects: tuple[str, ...]
@@ -44,6 +47,7 @@ class FittedModel:
     loss: float = np.inf
     start: np.ndarray | None = field(default=None, repr=False)
     H: np.ndarray | None = field(default=None, repr=False)
+    spread: Spread | None = field(default=None, repr=False)
 
     @property
     def name(self) -> str:
@@ -107,10 +111,15 @@ class Fitter:
         weighted = J * weight(r)
         return weighted @ J.T + np.eye(len(z)), weighted @ r + z
 
-    def step(self, h: FittedModel, stage: Stage, H: np.ndarray, g: np.ndarray) -> float:
-        """Take the best of six damped steps, if one is lower; return what it gained [nat]."""
+    def step(
+        self, h: FittedModel, stage: Stage, H: np.ndarray, g: np.ndarray, moves: np.ndarray | None = None
+    ) -> float:
+        """Take the best of six damped steps, if one is lower; return what it gained [nat].
+
+        moves : (G, G), the change of z along the directions of H and g, if these are not z itself
+        """
         parameters, residuals = self.parameters(h), self.residuals(stage)
-        points = [damped(h.z, H, g, damping, parameters) for damping in DAMPINGS]
+        points = [damped(h.z, H, g, damping, parameters, moves) for damping in DAMPINGS]
         found = residuals.at(parameters, points)
         objectives = [objective(r, z) for r, z in zip(found, points, strict=True)]
         best = int(np.argmin(objectives))
@@ -126,6 +135,25 @@ class Fitter:
         for _ in range(most):
             h.H, g = self.linearise(h, stage)
             if self.step(h, stage, h.H, g) < least_gain:
+                break
+        self.problem.refined(h, stage)
+        return h
+
+    def polish(self, h: FittedModel, stage: Stage, most: int, least_gain: float = LEAST_GAIN) -> FittedModel:
+        """Take at most so many Gauss-Newton steps along the directions of the posterior, and keep its spread.
+
+        h : refined, so that its valley is known.
+        """
+        self.evaluate(h, stage)
+        for _ in range(most):
+            assert h.r is not None
+            known = softened(self.linearise(h, stage)[0] if h.H is None else h.H)
+            covariance = known if h.spread is None else h.spread.covariance(SOFTENED)
+            h.spread = spread = spread_about(self.residuals(stage), self.parameters(h), h.z, h.r, covariance)
+            J = spread.J.reshape(len(h.z), -1)
+            gradient = J @ (weight(h.r) * h.r).ravel() + spread.moves.T @ h.z
+            H = spread.information() + spread.prior()
+            if self.step(h, stage, H, gradient, spread.moves) < least_gain:
                 break
         self.problem.refined(h, stage)
         return h
@@ -181,9 +209,13 @@ class Fitter:
         return loss(h.r).sum(axis=1) / n[:, None]
 
 
-def damped(z: np.ndarray, H: np.ndarray, g: np.ndarray, damping: float, parameters: Sequence[Parameter]) -> np.ndarray:
+def damped(
+    z: np.ndarray, H: np.ndarray, g: np.ndarray, damping: float, parameters: Sequence[Parameter],
+    moves: np.ndarray | None = None,
+) -> np.ndarray:  # fmt: skip
     """Return z after a damped Gauss-Newton step, no component longer than LONGEST, inside its limits."""
     d = -np.linalg.solve(H + damping * np.diag(np.diag(H)), g)
+    d = d if moves is None else moves @ d
     d *= min(1.0, LONGEST / max(float(np.abs(d).max()), 1e-300))
     least, most = np.array([p.least for p in parameters]), np.array([p.most for p in parameters])
     return np.clip(z + d, least, most)

@@ -42,9 +42,9 @@ MARGINS = {"S3": 1.06, "F": 1.02}
 BEAM, ADDED, MOST = 4, 3, 3
 #: Hypotheses within the margin beside which one more effect is tried.
 EQUALS = 2
-#: Finalists, the factor on the best objective up to which one is, and the steps that one may take (decided: what is
-#: further above has no probability; fits end by gaining nothing long before that).
-FINALISTS, CLOSE, CONVERGED = 4, 1.02, 10
+#: Finalists, the factor on the best objective up to which one is, and the steps that one may take by its numbers, then
+#: along its directions (decided: what is further above has no probability; fits end by gaining nothing before that).
+FINALISTS, CLOSE, REFINED, POLISHED = 4, 1.02, 3, 6
 #: Steps at the later stages.
 STEPS = {"S3": 3, "F": 4}
 #: Words for the stages of longer memory.
@@ -240,15 +240,19 @@ class Search:
         for h in finalists[:FINALISTS]:
             self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
             self.problem.say(f"finalist {h.name}")
-            self.fitter.refine(h, F, CONVERGED)
+            self.at_bottom(h)
         best = min(beam, key=penalised)
         for h in finalists[:FINALISTS]:
             if set(h.effects) < set(best.effects):
                 start = best
                 for e in set(best.effects) - set(h.effects):
                     start = self.fitter.without(start, e)
-                beam.append(self.fitter.refine(start, F, CONVERGED))
+                beam.append(self.at_bottom(start))
         return sorted(best_of_each(beam), key=lambda h: h.objective)
+
+    def at_bottom(self, h: FittedModel) -> FittedModel:
+        """Return a hypothesis at the bottom of its valley at the longest memory."""
+        return self.fitter.polish(self.fitter.refine(h, F, REFINED), F, POLISHED)
 
     def remember(self, field: Sequence[FittedModel]) -> None:
         """Keep the best fit of each set of effects at the longest memory."""

@@ -6,18 +6,22 @@ import numpy as np
 import pytest
 
 from rockref.discover.evidence import widths
+from rockref.discover.fit.directions import Spread
 from rockref.discover.fit.fitter import FittedModel
 
 
 @pytest.fixture
-def straight(monkeypatch):
+def straight():
     """A model that is linear in two numbers, with innovations of a given noise."""
     rng = np.random.default_rng(3)
     J = rng.standard_normal((2, 1, 4000, 3))
-    monkeypatch.setattr(widths, "jacobian", lambda residuals, parameters, z, r: J)
     listener = SimpleNamespace(gyro=SimpleNamespace(sample_rate=1000.0))
     problem = SimpleNamespace(time_scale=1.0, listener=listener)
-    fitter = SimpleNamespace(problem=problem, parameters=lambda h: (), residuals=lambda stage: None)
+
+    def polish(h, stage, most):
+        h.spread = Spread(np.eye(2), J, h.r)
+
+    fitter = SimpleNamespace(problem=problem, polish=polish)
 
     def deviations(noise, temperature):
         h = FittedModel((), np.zeros(2), r=noise * rng.standard_normal(J.shape[1:]))

@@ -1,0 +1,77 @@
+"""Differences along the directions of the posterior, in which numbers that trade with each other move together.
+
+Wide differences of single numbers leave the valley: what they see of each number bends, and numbers that undo each
+other's change (a factor that all feet share, and the common damping) no longer cancel. The valley then looks narrower
+than it is, and a fit stops on its slope. Differences along the eigenvectors of the posterior's covariance, as long as
+the valley is wide in each, stay in it, and learn its directions anew each time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockref.discover.fit.differences import Residuals
+from rockref.discover.fit.objective import weight
+from rockref.discover.hypotheses.parameter import Parameter
+
+#: Nats by which the objective is expected to rise at the ends of a difference; decided: the roughness of the objective
+#: at the longest memory is 30 to 100 nats, and a difference must see across it.
+RISE = 144.0
+#: Nats of the likelihood that count as one for the length of a direction, beside the prior, and its longest component
+#: in prior deviations (decided: where the data say little, the prior keeps it short).
+SOFTENED, LONGEST_END = 18.0, 1.5
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How innovations change about a fit: r (R, n, 3) there, J (G, R, n, 3) along G directions.
+
+    moves : (G, G), the change of z that belongs to one unit of each direction, in its columns
+    """
+
+    moves: np.ndarray
+    J: np.ndarray
+    r: np.ndarray
+
+    def information(self) -> np.ndarray:
+        """Return the Gauss-Newton matrix of the data along the directions, (G, G)."""
+        J = self.J.reshape(len(self.J), -1)
+        return (J * weight(self.r).ravel()) @ J.T
+
+    def prior(self) -> np.ndarray:
+        """Return the matrix of the prior along the directions, (G, G)."""
+        return self.moves.T @ self.moves
+
+    def covariance(self, temperature: float) -> np.ndarray:
+        """Return the covariance of z, (G, G), where the likelihood counts 1/temperature."""
+        inverse = np.linalg.inv(self.information() / temperature + self.prior())
+        return self.moves @ inverse @ self.moves.T
+
+    def matrix(self) -> np.ndarray:
+        """Return the Gauss-Newton matrix of the objective in z, with the prior, (G, G)."""
+        back = np.linalg.inv(self.moves)
+        return back.T @ self.information() @ back + np.eye(len(back))
+
+
+def softened(H: np.ndarray) -> np.ndarray:
+    """Return the covariance of z by a Gauss-Newton matrix with its prior, where the likelihood is softened."""
+    one = np.eye(len(H))
+    return np.linalg.inv((H - one) / SOFTENED + one)
+
+
+def spread_about(
+    residuals: Residuals, parameters: Sequence[Parameter], z: np.ndarray, r: np.ndarray, covariance: np.ndarray
+) -> Spread:
+    """Return how innovations change about z (G,), where they are r, along the directions of a softened covariance."""
+    lengths, directions = np.linalg.eigh(covariance)
+    ends = directions * np.sqrt(np.maximum(lengths, 0.0) * 2 * RISE / SOFTENED)
+    ends *= np.minimum(1.0, LONGEST_END / np.abs(ends).max(axis=0))
+    least, most = np.array([p.least for p in parameters]), np.array([p.most for p in parameters])
+    up = [np.clip(z + end, least, most) for end in ends.T]
+    down = [np.clip(z - end, least, most) for end in ends.T]
+    found = residuals.at(parameters, [*up, *down])
+    G = len(z)
+    return Spread((np.array(up) - np.array(down)).T, found[:G] - found[G:], r)

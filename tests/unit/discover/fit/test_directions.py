@@ -1,0 +1,57 @@
+"""Differences along directions, where two numbers undo each other exactly."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from rockref.discover.fit.directions import SOFTENED, softened, spread_about
+
+FREE = SimpleNamespace(least=-np.inf, most=np.inf)
+SAMPLES = 6000
+
+
+class Product:
+    """Innovations that know the product of two factors, exp(z0 + z1), and a third number."""
+
+    def __init__(self):
+        rng = np.random.default_rng(5)
+        self.patterns = rng.choice([-1.0, 1.0], size=(2, 1, SAMPLES, 1))
+        self.noise = 0.1 * rng.standard_normal((1, SAMPLES, 1))
+
+    def at(self, parameters, points):
+        return np.array([
+            (np.exp(z[0] + z[1]) - 1) * self.patterns[0] + z[2] * self.patterns[1] + self.noise for z in points
+        ])  # fmt: skip
+
+
+def found(rounds, z=(0.4, -0.4, 0.0)):
+    """The spread about a point of the ridge, begun with a valley that is far too narrow along it."""
+    product, parameters, z = Product(), (FREE,) * 3, np.array(z)
+    r = product.at(parameters, [z])[0]
+    covariance = softened(np.diag([SAMPLES, SAMPLES, SAMPLES]) + np.eye(3))
+    for _ in range(rounds):
+        spread = spread_about(product, parameters, z, r, covariance)
+        covariance = spread.covariance(SOFTENED)
+    return spread
+
+
+def test_along_a_ridge_the_width_is_that_of_the_prior():
+    covariance = found(3).covariance(1.0)
+    apart = np.array([1.0, -1.0, 0.0])
+    # The data know the sum alone; the difference of two standard normal numbers has the variance 2.
+    assert apart @ covariance @ apart == pytest.approx(2.0, rel=1e-3)
+
+
+def test_across_it_the_width_is_that_of_the_data():
+    covariance = found(3).covariance(1.0)
+    together = np.array([1.0, 1.0, 0.0])
+    # One value tells the sum to one; the robust weight of small innovations is one within 1 %, and the ends of a
+    # difference see the exponential bend by another per cent.
+    assert together @ covariance @ together == pytest.approx(1 / SAMPLES, rel=0.03)
+    assert covariance[2, 2] == pytest.approx(1 / SAMPLES, rel=0.03)
+
+
+def test_the_matrix_is_the_inverse_of_the_covariance():
+    spread = found(1)
+    assert np.allclose(spread.matrix() @ spread.covariance(1.0), np.eye(3), atol=1e-8)
