@@ -195,7 +195,9 @@ class Fitter:
     def without(self, h: FittedModel, effect: str) -> FittedModel:
         """Return the same point without one effect."""
         kept = [p.effect != effect for p in self.parameters(h)]
-        return FittedModel(tuple(e for e in h.effects if e != effect), h.z[kept].copy())
+        H = h.H if h.spread is None else h.spread.matrix()
+        less = None if H is None else H[np.ix_(kept, kept)]
+        return FittedModel(tuple(e for e in h.effects if e != effect), h.z[kept].copy(), H=less)
 
     def with_effect(self, h: FittedModel, effect: str, z: np.ndarray | None = None) -> FittedModel:
         """Return the same point with one more effect, at z (its numbers), or absent."""

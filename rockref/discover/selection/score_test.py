@@ -85,7 +85,8 @@ def proposals(
     for p in test.gains()[: EVALUATED * most]:
         k = fitter.with_effect(h, p.effect)
         k.r, k.objective, k.loss = h.r, h.objective, h.loss
-        fitter.step(k, stage, *test.with_effect(p.effect))
+        k.H, gradient = test.with_effect(p.effect)
+        fitter.step(k, stage, k.H, gradient)
         found.append(k)
     base = len(fitter.problem.parameters())
     for e in test.places:

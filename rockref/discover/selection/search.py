@@ -42,9 +42,9 @@ MARGINS = {"S3": 1.06, "F": 1.02}
 BEAM, ADDED, MOST = 4, 3, 3
 #: Hypotheses within the margin beside which one more effect is tried.
 EQUALS = 2
-#: Finalists, the factor on the best objective up to which one is, and the steps that one may take by its numbers, then
-#: along its directions (decided: what is further above has no probability; fits end by gaining nothing before that).
-FINALISTS, CLOSE, REFINED, POLISHED = 4, 1.02, 3, 6
+#: Finalists, the factor on the best objective up to which one is, and the steps that one may take (decided: what is
+#: further above has no probability; fits end by gaining nothing long before that).
+FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
 #: Steps at the later stages.
 STEPS = {"S3": 3, "F": 4}
 #: Words for the stages of longer memory.
@@ -77,7 +77,7 @@ class Search:
         """Return the best hypothesis and the baseline at F, where none explains the runs."""
         self.problem.progress.begin("without", "following the nearest model", self.best(beam).name)
         kept = [self.best(beam), self.baseline.copy()]
-        return sorted(best_of_each([self.fitter.refine(h, F, 3) for h in kept]), key=lambda h: h.objective)
+        return sorted(best_of_each([self.fitter.polish(h, F, 3) for h in kept]), key=lambda h: h.objective)
 
     def null(self) -> FittedModel:
         """Return the baseline from its nominal numbers at S2, and at S3 where S2 is contradicted."""
@@ -197,15 +197,16 @@ class Search:
         """Fit a beam at a longer memory; let the score test add to the best."""
         self.problem.progress.begin(stage.name, MEMORY[stage.name], self.best(beam).name)
         self.fitter.widen()
+        fit = self.fitter.polish if stage is F else self.fitter.refine
         for h in beam:
-            self.fitter.refine(h, stage, STEPS[stage.name])
+            fit(h, stage, STEPS[stage.name])
         beam = within(beam, BEAM, MARGINS[stage.name])
         best = beam[0]
         if len(best.effects) < MOST:
             self.test = score_test(self.fitter, self.fitter.evaluate(best, stage), stage)
             added = proposals(self.fitter, best, stage, ADDED, self.test)
             for h in added:
-                self.fitter.refine(h, stage, 2)
+                fit(h, stage, 2)
             bar = best.objective * (1 - JOINS[stage.name])
             beam = best_of_each([*beam, *(h for h in added if h.objective < bar)])
             if stage is F:
@@ -222,12 +223,12 @@ class Search:
         for e in best.effects:
             if e in self.problem.carried:
                 continue
-            less = self.fitter.refine(self.fitter.without(best, e), F, 3)
+            less = self.fitter.polish(self.fitter.without(best, e), F, 3)
             found.append(less)
             for h in proposals(self.fitter, self.fitter.evaluate(less.copy(), F), F, 2):
-                found.append(self.fitter.refine(h, F, 2))
+                found.append(self.fitter.polish(h, F, 2))
         if not any(h.effects == self.problem.carried for h in [*beam, *found]):
-            found.append(self.fitter.refine(self.baseline.copy(), F, 3))
+            found.append(self.fitter.polish(self.baseline.copy(), F, 3))
         self.remember([*beam, *found])
         return self.converged(best_of_each([*beam, *found, *self.seen.values()]))
 
@@ -240,19 +241,15 @@ class Search:
         for h in finalists[:FINALISTS]:
             self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
             self.problem.say(f"finalist {h.name}")
-            self.at_bottom(h)
+            self.fitter.polish(h, F, CONVERGED)
         best = min(beam, key=penalised)
         for h in finalists[:FINALISTS]:
             if set(h.effects) < set(best.effects):
                 start = best
                 for e in set(best.effects) - set(h.effects):
                     start = self.fitter.without(start, e)
-                beam.append(self.at_bottom(start))
+                beam.append(self.fitter.polish(start, F, CONVERGED))
         return sorted(best_of_each(beam), key=lambda h: h.objective)
-
-    def at_bottom(self, h: FittedModel) -> FittedModel:
-        """Return a hypothesis at the bottom of its valley at the longest memory."""
-        return self.fitter.polish(self.fitter.refine(h, F, REFINED), F, POLISHED)
 
     def remember(self, field: Sequence[FittedModel]) -> None:
         """Keep the best fit of each set of effects at the longest memory."""
