@@ -58,11 +58,11 @@ def identify(
     from rockref.commands._models import named_models, say_left_out, say_other_points
     from rockref.commands._progress import of_search, stages
     from rockref.commands._results import say_remarks, say_written
-    from rockref.identify.alone import alone_in
-    from rockref.identify.campaign import campaign
     from rockref.identify.from_experiment import answered, question
     from rockref.identify.outcome import files_in
     from rockref.identify.search import Settings
+    from rockref.jobs.campaign import campaign
+    from rockref.jobs.folder_lock import alone_in
     from rockref.model.storage import write_text
     from rockref.report.output import made_folder, usable_folder
 

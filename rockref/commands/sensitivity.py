@@ -47,13 +47,13 @@ def sensitivity(
     from rockref.commands._models import named_models
     from rockref.commands._progress import stages
     from rockref.commands._terminal import console
-    from rockref.identify.sensitivity import STEPS
-    from rockref.identify.sensitivity_study import record, study
     from rockref.model.storage import write_bytes, write_text
     from rockref.report.figures import rendered
     from rockref.report.output import made_folder, usable_folder
     from rockref.report.sensitivity_figures import sensitivity_figures
     from rockref.report.sensitivity_text import print_sensitivity
+    from rockref.studies.sensitivity import STEPS
+    from rockref.studies.sensitivity_study import record, study
 
     (base,) = named_models([model], effect)
     usable_folder(output)

@@ -1,1 +1,1 @@
-"""Cost, evolutionary search, least squares, sensitivities, and the reduction from 54 parameters to 12."""
+"""Identification: genes, cost, evolutionary search, least squares, what the result is sure of."""

@@ -10,7 +10,9 @@ from rockref.api import Model
 from rockref.engines import has_numba
 from rockref.identify.cost import Terms, cost_terms, total
 from rockref.identify.features import Features, features
-from rockref.identify.genes import Space, model_of
+from rockref.identify.four_points import start_of
+from rockref.identify.genes import Space
+from rockref.identify.models import model_of
 from rockref.identify.target import Target
 from rockref.measure.gyroscope import record
 from rockref.model.errors import InputError
@@ -95,8 +97,6 @@ def releases(
 
     The gene theta_0 says how far the stated tilt is off, the same for every target.
     """
-    from rockref.identify.scenarios import start_of
-
     models = [model_of(space, u) for u in chromosomes]
     tilts = [target.tilt + (m.parameters.theta_0 - space.model.parameters.theta_0) for m in models]
     return records(models, target, tilts, step, workers, [start_of(space, u) for u in chromosomes])

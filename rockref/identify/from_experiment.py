@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from rockref.api import Model
-from rockref.identify.campaign import Campaign
 from rockref.identify.genes import Space, space_12, space_54
 from rockref.identify.identifiability import identifiability
 from rockref.identify.identification import ROUNDS, identify
@@ -17,6 +16,7 @@ from rockref.identify.polish import Effort
 from rockref.identify.runs import run_errors
 from rockref.identify.search import Progress, Settings
 from rockref.identify.target import Target, chosen_runs, targets_of
+from rockref.jobs.campaign import Campaign
 from rockref.measure.experiment import load_experiment
 from rockref.measure.notice import Notice
 from rockref.model.errors import InputError

@@ -13,7 +13,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.model.errors import InputError
-from rockref.model.parameters import GENES_12, PROPERTIES, TABLE_3_1, Parameters, from_chromosome_12
+from rockref.model.parameters import GENES_12, PROPERTIES, TABLE_3_1, Parameters
 
 #: Ranges in which the search looks. Decided: a decade for stiffness and damping and a factor of five for friction, each
 #: about what steel on steel can be; heights of feet up to a tenth and a half of a millimetre; the inner points within
@@ -51,7 +51,7 @@ class Gene:
 class Space:
     """The genes of a search and the kind of model that they make.
 
-    kind : "12", "54", or a scenario of `rockref.identify.scenarios`;  model : what the genes do not touch.
+    kind : "12", "54", or a scenario of `rockref.identify.four_points`;  model : what the genes do not touch.
     """
 
     kind: str
@@ -130,31 +130,6 @@ def space_12(model: Model, tilt: float | None = None) -> Space:
 def space_54(model: Model, tilt: float | None = None) -> Space:
     """Return the 54 genes on `model`'s block; the release angle about `tilt` [rad], by default the model's."""
     return Space("54", genes_54(model.parameters.theta_0 if tilt is None else tilt, model.mass), model)
-
-
-def model_of(space: Space, u: np.ndarray) -> Model:
-    """Return the model of a chromosome u (G,) in [0, 1].
-
-    Raises InputError (E-KEY) for a kind that is not known.
-    """
-    values = space.values(u)
-    if space.kind == "12":
-        return space.model.replace(parameters=from_chromosome_12(values))
-    if space.kind == "54":
-        return _model_of_54(space.model, values)
-    from rockref.identify.scenarios import model_of_scenario
-
-    return model_of_scenario(space, values)
-
-
-def _model_of_54(model: Model, values: np.ndarray) -> Model:
-    per_point = values[:48].reshape(8, 6)
-    properties = {k: per_point[:, i].copy() for i, k in enumerate(PROPERTIES)}
-    # Decided: the law wants mu_0 >= mu; a chromosome with less gets mu_0 = mu.
-    properties["mu_0"] = np.maximum(properties["mu_0"], properties["mu"])
-    first, second, third, fourth, diagonal, tilt = map(float, values[48:])
-    parameters = Parameters(delta_long=(first, second, third, fourth), delta_diag=diagonal, theta_0=tilt)
-    return model.replace(parameters=parameters, properties=properties)
 
 
 def chromosome(space: Space, parameters: Parameters) -> np.ndarray:

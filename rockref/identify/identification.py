@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from rockref.identify.campaign import Campaign
 from rockref.identify.candidates import STEP, evaluate, feature_costs
 from rockref.identify.cost import Terms
 from rockref.identify.genes import Space
@@ -18,6 +17,7 @@ from rockref.identify.polish import FLOOR, Effort, Polished, polish
 from rockref.identify.search import Found, Progress, Settings, search
 from rockref.identify.target import Target
 from rockref.identify.unknowns import Unknowns, signal_costs
+from rockref.jobs.campaign import Campaign
 
 #: Rounds of search on the signals where the polish ends above the floor, their generations, and their first spread.
 #: Decided: landings in a wrong order are a tenth of a range away, and forty generations are enough to tell.

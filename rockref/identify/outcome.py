@@ -10,9 +10,9 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.identify.cost import WEIGHTS
-from rockref.identify.genes import model_of
 from rockref.identify.identifiability import Identifiability
 from rockref.identify.identification import Identified, fingerprint
+from rockref.identify.models import model_of
 from rockref.identify.runs import RunError
 from rockref.identify.search import Settings, versions
 from rockref.identify.target import Target

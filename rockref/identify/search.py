@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.identify.campaign import Campaign
+from rockref.jobs.campaign import Campaign
 from rockref.model.errors import InputError
 from rockref.model.storage import write_text
 

@@ -10,7 +10,7 @@ from typing import Any
 from rockref.discover.diagnosis_record import plain
 from rockref.discover.tosses.compare import compare
 from rockref.discover.tosses.diagnose import diagnose
-from rockref.identify.alone import alone_in
+from rockref.jobs.folder_lock import alone_in
 from rockref.measure.tosses import Tosses, load_tosses
 from rockref.model.storage import write_bytes, write_text
 from rockref.report import toss_text

@@ -12,22 +12,16 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.engines import run
-from rockref.identify.alone import alone_in
-from rockref.identify.campaign import Campaign, campaign
 from rockref.identify.candidates import releases
+from rockref.identify.four_points import scenario_space
 from rockref.identify.from_experiment import answered, question
 from rockref.identify.genes import space_12
-from rockref.identify.pieces import Pieces
 from rockref.identify.polish import Effort
-from rockref.identify.reduction import reduction_study
-from rockref.identify.scenarios import REFERENCE, SCENARIOS, scenario_space, try_scenarios
 from rockref.identify.search import Settings, versions
-from rockref.identify.sensitivity import STEPS
-from rockref.identify.sensitivity_study import record as sensitivity_record
-from rockref.identify.sensitivity_study import study
-from rockref.identify.source_facts import LONG, facts
 from rockref.identify.target import twin
-from rockref.identify.twins import EFFORT, SEEDS, twin_experiments
+from rockref.jobs.campaign import Campaign, campaign
+from rockref.jobs.checkpoints import Pieces
+from rockref.jobs.folder_lock import alone_in
 from rockref.measure.experiment import load_experiment
 from rockref.model.errors import InputError
 from rockref.model.housner import housner
@@ -37,6 +31,13 @@ from rockref.report.figures import rendered
 from rockref.report.output import made_folder
 from rockref.report.sensitivity_figures import sensitivity_figures
 from rockref.report.source_page import source_page
+from rockref.studies.reduction import reduction_study
+from rockref.studies.scenarios import REFERENCE, SCENARIOS, try_scenarios
+from rockref.studies.sensitivity import STEPS
+from rockref.studies.sensitivity_study import record as sensitivity_record
+from rockref.studies.sensitivity_study import study
+from rockref.studies.source_facts import LONG, facts
+from rockref.studies.twins import EFFORT, SEEDS, twin_experiments
 
 #: Dots an inch of the pictures in the page, which must stay below two megabytes with all of them; decided.
 PAGE_DPI = 88

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from rockref.identify.predictability import Growth
-from rockref.identify.sensitivity import Family
-from rockref.identify.sensitivity_study import Study
 from rockref.model.channel import DEGREES
 from rockref.report import style
 from rockref.report.figures import mark_impacts, new_figure
+from rockref.studies.predictability import Growth
+from rockref.studies.sensitivity import Family
+from rockref.studies.sensitivity_study import Study
 
 #: The zoom of the source's figures [s]: about the first two main impacts.
 ZOOM = (0.45, 1.40)

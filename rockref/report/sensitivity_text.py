@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rockref.identify.sensitivity_study import AXES
 from rockref.model.parameters import TABLE_3_1
 from rockref.report.page import Table
 from rockref.report.text import print_table
+from rockref.studies.sensitivity_study import AXES
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -20,7 +20,7 @@ FAMILIES = {
 
 
 def print_sensitivity(console: Console, result: dict[str, Any]) -> None:
-    """Print what a study found (`rockref.identify.sensitivity_study.record`)."""
+    """Print what a study found (`rockref.studies.sensitivity_study.record`)."""
     for sentence in sentences(result):
         console.print(sentence, highlight=False, markup=False)
     for table in (horizons_table(result), digits_table(result)):

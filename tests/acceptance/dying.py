@@ -21,10 +21,10 @@ import numpy as np
 
 from rockref import cli
 from rockref.discover import diagnose as engine
-from rockref.identify.campaign import campaign
 from rockref.identify.from_experiment import answered, question
 from rockref.identify.polish import Effort
 from rockref.identify.search import Settings
+from rockref.jobs.campaign import campaign
 from rockref.model.storage import write_text
 from tests.shipped import two_runs
 

@@ -27,7 +27,7 @@ COMMANDS = {
     "add": ("add rolling_resistance EXPERIMENT --model MODEL", "rockref.discover.add_effect.add_effect"),
     "identify": ("identify EXPERIMENT --model MODEL", "rockref.identify.from_experiment.question"),
     "plan": ("plan --model MODEL", "rockref.discover.plan.plan"),
-    "sensitivity": ("sensitivity --model MODEL", "rockref.identify.sensitivity_study.study"),
+    "sensitivity": ("sensitivity --model MODEL", "rockref.studies.sensitivity_study.study"),
     "compare tosses": ("compare TOSSES --model MODEL", "rockref.discover.tosses.compare.compare"),
     "fit tosses": ("fit TOSSES --model MODEL", "rockref.discover.tosses.fitting.fit_tosses"),
     "diagnose tosses": ("diagnose TOSSES --model MODEL", "rockref.discover.tosses.diagnose.diagnose"),

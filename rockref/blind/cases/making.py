@@ -11,7 +11,7 @@ from typing import Any
 
 from rockref.blind.cases.plan import Case, plan
 from rockref.blind.cases.sealing import MANIFEST, digests, seal, write_json
-from rockref.identify.alone import alone_in
+from rockref.jobs.folder_lock import alone_in
 from rockref.model.errors import InputError
 
 #: Truths of single cases while a test is being made; gone when it is sealed.
@@ -97,7 +97,7 @@ def run_all(
     progress: Callable[[float], None] | None = None,
 ) -> list[Any]:
     """Call `function` on every job, each on its own as a worker gets free; results in the order of the jobs."""
-    from rockref.identify.campaign import campaign
+    from rockref.jobs.campaign import campaign
 
     results: list[Any] = [None] * len(jobs)
     if not jobs:

@@ -15,7 +15,7 @@ from rockref.blind.scoring import table
 from rockref.blind.scoring.intervals import reliability
 from rockref.blind.scoring.judging import VERDICT, decided, judge_case
 from rockref.blind.scoring.marks import mark
-from rockref.identify.alone import alone_in
+from rockref.jobs.folder_lock import alone_in
 from rockref.model.errors import InputError
 
 #: Digests of all verdicts, written before the truth is opened.

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from rockref import cli
-from rockref.identify.sensitivity import STEPS
+from rockref.studies.sensitivity import STEPS
 from tests.unit.report import made_up
 
 
@@ -61,7 +61,7 @@ class TestOfAMadeUpStudy:
             return made_up.study()
 
         figures = {"growth": Figure(), "angles": Figure()}
-        monkeypatch.setattr("rockref.identify.sensitivity_study.study", study)
+        monkeypatch.setattr("rockref.studies.sensitivity_study.study", study)
         monkeypatch.setattr("rockref.report.sensitivity_figures.sensitivity_figures", lambda found: figures)
         return calls
 

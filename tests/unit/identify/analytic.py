@@ -53,8 +53,8 @@ def pause(seconds) -> list[float]:
 
 def main() -> None:
     """Search with checkpoints in the folder given, resuming what is there, and print the end in hexadecimal."""
-    from rockref.identify.campaign import campaign
     from rockref.identify.search import Settings, search
+    from rockref.jobs.campaign import campaign
 
     folder, pause = Path(sys.argv[1]), float(sys.argv[2])
     with campaign(1) as work:

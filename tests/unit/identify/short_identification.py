@@ -7,10 +7,10 @@ from pathlib import Path
 
 def main() -> None:
     """Identify with checkpoints in the folder given, resuming what is there."""
-    from rockref.identify.campaign import campaign
     from rockref.identify.from_experiment import answered, question
     from rockref.identify.polish import Effort
     from rockref.identify.search import Settings
+    from rockref.jobs.campaign import campaign
 
     experiment, folder = map(Path, sys.argv[1:3])
     effort = Effort(windows=(), steps=1, moves=0)

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rockref.identify.campaign import campaign
 from rockref.identify.from_experiment import answered, question
 from rockref.identify.polish import Effort
 from rockref.identify.search import Settings
+from rockref.jobs.campaign import campaign
 from rockref.model.errors import InputError
 from tests.shipped import two_runs
 

@@ -6,10 +6,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import rockref
-from rockref.identify.genes import chromosome, model_of, space_12, space_54
-from rockref.identify.scenarios import SCENARIOS, scenario_space, start_of
+from rockref.identify.four_points import scenario_space, start_of
+from rockref.identify.genes import chromosome, space_12, space_54
+from rockref.identify.models import model_of
 from rockref.model.errors import InputError
 from rockref.model.parameters import TABLE_3_1, chromosome_12, chromosome_54
+from rockref.studies.scenarios import SCENARIOS
 
 MODEL = rockref.Model.table_3_1()
 SPACES = [space_12(MODEL), space_54(MODEL), *(scenario_space(d, 0.117) for d in SCENARIOS)]

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rockref.identify.campaign import campaign
 from rockref.identify.search import Settings, search
+from rockref.jobs.campaign import campaign
 from rockref.model.errors import InputError
 from tests.unit.identify import analytic
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from rockref.identify.predictability import Growth
-from rockref.identify.sensitivity import Digits, family
-from rockref.identify.sensitivity_study import Study
+from rockref.studies.predictability import Growth
+from rockref.studies.sensitivity import Digits, family
+from rockref.studies.sensitivity_study import Study
 
 IDENTIFICATION = {
     "search": {

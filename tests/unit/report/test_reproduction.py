@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rockref import Model
-from rockref.identify.scenarios import REFERENCE
 from rockref.report import reproduction
 from rockref.report.reproduction import PARTS, QUICK, _Art, _scenarios, _studies
+from rockref.studies.scenarios import REFERENCE
 
 
 @pytest.mark.parametrize("experiment, left_out", [("folder", set()), (None, {"identification"})])

@@ -6,12 +6,12 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from rockref.identify.sensitivity import Digits
-from rockref.identify.sensitivity_study import record
 from rockref.model.parameters import TABLE_3_1
 from rockref.report.figures import rendered
 from rockref.report.sensitivity_figures import sensitivity_figures
 from rockref.report.sensitivity_text import digits_table, horizons_table, print_sensitivity, sentences
+from rockref.studies.sensitivity import Digits
+from rockref.studies.sensitivity_study import record
 from tests.unit.report import made_up
 
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import pytest
 
 from rockref.blind.cases import generator, making, plan
-from rockref.identify.campaign import Campaign, campaign
+from rockref.jobs.campaign import Campaign, campaign
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def test_results_stand_in_the_order_of_the_jobs_however_they_end(monkeypatch):
             assert isinstance(made, Campaign)
             yield made
 
-    monkeypatch.setattr("rockref.identify.campaign.campaign", threads)
+    monkeypatch.setattr("rockref.jobs.campaign.campaign", threads)
     jobs, shares = [("a", 0.2), ("b", 0.0), ("c", 0.1)], []
     assert making.run_all(job, jobs, 3, None, shares.append) == ["a", "b", "c"]
     assert shares == pytest.approx([1 / 3, 2 / 3, 1.0])

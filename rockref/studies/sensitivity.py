@@ -13,13 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.api import Model
-from rockref.identify.agreement import common_horizon, difference
 from rockref.identify.candidates import OUTPUT_RATE, STEP, rates
-from rockref.identify.predictability import check_impacts
 from rockref.measure.impacts import main_impacts
 from rockref.model.errors import InputError
 from rockref.model.parameters import GENES_12, TABLE_3_1, chromosome_12, from_chromosome_12
 from rockref.model.simulate import check
+from rockref.studies.agreement import common_horizon, difference
+from rockref.studies.predictability import check_impacts
 
 #: Time steps [s]. Fig. 3.5 has three; the excerpt states 1e-5 and 3e-6 s, the finer ones are decided.
 STEPS = (1e-5, 3e-6, 1e-6, 3e-7)

@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rockref.identify import campaign as campaigns
-from rockref.identify.campaign import campaign, split
 from rockref.identify.candidates import feature_costs
 from rockref.identify.genes import space_12
 from rockref.identify.search import Settings, search
+from rockref.jobs import campaign as campaigns
+from rockref.jobs.campaign import campaign, split
 from rockref.model.errors import InputError
 from tests.unit.identify import analytic
 
@@ -110,7 +110,7 @@ def test_items_are_handed_out_as_they_are_done(tmp_path):
 def test_workers_end_when_the_process_that_made_them_is_killed():
     code = (
         "import os, signal\n"
-        "from rockref.identify.campaign import campaign\n"
+        "from rockref.jobs.campaign import campaign\n"
         "from tests.unit.identify import analytic\n"
         "if __name__ == '__main__':\n"
         "    with campaign(2) as work:\n"

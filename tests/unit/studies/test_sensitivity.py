@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from rockref import Model
-from rockref.identify.agreement import difference, horizon
-from rockref.identify.predictability import growth, slope
-from rockref.identify.sensitivity import (
+from rockref.model.errors import InputError
+from rockref.model.parameters import TABLE_3_1
+from rockref.report.sensitivity_text import digits_table, sentences
+from rockref.studies.agreement import difference, horizon
+from rockref.studies.predictability import growth, slope
+from rockref.studies.sensitivity import (
     RELEASE_ERROR,
     family,
     last_digits,
@@ -18,10 +21,7 @@ from rockref.identify.sensitivity import (
     time_steps,
     unit_of_digit,
 )
-from rockref.identify.sensitivity_study import record, study
-from rockref.model.errors import InputError
-from rockref.model.parameters import TABLE_3_1
-from rockref.report.sensitivity_text import digits_table, sentences
+from rockref.studies.sensitivity_study import record, study
 
 
 @pytest.fixture(scope="module")

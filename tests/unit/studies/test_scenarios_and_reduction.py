@@ -5,11 +5,13 @@ import json
 import numpy as np
 import pytest
 
-from rockref.identify.campaign import campaign
-from rockref.identify.genes import model_of, space_54
-from rockref.identify.reduction import groups, reduction_study
-from rockref.identify.scenarios import REFERENCE, SCENARIOS, returns_to_plane, scenario_space, try_scenarios, words
+from rockref.identify.four_points import scenario_space
+from rockref.identify.genes import space_54
+from rockref.identify.models import model_of
 from rockref.identify.search import Found, History, Settings
+from rockref.jobs.campaign import campaign
+from rockref.studies.reduction import groups, reduction_study
+from rockref.studies.scenarios import REFERENCE, SCENARIOS, returns_to_plane, try_scenarios, words
 
 
 @pytest.mark.parametrize("defects", SCENARIOS)

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.identify.campaign import Campaign
 from rockref.identify.candidates import feature_costs
 from rockref.identify.genes import RANGES, Space, space_54
 from rockref.identify.identification import fingerprint
 from rockref.identify.search import Found, Settings, search
 from rockref.identify.target import Target
+from rockref.jobs.campaign import Campaign
 
 #: What the reduction says should be one number, by the names of the 54 genes: pattern of point, property.
 GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.identify.campaign import Campaign, campaign
 from rockref.identify.descent import Descent
 from rockref.identify.genes import chromosome, space_12
 from rockref.identify.identifiability import identifiability
@@ -21,6 +20,7 @@ from rockref.identify.polish import Effort
 from rockref.identify.search import Settings
 from rockref.identify.target import twin
 from rockref.identify.unknowns import Unknowns
+from rockref.jobs.campaign import Campaign, campaign
 from rockref.model.parameters import TABLE_3_1
 
 #: Step of the reference [s]: a tenth of that of the fit; decided: what nature does is nearer to none than to half.

@@ -3,7 +3,7 @@
 import pytest
 
 import rockref
-from rockref.identify.source_facts import LONG, facts
+from rockref.studies.source_facts import LONG, facts
 
 
 def test_facts_of_table_3_1(table_3_1):

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.identify.predictability import Growth, check_impacts, growth
 from rockref.identify.search import versions
-from rockref.identify.sensitivity import (
+from rockref.studies.predictability import Growth, check_impacts, growth
+from rockref.studies.sensitivity import (
     RELEASE_ERROR,
     SHARES,
     STEPS,

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from rockref.identify.pieces import Pieces
+from rockref.jobs.checkpoints import Pieces
 from rockref.model.errors import InputError
 
 

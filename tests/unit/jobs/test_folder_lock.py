@@ -11,7 +11,7 @@ import pytest
 
 from rockref import cli
 from rockref.blind.cases import making, sealing
-from rockref.identify.alone import alone_in
+from rockref.jobs.folder_lock import alone_in
 from rockref.model.errors import InputError
 from tests.shipped import two_runs
 from tests.tosses import write_tosses
@@ -21,7 +21,7 @@ pytest.importorskip("fcntl", reason="this system cannot lock a folder")
 OTHER = """
 import sys, time
 from pathlib import Path
-from rockref.identify.alone import alone_in
+from rockref.jobs.folder_lock import alone_in
 with alone_in(Path(sys.argv[1])):
     print("held", flush=True)
     time.sleep(600)
