@@ -7,12 +7,12 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
-from typer.core import TyperGroup
 
 from rockref import __version__, commands
+from rockref.commands._help import FullHelp
 from rockref.commands._terminal import show_what_can_be_shown
 from rockref.model.errors import Interrupted, RockrefError
 
@@ -21,22 +21,6 @@ KEPT = {
     "blind make": "Finished cases are kept: the same command goes on with the next one.",
     "blind score": "Verdicts that were reached are kept: the same command goes on with the next case.",
 }
-
-
-class FullHelp(TyperGroup):
-    """A group whose help says the whole first sentence of every command."""
-
-    def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Write the list of commands."""
-        shown = [(name, self.get_command(ctx, name)) for name in self.list_commands(ctx)]
-        with formatter.section("Commands"):
-            formatter.write_dl([(name, first_sentence(c.help or "")) for name, c in shown if c and not c.hidden])
-
-
-def first_sentence(text: str) -> str:
-    """Return the first sentence of a help text."""
-    paragraph = " ".join(text.strip().split("\n\n")[0].split())
-    return paragraph.split(". ")[0].rstrip(".") + "."
 
 
 def application() -> typer.Typer:
@@ -102,7 +86,15 @@ def _top(
         bool, typer.Option("--version", help="Print the version and stop.", callback=_print_version, is_eager=True)
     ] = False,
 ) -> None:
-    """Simulate the eight-point rocking block, judge a backend by it, find the effect that it misses.
+    """Simulate a rocking block, judge other simulators of it, and find the physical effect that a model of it lacks.
 
-    `rockref COMMAND --help` shows what a command does, with an example.
+    \b
+    To see it once:
+      rockref demo
+    With records of your own block:
+      rockref new my_block logs/*.csv --mass 54kg --width 100mm --height 688mm
+      rockref compare my_block
+      rockref diagnose my_block --report report
+
+    Each command says at its end what to type next; `rockref COMMAND --help` shows what it does, with an example.
     """

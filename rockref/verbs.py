@@ -35,18 +35,19 @@ def compare(
 ) -> Result:
     """Compare models with the measured runs of an experiment; without models its baseline.
 
-    Models are models, files, ``"table_3_1"`` or ``"four_points"``; `names` are said in their place. Raises InputError,
-    NumericalError.
+    Models are models, files, ``"baseline"``, ``"table_3_1"`` or ``"four_points"``; `names` are said in their place.
+    Raises InputError, NumericalError.
     """
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.discover.compare.sentences import findings
     from rockref.report.figures import whole_run
+    from rockref.report.next_command import BASELINE
     from rockref.report.output import write_report
 
     loaded = _experiment(experiment)
     listed = [models] if isinstance(models, str | Path) or not isinstance(models, Sequence) else list(models)
-    chosen = [_model(one) for one in listed] or [baseline_model(loaded)]
+    chosen = [baseline_model(loaded) if one == BASELINE else _model(one) for one in listed or [BASELINE]]
     names = list(names or _names(listed)) if listed else [f"baseline ({loaded.baseline})"]
     found = run_comparison(loaded, chosen, names, engine=engine)
     said = findings(found)

@@ -65,7 +65,8 @@ def add(
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.discover import add_effect as engine
     from rockref.discover.fit_baseline import known_effects
-    from rockref.report.addition_text import next_after_addition, print_addition
+    from rockref.report.addition_text import print_addition
+    from rockref.report.next_command import after_addition
     from rockref.report.output import made_folder, usable_folder
 
     known_files([effect])
@@ -81,7 +82,7 @@ def add(
     with keeping(fresh, fitted) as store, stages(f"adding {effect}", verbose=verbose) as say:
         found = engine.add_effect(effect, experiment, given, seed, workers, progress=say, store=store)
     say_remarks(found.experiment.notices)
-    words, then = lambda c: print_addition(c, found, full), lambda: next_after_addition(found, experiment, output)
+    words, then = lambda c: print_addition(c, found, full), lambda: after_addition(found, experiment, output, model)
     with kept(store), told(as_json, with_files(found), words, then) as written:
         found.model.save(output)
         written.append(output)

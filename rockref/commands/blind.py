@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from rockref.commands._help import FullHelp
 from rockref.commands._results import folder_name
 
 HELP = """Test the discoverer on sealed hidden effects.
@@ -20,7 +21,7 @@ Example:
 
 def register(app: typer.Typer) -> None:
     """Add ``blind make``, ``blind score`` and ``blind judge`` to `app`."""
-    group = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help=HELP)
+    group = typer.Typer(cls=FullHelp, no_args_is_help=True, rich_markup_mode=None, help=HELP)
     group.command("make")(make)
     group.command("score")(score)
     group.command("judge")(judge)

@@ -19,7 +19,9 @@ def compare(
     model: Annotated[
         list[str] | None,
         typer.Option(
-            "--model", "-m", help="table_3_1, four_points or a model.toml; may be repeated. Default: baseline."
+            "--model",
+            "-m",
+            help="baseline (the default), table_3_1, four_points or a model.toml; may be repeated.",
         ),
     ] = None,
     effect: OwnEffects = None,
@@ -63,10 +65,12 @@ def compare(
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.measure import load_experiment
+    from rockref.report.next_command import BASELINE, after_comparison
     from rockref.report.output import usable_folder, write_report
 
     loaded = load_experiment(experiment)
-    models = named_models(model or (), effect) or [baseline_model(loaded)]
+    files = iter(named_models([text for text in model or () if text != BASELINE], effect))
+    models = [baseline_model(loaded) if text == BASELINE else next(files) for text in model or [BASELINE]]
     names = labels(model) if model else [f"baseline ({loaded.baseline})"]
     folder = usable_folder(report) if report is not None else None
     with stages("simulating the runs") as say:
@@ -77,11 +81,11 @@ def compare(
         typer.echo(in_json(comparison.to_dict() | {"written": [str(path) for path in written]}))
     else:
         from rockref.commands._terminal import console
-        from rockref.report.comparison_text import next_after_comparison, print_comparison
+        from rockref.report.comparison_text import print_comparison
         from rockref.report.text import say_command
 
         print_comparison(console(), comparison, full)
         say_written(written)
-        say_command(console(), next_after_comparison(comparison, experiment))
+        say_command(console(), after_comparison(experiment, model or [BASELINE], models))
     if check and not comparison.holds_to_second_impact():
         raise typer.Exit(1)

@@ -64,15 +64,20 @@ def conform(
         bool | None, typer.Option("--colour/--no-colour", help="By default where a terminal reads.")
     ] = None,
 ) -> None:
-    """Judge a backend by the vectors; name the first wrong rule and its equation.
+    """Judge a simulator of the block (a backend) by test vectors; name the first wrong rule and its equation.
 
-    TARGET is numpy, numba, path/to/file.py:Class, package:Class, the name of an entry point, or one of
-    exe (a program that speaks JSON lines), export and judge (questions and answers as files), answer and serve
-    (a Python backend as file or as program), zoo (the judge judged by planted mistakes), example (a backend to start
-    from: python, c or javascript), physics (engines with a contact law of their own, by mechanics: mujoco, pybullet,
-    ..., or a file). From the first option that is none of those below, words after exe PROGRAM are the program's;
-    after -- all are.
-    Exit code 1 where the backend falls short.
+    TARGET is a backend: numpy, numba, path/to/file.py:Class, package:Class or the name of an entry point; or
+
+    \b
+      exe PROGRAM        a program that reads and writes JSON lines
+      export             write the questions to a file
+      judge FILE         judge the answers in a file
+      answer, serve      let a Python backend answer a file, or serve as a program
+      example LANGUAGE   write a backend to start from: python, c or javascript
+      physics ENGINE     judge an engine with a contact law of its own, by mechanics: mujoco, pybullet, ..., or a file
+      zoo                judge the judge, by planted mistakes
+
+    Options of PROGRAM itself come after --. Exit code 1 where the backend falls short.
 
     \b
     Example:
@@ -160,6 +165,7 @@ def _judge(
     examples: int,
     files: dict[str, Any],
 ) -> None:
+    from rockref.commands._results import say_written
     from rockref.conformance import in_files, in_words
     from rockref.conformance.judge import judge, used_profile
     from rockref.conformance.verdict import as_json as in_json
@@ -176,13 +182,16 @@ def _judge(
             backend.close()
     if show:
         typer.echo("\r" + " " * 40 + "\r", nl=False, err=True)
+    written: list[Path] = []
     for name, make in (("junit", in_files.junit), ("badge", in_files.badge), ("html", in_files.page)):
         if files[name] is not None:
             data = make(found)
             write_bytes(files[name], data if isinstance(data, bytes) else data.encode())
+            written.append(files[name])
     if as_json:
         typer.echo(json.dumps(in_json(found), indent=1))
     else:
+        say_written(written)
         typer.echo(in_words.text(found, sys.stdout.isatty() if colour is None else colour), nl=False, color=True)
     if not found.passed:
         raise typer.Exit(1)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_option
+from rockref.commands._results import folder_name, folder_option
 
 
 def register(app: typer.Typer) -> None:
@@ -15,7 +15,10 @@ def register(app: typer.Typer) -> None:
 
 
 def demo(
-    out: Annotated[Path, folder_option("--out", help="Folder for the page and the figures.")] = Path("demo_out"),
+    output: Annotated[Path, folder_option("--output", "-o", help="Folder for the page and the figures.")] = Path(
+        "demo_out"
+    ),
+    old: Annotated[Path | None, typer.Option("--out", parser=folder_name, hidden=True)] = None,
     data: Annotated[Path | None, typer.Option("--data", help="Folder of the shipped experiments.")] = None,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself, minutes) or numba (compiled).")] = "auto",
 ) -> None:
@@ -27,10 +30,11 @@ def demo(
     \b
     Example:
       rockref demo
-      rockref demo --out somewhere
+      rockref demo --output somewhere
     """
     from rockref.api import Model
     from rockref.commands._progress import stages
+    from rockref.commands._results import say_old_spelling
     from rockref.discover.compare.models import baseline_model
     from rockref.engines import chosen, compiled_ahead
     from rockref.lab.page import write_page
@@ -39,13 +43,16 @@ def demo(
     from rockref.report.output import made_folder
 
     began = time.monotonic()
+    if old is not None:
+        say_old_spelling("demo --out", "demo --output")
+        output = old
     chosen(Model.table_3_1().problem(), engine)  # refused before the folder is made
     folder = find_experiments(data)
-    made_folder(out)
+    made_folder(output)
     with compiled_ahead(), stages("the demonstration") as report:
-        story = tell(folder, out, engine, report)
+        story = tell(folder, output, engine, report)
     experiment = load_experiment(folder / EXPERIMENTS[0])
-    lab = write_page(out / "lab.html", baseline_model(experiment), experiment)
+    lab = write_page(output / "lab.html", baseline_model(experiment), experiment)
     for line in story.lines:
         typer.echo(f"- {line}")
     typer.echo(f"\nThe page: {story.written[0].resolve()}")

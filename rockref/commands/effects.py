@@ -25,7 +25,7 @@ def effects(
     duration: Annotated[float, typer.Option(help="Seconds that the picture shows.")] = 1.5,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of lines.")] = False,
 ) -> None:
-    """List the effects, or show one: equation, source, parameters, what it is mistaken for, and a picture.
+    """List the effects that may be missing, or show one: equation, source, parameters, confounder, and a picture.
 
     \b
     Example:

@@ -1,5 +1,6 @@
 """`rockref fit`: the parameters of the baseline from measured runs."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -68,7 +69,8 @@ def fit(
     from rockref.commands._progress import stages
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.discover import fit_baseline as engine
-    from rockref.report.fit_text import next_after_fit, print_fit
+    from rockref.report.fit_text import print_fit
+    from rockref.report.next_command import after_fit
     from rockref.report.output import usable_folder
 
     usable_files(output)
@@ -86,8 +88,8 @@ def fit(
             experiment, tuple(effect or ()), given, seed, workers, check=gates, progress=say, store=store
         )
     say_remarks(found.experiment.notices)
-    words, then = lambda c: print_fit(c, found, full), lambda: next_after_fit(found, experiment, output)
-    with kept(store), told(as_json, with_files(found), words, then) as written:
+    then = partial(after_fit, found, experiment, output, model, given)
+    with kept(store), told(as_json, with_files(found), lambda c: print_fit(c, found, full), then) as written:
         found.model.save(output)
         written.append(output)
         if folder is not None:

@@ -90,11 +90,12 @@ def identify(
         typer.echo(text)
     else:
         from rockref.commands._terminal import console
-        from rockref.report.identification_text import next_after_identification, print_identification
+        from rockref.report.identification_text import print_identification
+        from rockref.report.next_command import after_identification
         from rockref.report.text import say_command
 
         print_identification(console(), result, full)
         say_written(written)
-        say_command(console(), next_after_identification(result, experiment, files["model"]))
+        say_command(console(), after_identification(result, experiment, files["model"]))
     if not result["least_squares"]["at_noise_floor"]:
         raise typer.Exit(1)

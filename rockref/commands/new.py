@@ -27,14 +27,18 @@ def new(
     logs: Annotated[
         list[Path], typer.Argument(metavar="LOGS...", help="Files of the logger, one a run; or a folder of them.")
     ],
-    mass: Annotated[float | None, typer.Option(parser=typed.mass, metavar="MASS", help="As 54kg.")] = None,
-    width: Annotated[
-        float | None, typer.Option(parser=typed.length, metavar="LENGTH", help="Side of the base, as 100mm.")
+    mass: Annotated[
+        float | None, typer.Option(parser=typed.mass, metavar="MASS", help="Of the block, as 54kg or 800g.")
     ] = None,
-    height: Annotated[float | None, typer.Option(parser=typed.length, metavar="LENGTH", help="As 0.688m.")] = None,
+    width: Annotated[
+        float | None, typer.Option(parser=typed.length, metavar="LENGTH", help="Side of the square base, as 100mm.")
+    ] = None,
+    height: Annotated[
+        float | None, typer.Option(parser=typed.length, metavar="LENGTH", help="Of the block, as 0.688m.")
+    ] = None,
     tilt: Annotated[
         list[str] | None,
-        typer.Option(help="Of all runs, as 6.7deg, or of one, as 05=6.2deg. Default: what the rates add up to."),
+        typer.Option(help="Of all runs, as 6.7deg, or of run 05, as 05=6.2deg. Default: what the rates add up to."),
     ] = None,
     turned: Annotated[
         str | None,
@@ -53,12 +57,20 @@ def new(
         str | None, typer.Option(help="Of the rates: rad_s, deg_s, mrad_s, mdeg_s. Default: as written, or measured.")
     ] = None,
     rate: Annotated[
-        float | None, typer.Option(parser=typed.frequency, metavar="HZ", help="Samples a second, where no time is.")
+        float | None,
+        typer.Option(parser=typed.frequency, metavar="HZ", help="Samples a second, where the files hold no time."),
     ] = None,
     bandwidth: Annotated[
-        float | None, typer.Option(parser=typed.frequency, metavar="HZ", help="Of the gyroscope: its data sheet's.")
+        float | None,
+        typer.Option(
+            parser=typed.frequency,
+            metavar="HZ",
+            help="Of the gyroscope, from its data sheet, as 100Hz. Default: three tenths of the sample rate.",
+        ),
     ] = None,
-    four_points: Annotated[bool, typer.Option("--four-points", help="Start from four points, not eight.")] = False,
+    four_points: Annotated[
+        bool, typer.Option("--four-points", help="The baseline stands on its four corners, not on eight points.")
+    ] = False,
     yes: Annotated[bool, typer.Option("--yes", "-y", help="Take what is proposed; ask nothing.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
 ) -> None:
@@ -79,6 +91,7 @@ def new(
     from rockref.measure.importing import write_campaign
     from rockref.model.storage import write_bytes
     from rockref.report.first_swing import first_swing_png
+    from rockref.report.next_command import after_import
     from rockref.report.text import say_command
 
     asking = not yes and not as_json and sys.stdin.isatty()
@@ -99,7 +112,7 @@ def new(
         typer.echo(in_json(_facts(campaign, folder)))
         return
     say_written([folder / "experiment.toml", folder / PICTURE])
-    say_command(console(), f"rockref compare {folder}")
+    say_command(console(), after_import(folder))
 
 
 def _files(logs: list[Path]) -> list[Path]:

@@ -50,8 +50,9 @@ def plan(
     from rockref.discover.plan import releases_from
     from rockref.engines import compiled_ahead
     from rockref.model.storage import write_text
+    from rockref.report.next_command import after_plan
     from rockref.report.output import made_folder, usable_folder
-    from rockref.report.plan_text import next_after_plan, print_plan
+    from rockref.report.plan_text import print_plan
 
     usable_files(output)
     folder = usable_folder(report) if report is not None else None
@@ -61,7 +62,7 @@ def plan(
     with compiled_ahead(), stages("planning", verbose=verbose) as say:
         found = run_plan(given, planned, candidates or None, seed=seed, workers=workers, progress=say)
     text = in_json(found.to_dict())
-    words, then = lambda console: print_plan(console, found, full), lambda: next_after_plan(found, model)
+    words, then = lambda console: print_plan(console, found, full), lambda: after_plan(found, model, effect or ())
     with told(as_json, lambda written: text, words, then) as written:
         if output is not None:
             write_text(output, text + "\n")

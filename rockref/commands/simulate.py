@@ -29,13 +29,16 @@ def simulate(
         Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
     ] = None,
     duration: Annotated[
-        float | None, typer.Option(help="Seconds from the release [1.5], or of a shaken run [record and 10 s].")
+        float | None,
+        typer.Option(
+            help="Seconds from the release (default: 1.5), or of a shaken run (default: the record and 10 s)."
+        ),
     ] = None,
     step: Annotated[float, typer.Option(help="Time step in seconds; the source's is 1e-5.")] = 1e-5,
-    rate: Annotated[float, typer.Option(help="Rows a second.")] = 2000.0,
+    rate: Annotated[float, typer.Option(help="Rows of the table a second.")] = 2000.0,
     engine: Annotated[str, typer.Option(help="auto, numpy (the law itself) or numba (compiled).")] = "auto",
     effect: Annotated[
-        list[str] | None, typer.Option("--effect", help="Add an effect: id:key=value,key=value. May be repeated.")
+        list[str] | None, typer.Option("--effect", "-e", help="Add an effect: id:key=value,key=value. May be repeated.")
     ] = None,
     base: Annotated[
         list[str] | None,

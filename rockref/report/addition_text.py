@@ -75,8 +75,3 @@ def history_table(a: Addition) -> Table:
         name = " + ".join(entry["effects"]) or "baseline"
         rows.append([name, *(tables.number(entry.get(f"{use}_deg_s"), 4) for use in ("fit", "holdout"))])
     return Table("History of the model", ("effects", "fit (deg/s)", "held-out (deg/s)"), rows)
-
-
-def next_after_addition(a: Addition, experiment: object, model: object) -> str:
-    """Return the command to type next."""
-    return f"rockref compare {experiment} --model table_3_1 --model {model}"

@@ -87,8 +87,3 @@ def share_missed(c: Comparison, model: int, use: str) -> float:
         error += float((difference[there] ** 2).sum())
         size += float((run.crv[mask][there] ** 2).sum())
     return math.sqrt(error / size) if size > 0 else float("nan")
-
-
-def next_after_comparison(c: Comparison, experiment: object) -> str:
-    """Return the command to type next."""
-    return f"rockref diagnose {experiment} --report report"

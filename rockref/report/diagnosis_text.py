@@ -135,13 +135,6 @@ def error_lines(d: dict[str, Any]) -> list[str]:
     return [f"Error in deg/s, where noise alone makes {e['noise_floor']:.3f}: {'; '.join(found)}."] if found else []
 
 
-def next_after_diagnosis(d: dict[str, Any], experiment: object) -> str:
-    """Return the command to type next."""
-    if d["effects"]:
-        return f"rockref add {experiment} {d['effects'][0]}"
-    return f"rockref diagnose {experiment} --report report"
-
-
 def careful(d: dict[str, Any]) -> list[str]:
     """What the gates say that the fit did not pass; that of the bounds stands with the sizes, where there are any."""
     missed = {

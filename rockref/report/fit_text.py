@@ -116,10 +116,3 @@ def print_fit(console: Console, found: BaselineFit, full: bool = False) -> None:
     for line in rest:
         say(console, line)
     say(console, last, "bold")
-
-
-def next_after_fit(found: BaselineFit, experiment: object, model: object) -> str:
-    """Return the command to type next."""
-    if found.outcome == "effect_missing":
-        return f"rockref diagnose {experiment}"
-    return f"rockref compare {experiment} --model {model}"

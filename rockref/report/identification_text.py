@@ -67,13 +67,6 @@ def parameter_lines(result: dict[str, Any]) -> list[str]:
     return lines + ([f"  and {left} more, with --full"] if left > 0 else [])
 
 
-def next_after_identification(result: dict[str, Any], experiment: object, model: object) -> str:
-    """Return the command to type next."""
-    if result["least_squares"]["at_noise_floor"]:
-        return f"rockref compare {experiment} --model {model}"
-    return f"rockref diagnose {experiment}"
-
-
 def parameters_table(result: dict[str, Any]) -> Table:
     """Values with errors, beside Table 3.1."""
     squares, rows = result["least_squares"], []

@@ -83,12 +83,6 @@ def confusion_lines(p: Plan) -> list[str]:
     return [f"Not told apart: {', '.join(f'{a} and {b}' for a, b, _ in pairs[:PAIRS])}{more}."]
 
 
-def next_after_plan(p: Plan, model: str) -> str:
-    """Return the command to type next: the same plan with the run that helps most."""
-    runs = ",".join(map(str, [*p.outlook.runs, p.further[0]["run"]]))
-    return f"rockref plan{'' if model == 'table_3_1' else f' --model {model}'} --runs {runs}"
-
-
 def limits_table(p: Plan) -> Table:
     """Smallest amplitude that would be seen, effect by effect, with repeats and with varied releases."""
     rows = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import TYPE_CHECKING, Any
 
 from rockref.report.page import Table
@@ -28,8 +29,14 @@ def say_command(console: Console, command: str, lead: str = "Next: ") -> None:
     if not console.is_terminal or len(lead + command) <= room:
         console.print(lead + command, markup=False, highlight=False, soft_wrap=True)
         return
-    lines = broken(command, room - 4)
-    told = [lead.rstrip(), *(f"  {line.strip()} \\" for line in lines[:-1]), f"  {lines[-1].strip()}"]
+    words = [word if word == "&&" else shlex.quote(word) for word in shlex.split(command)]
+    lines = [words[0]]
+    for word in words[1:]:
+        if len(lines[-1]) + 1 + len(word) <= room - 4:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(word)
+    told = [lead.rstrip(), *(f"  {line} \\" for line in lines[:-1]), f"  {lines[-1]}"]
     for line in told:
         console.print(line, markup=False, highlight=False, no_wrap=True, overflow="ignore", crop=False)
 
