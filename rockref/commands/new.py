@@ -191,35 +191,46 @@ def _runs(text: str | None) -> tuple[str, ...] | None:
 
 
 def _found(paths: list[Path], choices: "Choices") -> "Campaign":
+    from rockref.commands._progress import progress
     from rockref.measure.importing import import_logs
 
-    return import_logs(paths, choices)
+    with progress("reading the logs") as ahead:
+        return import_logs(paths, choices, ahead)
 
 
 def _tell(campaign: "Campaign") -> None:
     """Print what was found, the runs, and the first swing of the first run."""
     import math
 
+    from rockref.commands._terminal import console
     from rockref.measure.importing.units import SPOKEN
     from rockref.report.first_swing import swing_in_text
+    from rockref.report.page import Table
+    from rockref.report.text import print_table, say
 
-    first = campaign.runs[0]
+    out, first = console(), campaign.runs[0]
     unit = SPOKEN.get(campaign.unit, campaign.unit)
-    typer.echo(
-        f"{len(campaign.runs)} runs: {first.logger}; {first.layout}; {unit}; {campaign.rate:.6g} samples a second"
-    )
-    typer.echo(f"axes  {campaign.axes_words} ({campaign.axes.reason})")
+    say(out, f"{len(campaign.runs)} runs: {first.logger}; {first.layout}; {unit}; {campaign.rate:.6g} samples a second")
+    say(out, f"axes: {campaign.axes_words} ({campaign.axes.reason})")
     noise, step = math.degrees(campaign.noise), math.degrees(campaign.resolution)
     steps = f"steps of {step:.3g} deg/s" if step else "no steps"
-    typer.echo(f"gyro  noise {noise:.3g} deg/s, {steps}, bandwidth {campaign.bandwidth:.4g} Hz")
-    typer.echo("run  log                       stood   tilt    side    use")
-    for run in campaign.runs:
-        name, side = Path(run.source).name[:24], "turned" if run.turned else "as is"
-        tilt = f"{math.degrees(run.tilt):.2f}°"
-        typer.echo(f"{run.id:4} {name:24}  {run.standing:4.1f} s  {tilt:6}  {side:6}  {run.use}")
-    typer.echo(f"the first swing of run {first.id} (rate about X):")
-    for line in swing_in_text(first):
-        typer.echo("  " + line)
+    say(out, f"gyroscope: noise {noise:.3g} deg/s, {steps}, bandwidth {campaign.bandwidth:.4g} Hz")
+    rows = [
+        [
+            run.id,
+            Path(run.source).name,
+            f"{run.standing:.1f} s",
+            f"{math.degrees(run.tilt):.2f}°",
+            "turned" if run.turned else "as is",
+            run.use,
+        ]
+        for run in campaign.runs
+    ]
+    print_table(out, Table("", ("run", "log", "at rest", "tilt", "side", "use"), rows, prose=True))
+    say(out, f"First swing of run {first.id}, rate about X:")
+    room = max(16, min(64, out.width - 2 - len(" +000 deg/s")))
+    for line in swing_in_text(first, room):
+        out.print("  " + line, markup=False, highlight=False, no_wrap=True, overflow="ignore", crop=False)
 
 
 def _asked(campaign: "Campaign", paths: list[Path]) -> "Campaign":
@@ -253,8 +264,8 @@ def _listed(campaign: "Campaign", what: str) -> str:
 
 
 def _up(campaign: "Campaign") -> str:
-    axis = "xyz"[campaign.axes.places[2]]
-    return f"Does the chip's {axis} axis point up?"
+    axis, turn = campaign.axes.places[2], campaign.axes.signs[2]
+    return f"Does the chip's {'-' if turn < 0 else ''}{'xyz'[axis]} axis point up?"
 
 
 def _facts(campaign: "Campaign", folder: Path) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import shlex
 import re
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
@@ -173,16 +174,14 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
     if not folder.is_dir():
         cure = "Name a folder that holds experiment.toml and the tables of the runs."
         if folder.is_file() and folder.suffix in LOGS:
-            cure = (
-                f"Make a folder of it and the other logs: rockref new my_block {shown(str(folder.parent / '*'), 200)}."
-            )
+            cure = f"Make an experiment of it and the other logs: {_new(folder.parent)}"
         raise InputError("E-FOLDER", shown(str(folder), 200), "is not a folder", cure)
     source = folder / "experiment.toml"
     if not source.is_file() and any(folder.glob("tosses.csv*")):
         cure = "Use it with compare, diagnose, fit, add or reproduce cube."
         raise InputError("E-KIND", shown(str(folder), 200), "holds tosses; this is not for tosses", cure)
     if not source.is_file() and any(path.suffix in LOGS for path in folder.iterdir()):
-        cure = f"Make one: rockref new my_block {folder} --mass 54kg --width 100mm --height 688mm."
+        cure = f"Make an experiment of them: {_new(folder)}"
         raise InputError("E-FILE", str(source), "is not there, and the folder holds logs", cure)
     document, sha256 = read_toml(source)
     experiment = replace(_head(document, folder, str(source)), toml_sha256=sha256)
@@ -199,6 +198,13 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
     faults, found = sensor_faults(experiment, loaded) if experiment.gyro is not None else ([], [])
     notices.extend(found)
     return replace(experiment, runs=loaded, notices=tuple(notices), sensor_faults=tuple(faults))
+
+
+def _new(logs: Path) -> str:
+    """Return the command that makes an experiment of a folder of logs, with a block to be replaced by one's own."""
+    return shlex.join(
+        ["rockref", "new", "my_block", str(logs), "--mass", "54kg", "--width", "100mm", "--height", "688mm"]
+    )
 
 
 def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:

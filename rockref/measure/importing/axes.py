@@ -76,10 +76,10 @@ def _height(motions: Sequence[Motion], x: int) -> tuple[int, int, str, bool]:
         z = max(others, key=lambda axis: abs(pull[axis]))
         y = next(axis for axis in others if axis != z)
         if abs(pull[y]) <= 0.5 * abs(pull[z]):
-            return z, 1 if pull[z] > 0 else -1, "gravity in the accelerometer", True
+            return z, 1 if pull[z] > 0 else -1, "Z along gravity in the accelerometer", True
     rough = np.median([_roughness(m) for m in motions], axis=0)
     z = max(others, key=lambda axis: rough[axis])
-    return z, 1, "the height clatters most", False
+    return z, 1, "Z is the axis that clatters most", False
 
 
 def _gravity(motion: Motion) -> np.ndarray | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -22,8 +22,9 @@ from rockref.model.errors import InputError
 
 # decided: tilts within one standing wire's uncertainty are meant to be the same one: 1 mm in 0.67 m.
 SAME_TILT = 1.5e-3
-# The scale of a gyroscope on a chip is good to 3 % (InvenSense PS-MPU-6000A-00, sensitivity scale factor tolerance),
-# and so is a tilt that its rates add up to. decided: 1 mm of wire, which is 0.0014 rad.
+# The scale of a gyroscope on a chip is good to 3 % at 25 degrees Celsius (InvenSense PS-MPU-6000A-00, revision 3.4,
+# section 6.1, sensitivity scale factor tolerance), and so is a tilt that its rates add up to. decided: 1 mm of wire,
+# which is 0.0014 rad.
 SCALE_ERROR, WIRE = 0.03, 1.4e-3
 # decided: two stated and measured tilts that differ by a twentieth are two tilts.
 TILT_AGREES = 0.05
@@ -109,7 +110,9 @@ class Campaign:
     notices: tuple[Notice, ...]
 
 
-def import_logs(paths: Sequence[Path], choices: Choices) -> Campaign:
+def import_logs(
+    paths: Sequence[Path], choices: Choices, progress: Callable[[float], None] | None = None
+) -> Campaign:
     """Return the experiment that the logs at `paths` show, in that order: runs 01, 02, ...
 
     1. Read each log: delimiter, decimal mark, header, channels, clock.
@@ -118,7 +121,8 @@ def import_logs(paths: Sequence[Path], choices: Choices) -> Campaign:
     4. Sum the rates to the tilt of each release; runs that swing the other way are turned.
     5. Hold out one run in four; measure noise and resolution while the block stands.
 
-    Raises InputError: those of the steps, E-FILE without any log.
+    `progress` is called with the share of the logs that are read. Raises InputError: those of the steps, E-FILE without
+    any log.
     """
     if not paths:
         raise InputError("E-FILE", "the logs", "none is named", "Name the files of the logger.")
@@ -127,6 +131,8 @@ def import_logs(paths: Sequence[Path], choices: Choices) -> Campaign:
         log = read_log(path)
         one = recording(log, find_channels(log, choices.columns), choices.rate)
         motions.append(find_motion(one, choices.width, choices.height))
+        if progress is not None:
+            progress(len(motions) / len(paths))
     ids = [f"{number:02d}" for number in range(1, len(paths) + 1)]
     stated = _stated_turns(ids, paths, choices)
     axes = stated_axes(choices.axes) if choices.axes else find_axes(motions, stated)
@@ -307,8 +313,9 @@ def _remarks(runs: Sequence[ImportedRun], motions: Sequence[Motion], axes: Axes,
             what = f"a tilt of {run.tilt:.4g} rad is stated, and the rates add up to {run.measured:.4g} rad"
             notices.append(Notice("W-TILT-OFF", run.source, what, "Check the tilt, its unit, and that of the rates."))
     if not axes.up_known:
-        what = "no accelerometer says which end of the chip's axis is up"
-        cure = f"Where it points down, add --axes={','.join(other_way_up(axes))}."
+        up = axes.spoken("xyz").split("Z = ")[1]
+        what = f"no accelerometer says which way is up; taken is that {up} of the chip points up"
+        cure = f"If it points down, add --axes={','.join(other_way_up(axes))}."
         notices.append(Notice("W-UP", "the axes", what, cure))
     if math.cos(axes.askew) < ALONE:
         what = f"the rocking axis lies {math.degrees(axes.askew):.0f} degrees from the chip's axis"

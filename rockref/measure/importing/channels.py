@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from rockref.measure.importing.layout import Log
@@ -113,7 +113,8 @@ def _of_preset(preset: Preset, names: list[str], log: Log) -> Channels | None:
 def _by_name(log: Log, names: list[str]) -> Channels:
     """Return the channels that their names tell: a gyroscope's x, y, z, and a time."""
     times = [i for i, name in enumerate(names) if _TIME.search(name) and _axis(name) is None]
-    gyro = _triple(names, _GYRO, log)
+    # In another language than English the unit alone says that a column is a rate.
+    gyro = _triple(names, _GYRO.search, log) or _triple(names, RATE_NAMES.unit_in, log)
     if gyro is None:
         cure = "Name time and rates, as --columns t,gx,gy,gz: by the header's words or by their places."
         what = f"no three rates are found among {shown(', '.join(log.names), 120)}"
@@ -123,15 +124,22 @@ def _by_name(log: Log, names: list[str]) -> Channels:
     tick = TIME_NAMES.unit_in(names[time]) if time is not None else None
     ticks = () if tick is None else (TIME_NAMES.units[tick],)
     return Channels(
-        "columns by name", time, gyro, _triple(names, _ACCELERATION, log, False), unit, ticks, _chip(log, gyro)
+        "columns by name", time, gyro, _triple(names, _ACCELERATION.search, log, False), unit, ticks, _chip(log, gyro)
     )
 
 
-def _triple(names: list[str], kind: re.Pattern[str], log: Log, strict: bool = True) -> Three | None:
+def _triple(names: list[str], is_kind: Callable[[str], object], log: Log, strict: bool = True) -> Three | None:
+    """Return the columns of one kind that end with x, y and z, or None where one is missing."""
+    return _three_of(names, is_kind, _axis, log, strict) or _three_of(names, is_kind, _axis_inside, log, strict)
+
+
+def _three_of(
+    names: list[str], is_kind: Callable[[str], object], axis_of: Callable[[str], str | None], log: Log, strict: bool
+) -> Three | None:
     places: dict[str, int] = {}
     for i, name in enumerate(names):
-        axis = _axis(name)
-        if axis is None or not kind.search(name) or _NOT_RATES.search(name):
+        axis = axis_of(name)
+        if axis is None or not is_kind(name) or _NOT_RATES.search(name):
             continue
         if axis in places:
             if not strict:
@@ -147,6 +155,12 @@ def _axis(name: str) -> str | None:
     """Return the axis that a name ends with, its unit left out: x, y or z."""
     bare = re.sub(r"[(\[/].*", "", RATE_NAMES.without_unit(name)).strip(" _-.")
     return bare[-1] if bare and bare[-1] in _AXES else None
+
+
+def _axis_inside(name: str) -> str | None:
+    """Return the axis that stands before a unit or another word, as in acc_x_m_s2: x, y or z."""
+    found = re.findall(r"(?:^|[ _\-.a-z])([xyz])(?=[ _\-.]|$)", name)
+    return found[-1] if found else None
 
 
 def _stated(log: Log, columns: Sequence[str]) -> Channels:

@@ -64,7 +64,7 @@ def test_axes_tilts_and_sides_of_each_layout(imported, layout):
 
 def test_where_nothing_says_which_end_is_up_the_other_one_is_named_ready_to_type(imported):
     (notice,) = [n for n in imported["semicolons"].notices if n.code == "W-UP"]
-    assert notice.cure == "Where it points down, add --axes=-y,z,-x."
+    assert notice.cure == "If it points down, add --axes=-y,z,-x."
 
 
 @pytest.mark.parametrize("layout", foreign.LAYOUTS)

@@ -85,3 +85,18 @@ def test_garbled_rows_are_counted(tmp_path):
     log = read_log(path)
     one = recording(log, find_channels(log))
     assert len(one.t) == 29 and [n.code for n in one.notices] == ["W-ROWS-LOST"]
+
+
+def test_a_unit_says_that_columns_are_rates_in_any_language(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text(text(";", ",", header="Zeit/ms;Drehrate x/(mrad/s);Drehrate y/(mrad/s);Drehrate z/(mrad/s)"))
+    found = find_channels(read_log(path))
+    assert (found.time, found.rates, found.rate_unit, found.ticks) == (0, (1, 2, 3), "mrad_s", (1e-3,))
+
+
+def test_an_axis_may_stand_before_the_unit(tmp_path):
+    path = tmp_path / "log.csv"
+    rows = "\n".join(",".join(f"{v:g}" for v in (*row, 0.1, 0.2, 9.8)) for row in ROWS)
+    path.write_text(f"t_us,gyro_x_dps,gyro_y_dps,gyro_z_dps,acc_x_m_s2,acc_y_m_s2,acc_z_m_s2\n{rows}\n")
+    found = find_channels(read_log(path))
+    assert (found.rates, found.accelerations) == ((1, 2, 3), (4, 5, 6))
