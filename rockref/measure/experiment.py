@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import math
-import shlex
 import re
+import shlex
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path

@@ -110,9 +110,7 @@ class Campaign:
     notices: tuple[Notice, ...]
 
 
-def import_logs(
-    paths: Sequence[Path], choices: Choices, progress: Callable[[float], None] | None = None
-) -> Campaign:
+def import_logs(paths: Sequence[Path], choices: Choices, progress: Callable[[float], None] | None = None) -> Campaign:
     """Return the experiment that the logs at `paths` show, in that order: runs 01, 02, ...
 
     1. Read each log: delimiter, decimal mark, header, channels, clock.
