@@ -221,7 +221,8 @@ RETIRED = {
 
 
 def test_no_word_of_a_private_language():
-    pattern = re.compile(rf"\b({'|'.join(RETIRED)})\b", re.IGNORECASE)
+    """In text as in names: `not_begun` holds one."""
+    pattern = re.compile(rf"(?<![^\W_])({'|'.join(RETIRED)})(?![^\W_])", re.IGNORECASE)
     pages = [*(ROOT / "docs").rglob("*.md"), *ROOT.glob("*.md"), *(ROOT / "rockref").rglob("*.py")]
     found = [
         f"{path.relative_to(ROOT)}: {word.group()} (write: {RETIRED[word.group().lower()]})"
@@ -229,3 +230,28 @@ def test_no_word_of_a_private_language():
         for word in pattern.finditer(path.read_text(encoding="utf-8"))
     ]
     assert found == []
+
+
+#: What a docstring of a function does not begin with: it says first what the function does.
+NO_VERBS = re.compile(
+    r"(The|An?|What|Whether|One|All|How|Which|Every|Each|Where|When|By|As|This|It|They|If) |[(`a-z\[]"
+)
+WITH_VERBS = ("model", "effects", "jobs", "identify", "studies", "blind/cases", "blind/scoring", "lab")
+
+
+def test_docstrings_of_functions_begin_with_a_verb():
+    found = []
+    for path in (path for room in WITH_VERBS for path in (ROOT / "rockref" / room).rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef) and NO_VERBS.match(ast.get_docstring(node) or "Return"):
+                found.append(f"{path.relative_to(ROOT)}:{node.lineno} {node.name}")
+    assert found == []
+
+
+#: Pages that a script writes, and lists that are searched, not read.
+LISTS = {"api", "commands", "effects_gallery", "errors", "performance", "physics_engines", "review", "zoo"}
+
+
+def test_no_page_is_longer_than_a_reader_follows():
+    pages = [p for p in (ROOT / "docs").rglob("*.md") if "_build" not in p.parts and p.stem not in LISTS]
+    assert not {str(p.relative_to(ROOT)): count_lines(p) for p in [*pages, ROOT / "README.md"] if count_lines(p) > 150}
