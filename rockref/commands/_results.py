@@ -35,6 +35,15 @@ ExperimentFolder = Annotated[
 ]
 
 
+def only_for(what: str, **given: bool) -> None:
+    """Refuse options that were given and mean something for others only (E-ARGUMENT): they would change nothing."""
+    from rockref.model.errors import InputError
+
+    for name, is_given in given.items():
+        if is_given:
+            raise InputError("E-ARGUMENT", f"--{name}", f"means something for {what} only", "Leave it out.")
+
+
 def usable_files(*paths: Path | None) -> None:
     """Refuse files that could not be written at the end of long work, before it, or would be written over each other.
 

@@ -19,15 +19,6 @@ def usable(report: Path | None) -> Path | None:
     return None if report is None else usable_folder(report)
 
 
-def of_releases_only(**given: bool) -> None:
-    """Refuse the options that mean nothing for tosses and were given (E-ARGUMENT): they would change nothing."""
-    from rockref.model.errors import InputError
-
-    for name, is_given in given.items():
-        if is_given:
-            raise InputError("E-ARGUMENT", f"--{name}", "means nothing for a folder of tosses", "Leave it out.")
-
-
 def read(path: Path) -> "Tosses":
     """The tosses of a folder; what the reader remarked on is said."""
     from rockref.measure.tosses import load_tosses

@@ -7,7 +7,7 @@ import typer
 
 from rockref.commands._keeping import Fresh
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_option
+from rockref.commands._results import ExperimentFolder, folder_option, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -55,9 +55,9 @@ def add(
         experiment, effect = Path(effect), str(experiment)
         say_old_spelling("add EFFECT EXPERIMENT", "add EXPERIMENT EFFECT")
     if is_toss_folder(experiment):
-        from rockref.commands._tosses import add_to_model_of_tosses, of_releases_only
+        from rockref.commands._tosses import add_to_model_of_tosses
 
-        of_releases_only(seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
+        only_for("releases", seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
     from rockref.commands._keeping import keeping, kept
     from rockref.commands._models import carried_by, check_step, known_files, named_models, say_idle

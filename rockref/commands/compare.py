@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_option, in_json
+from rockref.commands._results import ExperimentFolder, folder_option, in_json, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -36,6 +36,8 @@ def compare(
         ),
     ] = False,
     full: Annotated[bool, typer.Option("--full", help="All tables and sentences, not only the answer.")] = False,
+    runs: Annotated[int | None, typer.Option(min=1, help="Of tests on a shake table: runs of each; 20.")] = None,
+    step: Annotated[float | None, typer.Option(help="Of tests on a shake table: time step in seconds; 1e-5.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
 ) -> None:
     """Show how far models are from measured runs, from when on, and with which feet on the plate.
@@ -46,18 +48,29 @@ def compare(
     Of a folder of tosses: errors of position and rotation over the frames, where they grow, and what needs no contact
     model; with --model, --report and --json.
 
+    Of tests on a shake table (kind = "shaken"): scores of predicted probabilities, held out by motion, beside the
+    ceiling that repeats set, and distributions of maxima; with --model, --runs, --step, --report and --json.
+
     \b
     Example:
       rockref compare data/experiments/mystery-01
       rockref compare data/experiments/mystery-01 --model table_3_1 --model mine.toml --report report
       rockref compare data/experiments/mystery-01 --json > comparison.json
+      rockref compare my_table --model table_3_1 --runs 20 --report report
     """
     from rockref.measure.tosses import is_toss_folder
+    from rockref.shake.experiment import is_shaken_folder
 
+    if is_shaken_folder(experiment):
+        from rockref.commands._shaken import compare_shaken
+
+        only_for("releases", engine=engine != "auto", check=check, full=full)
+        return compare_shaken(experiment, model, effect, report, runs, step, as_json)
+    only_for("tests on a shake table", runs=runs is not None, step=step is not None)
     if is_toss_folder(experiment):
-        from rockref.commands._tosses import compare_tosses, of_releases_only
+        from rockref.commands._tosses import compare_tosses
 
-        of_releases_only(engine=engine != "auto", check=check, full=full)
+        only_for("releases", engine=engine != "auto", check=check, full=full)
         return compare_tosses(experiment, model, effect, report, as_json)
     from rockref.commands._models import labels, named_models
     from rockref.commands._progress import stages

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._keeping import Fresh
-from rockref.commands._results import ExperimentFolder, folder_option
+from rockref.commands._results import ExperimentFolder, folder_option, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -58,9 +58,9 @@ def diagnose(
     from rockref.measure.tosses import is_toss_folder
 
     if is_toss_folder(experiment):
-        from rockref.commands._tosses import diagnose_tosses, of_releases_only
+        from rockref.commands._tosses import diagnose_tosses
 
-        of_releases_only(seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
+        only_for("releases", seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
     from rockref.commands._keeping import keeping, kept
     from rockref.commands._models import check_step, models_and_others, say_idle

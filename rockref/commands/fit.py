@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._keeping import Fresh
-from rockref.commands._results import ExperimentFolder, folder_option
+from rockref.commands._results import ExperimentFolder, folder_option, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -53,9 +53,10 @@ def fit(
     from rockref.measure.tosses import is_toss_folder
 
     if is_toss_folder(experiment):
-        from rockref.commands._tosses import fit_to_tosses, of_releases_only
+        from rockref.commands._tosses import fit_to_tosses
 
-        of_releases_only(
+        only_for(
+            "releases",
             seed=seed != 0,
             workers=workers is not None,
             report=report is not None,

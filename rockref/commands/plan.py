@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_option
+from rockref.commands._results import folder_option, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -22,6 +22,10 @@ def plan(
         list[str] | None,
         typer.Option("--effect", "-e", help="Candidate, id or file.py:Class; may be repeated. Default: the catalogue."),
     ] = None,
+    outcomes: Annotated[
+        str | None, typer.Option("--outcomes", help="Two probabilities of falling that tests are to tell: 0.5,0.6.")
+    ] = None,
+    tests: Annotated[int | None, typer.Option(min=1, help="With --outcomes: tests a side that there can be.")] = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
     report: Annotated[
         Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
@@ -35,6 +39,7 @@ def plan(
     """Foretell, by simulation, which effects a planned campaign could detect and which it would confuse.
 
     Says which further run would help most, and what as many repeats of one release would give against varied ones.
+    With --outcomes: how many tests on a shake table tell two probabilities of falling apart, and nothing else.
     Exit code 0, or 2 if the input cannot be used.
 
     \b
@@ -42,7 +47,14 @@ def plan(
       rockref plan
       rockref plan --runs 0.117x5 --effect rolling_resistance --effect viscous_friction
       rockref plan --model model.toml --runs 0.117,0.1,0.117t --json > plan.json
+      rockref plan --outcomes 0.5,0.6 --tests 226
     """
+    if outcomes is not None:
+        from rockref.commands._shaken import plan_outcomes
+
+        only_for("releases", report=report is not None, output=output is not None, effect=bool(effect), full=full)
+        return plan_outcomes(outcomes, tests, as_json)
+    only_for("--outcomes", tests=tests is not None)
     from rockref.commands._models import models_and_others, say_idle
     from rockref.commands._progress import stages
     from rockref.commands._results import in_json, told, usable_files

@@ -17,7 +17,19 @@ from rockref.measure.checklist import checked
 from rockref.measure.columns import DEGREE, POSE, RATES
 from rockref.measure.copies import note_copies
 from rockref.measure.datasheet import completed
-from rockref.measure.keys import BLOCK, FIT, GYRO, HOLDOUT, PRIOR, RELEASE, USES, check_complete, run_fields, top_fields
+from rockref.measure.keys import (
+    BLOCK,
+    FIT,
+    GYRO,
+    HOLDOUT,
+    PRIOR,
+    RELEASE,
+    SHAKEN,
+    USES,
+    check_complete,
+    run_fields,
+    top_fields,
+)
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import shown
 from rockref.measure.schema import read_fields, read_toml
@@ -184,6 +196,9 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
         cure = f"Make an experiment of them: {_new(folder)}"
         raise InputError("E-FILE", str(source), "is not there, and the folder holds logs", cure)
     document, sha256 = read_toml(source)
+    if document.get("kind") == SHAKEN:
+        cure = "Use it with rockref compare."
+        raise InputError("E-KIND", str(source), "holds tests on a shake table; this is not for them", cure)
     experiment = replace(_head(document, folder, str(source)), toml_sha256=sha256)
     runs = _listed_runs(document["run"], experiment, str(source))
     notices = _density(experiment, str(source)) + _tilt(experiment, str(source))

@@ -12,6 +12,8 @@ from rockref.model.errors import InputError
 FIT, HOLDOUT = "fit", "holdout"
 USES = (FIT, HOLDOUT)
 KINDS = ("release", "toss")
+#: Kind of a folder of tests on a shake table, which `rockref.shake.experiment` reads.
+SHAKEN = "shaken"
 BASELINES = ("eight_points", "four_points")
 
 _LENGTH = {"m": 1.0, "mm": 1e-3}

@@ -21,6 +21,7 @@ from rockref.model.problem import Block, ContactPoints, Problem
 from rockref.model.standing import standing_posture
 from rockref.shake import extremes
 from rockref.shake.extremes import COLUMNS, Extremes
+from rockref.shake.motion_size import motion_size
 
 #: Time after the record that a run may take to fall or to come to rest [s]. Decided: a rocking block of a metre has
 #: spent its energy in ten.
@@ -112,8 +113,8 @@ class Ensemble:
         own, base = self.drawn(k), problem.base
         assert base is not None
         feet = {f"foot_{i + 1}_m": float(height) for i, height in enumerate(own["feet"])}
-        peak = float(np.max(np.hypot(base.a[:, 0], base.a[:, 1])))
-        drawn = {"run": k, "record": base.name, "factor": own["factor"], "pga_m_s2": peak}
+        pga, pgv = motion_size(base)
+        drawn = {"run": k, "record": base.name, "factor": own["factor"], "pga_m_s2": pga, "pgv_m_s": pgv}
         drawn |= {"heading_rad": own["heading"], **feet, "friction_factor": own["friction"]}
         return drawn | dict(zip(COLUMNS, astuple(found), strict=True))
 
@@ -192,3 +193,8 @@ def run_ensemble(
                 done(k, own)
         rows += own
     return rows
+
+
+def shares_that_fell(rows: Sequence[dict[str, Any]], pairs: int) -> np.ndarray:
+    """Return the share (pairs,) of runs that fell, by pair of motion and factor; rows take the pairs in turn."""
+    return np.array([row["fell"] for row in rows], float).reshape(-1, pairs).mean(axis=0)

@@ -18,7 +18,7 @@ from rockref.model.errors import InputError
 from rockref.model.storage import read_bytes, write_bytes, write_text
 from rockref.shake.ensemble import BLOCK, Ensemble
 
-SCHEMA = "rockref-ensemble/1"
+SCHEMA = "rockref-ensemble/2"
 #: No part, and no description, is larger [bytes]. Decided: a row has less than a kilobyte.
 LARGEST = 64 * 2**20
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.model.problem import ContactPoints
-from rockref.shake.ensemble import Draws, Ensemble, run_ensemble
+from rockref.shake.ensemble import Draws, Ensemble, run_ensemble, shares_that_fell
 from rockref.shake.granite import CROSSOVER, GraniteBlocks
 
 # decided: the weight sinks the feet by half a millimetre; stiffer feet ask for shorter steps.
@@ -77,5 +77,4 @@ def fall_shares(
     model = granite_model(data.block(block), reach)
     ensemble = Ensemble(model, motions, (1.0,), DRAWS, step=STEP, after=AFTER, seed=seed)
     rows = run_ensemble(ensemble, len(motions) * rounds, workers, done=lambda k, _: say(f"block {k + 1} of runs"))
-    # Runs take the motions in turn.
-    return np.array([row["fell"] for row in rows], float).reshape(rounds, len(motions)).mean(axis=0)
+    return shares_that_fell(rows, len(motions))

@@ -85,6 +85,15 @@ class Repeats:
     low: float
     high: float
 
+    def floors(self) -> dict[str, float]:
+        """Return what Brier score and log loss [nat] no prediction of such tests expects to fall below.
+
+        Pairs differ with 2 p (1 - p) = 1 - c. The Brier score of p itself is p (1 - p), and its log loss is at least
+        4 ln 2 times that, whatever p is; both are linear in p (1 - p), so they hold for any mixture of tests.
+        """
+        half = 0.5 * (1.0 - self.agree / self.pairs)
+        return {"least_brier": half, "least_log_loss": 4.0 * math.log(2.0) * half}
+
 
 def repeats(motion: Any, size: Any, fell: Any, width: float = 0.05) -> Repeats:
     """Return the ceiling that repeats set: pairs of one motion whose sizes differ by less than a share `width`.

@@ -1,0 +1,72 @@
+"""What `compare` and `plan` do with outcomes on a shake table."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import typer
+
+from rockref.commands._results import in_json, say_remarks, say_written
+
+
+def compare_shaken(
+    path: Path, model: Sequence[str] | None, effects: Sequence[str] | None, report: Path | None, runs: int | None,
+    step: float | None, as_json: bool,
+) -> None:  # fmt: skip
+    """Print predictions beside tests on a shake table, and write the page where it is wanted."""
+    from rockref.commands._models import labels, named_models
+    from rockref.commands._progress import stages
+    from rockref.commands._terminal import console
+    from rockref.report.output import made_folder, usable_folder
+    from rockref.report.shaken_text import print_shaken
+    from rockref.report.text import say_command
+    from rockref.shake.comparison import RUNS, compare_shaken
+    from rockref.shake.experiment import load_shaken
+
+    folder = None if report is None else usable_folder(report)
+    loaded = load_shaken(path)
+    models = named_models(model or (), effects)
+    names = labels(list(model)) if model else []
+    with stages("shaking", verbose=False) as say:
+        found = compare_shaken(loaded, models, names, runs=runs or RUNS, step=step or 1e-5, say=say)
+    record, written = found.to_dict(), []
+    if folder is not None:
+        from rockref.report.shaken_page import write_shaken
+
+        written.append(write_shaken(found, made_folder(folder)))
+    say_remarks(loaded.notices)
+    if as_json:
+        typer.echo(in_json(record | {"written": [str(p) for p in written]}))
+        return
+    print_shaken(console(), record)
+    say_written(written)
+    if not model and loaded.motions is not None:
+        say_command(console(), f"rockref compare {path} --model table_3_1 --report report")
+
+
+def plan_outcomes(shares: str, tests: int | None, as_json: bool) -> None:
+    """Print how many tests tell two probabilities of falling apart, and what so many tests would tell."""
+    from rockref.commands._shaking import numbers
+    from rockref.model.errors import InputError
+    from rockref.shake.statistics.bands import dkw_half_width
+    from rockref.shake.statistics.campaign import least_difference, rough_sample_size, sample_size
+
+    given = numbers(shares, "--outcomes")
+    if len(given) != 2:
+        raise InputError("E-TYPE", "--outcomes", f"is {shares!r}", "Give two probabilities: --outcomes 0.5,0.6.")
+    a, b = given
+    n, rough = sample_size(a, b), rough_sample_size(a, b - a)
+    count = tests or n
+    seen, band = least_difference(a, count), dkw_half_width(count)
+    record = {
+        "probabilities": [a, b], "power": 0.8, "confidence": 0.95, "tests_a_side": n, "rule_of_thumb": rough,
+        "tests": count, "least_difference": seen, "dkw_half_width": band,
+    }  # fmt: skip
+    if as_json:
+        typer.echo(in_json(record))
+        return
+    typer.echo(f"{count} tests a side see a difference of {seen:.3f} beside {a:g}, and know a whole distribution")
+    typer.echo(f"function of maxima to {band:.3f} on either side (DKW, 95 %).")
+    typer.echo("Tests of one motion depend on one another: where they agree wholly, count motions in place of tests.")
+    typer.echo(
+        f"{n} independent tests a side tell {a:g} from {b:g} with 80 % power at 95 % ({rough} by 16 p(1 - p)/d2)."
+    )
