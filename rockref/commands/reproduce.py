@@ -6,13 +6,14 @@ A study is a name in `STUDIES` and a function that makes it in a folder; to add 
 import json
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_name
+from rockref.commands._results import folder_name, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -35,12 +36,17 @@ def reproduce(
         list[str] | None,
         typer.Option("--only", help="A part of the study source, as twins, on a page of its own; may be repeated."),
     ] = None,
+    signals: Annotated[
+        int | None, typer.Option(min=20, help="Of the study earthquake, in all; by default 2000.")
+    ] = None,
+    step: Annotated[float | None, typer.Option(help="Of the study earthquake: time step in seconds; 2e-5.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> None:
     """Make every figure and table of a published study again, beside what it states, on one page.
 
     Studies: source (the eight-point model: response, sensitivity, identification, twins, the models that failed);
-    cube (measured tosses of a cube, from --data or the folder that ROCKREF_CUBE_TOSSES names).
+    cube (measured tosses of a cube, from --data or the folder that ROCKREF_CUBE_TOSSES names); earthquake (the
+    calibrated block beside its symmetric twin under artificial signals).
     What is done is kept in the folder: interrupted at any moment, the same command goes on. `source` takes a quarter of
     an hour on two cores with the compiled engine.
 
@@ -51,6 +57,7 @@ def reproduce(
       rockref reproduce source somewhere --quick
       rockref reproduce reproduced --only twins
       rockref reproduce cube explained --data tosses
+      rockref reproduce earthquake shaken --signals 500
     """
     from rockref.commands._progress import stages
     from rockref.model.errors import InputError
@@ -60,9 +67,11 @@ def reproduce(
         raise InputError("E-KEY", "FOLDER", "is missing", f"rockref reproduce {what} FOLDER")
     if name not in STUDIES:
         raise InputError("E-KEY", "STUDY", f"is {name!r}", f"Use one of {', '.join(STUDIES)}.")
+    if name != "earthquake":
+        only_for("the study earthquake", signals=signals is not None, step=step is not None)
     started = time.monotonic()
     with stages(f"reproduce {name}", verbose=not as_json) as say:
-        page = STUDIES[name](into, data, workers, quick, say, only or ())
+        page = STUDIES[name](Request(into, data, workers, quick, say, tuple(only or ()), signals, step))
     seconds, computed = time.monotonic() - started, processor_seconds()
     if as_json:
         record = {"study": name, "page": str(page), "seconds": seconds, "processor_seconds": computed}
@@ -76,39 +85,56 @@ def processor_seconds() -> float:
     return sum(os.times()[:4])
 
 
-def source(
-    folder: Path, data: Path | None, workers: int | None, quick: bool, say: Callable[[str], None], only: Sequence[str]
-) -> Path:
+@dataclass(frozen=True)
+class Request:
+    """What a study is asked for: folder, input, workers, whether once through is enough, whom to tell, options."""
+
+    folder: Path
+    data: Path | None
+    workers: int | None
+    quick: bool
+    say: Callable[[str], None]
+    only: tuple[str, ...] = ()
+    signals: int | None = None
+    step: float | None = None
+
+
+def source(asked: Request) -> Path:
     """The eight-point model's own studies; `data` is the experiment that is identified (default: the control)."""
     from rockref.model.errors import InputError
     from rockref.report.demo import find_experiments
     from rockref.report.reproduction import QUICK, Budget
     from rockref.report.reproduction import reproduce as make
 
-    experiment = data
+    experiment = asked.data
     if experiment is None:
         try:
             experiment = find_experiments(None) / "mystery-08"
         except InputError:
-            say("no shipped experiments here: the identification is left out (name one with --data)")
-    return make(folder, experiment, QUICK if quick else Budget(), workers, say, only)
+            asked.say("no shipped experiments here: the identification is left out (name one with --data)")
+    return make(asked.folder, experiment, QUICK if asked.quick else Budget(), asked.workers, asked.say, asked.only)
 
 
-def cube(
-    folder: Path, data: Path | None, workers: int | None, quick: bool, say: Callable[[str], None], only: Sequence[str]
-) -> Path:
+def cube(asked: Request) -> Path:
     """Measured tosses of a cube; `data` is their folder (default: what ROCKREF_CUBE_TOSSES names)."""
     from rockref.model.errors import InputError
     from rockref.report.cube_story import reproduce_cube
 
-    if only:
-        raise InputError("E-KEY", "--only", f"is {', '.join(only)}", "Leave it out: the study cube is made as a whole.")
+    if asked.only:
+        raise InputError(
+            "E-KEY", "--only", f"is {', '.join(asked.only)}", "Leave it out: the study cube is made as a whole."
+        )
 
-    return reproduce_cube(folder, data, quick, say)
+    return reproduce_cube(asked.folder, asked.data, asked.quick, asked.say)
 
 
-#: Each study by name: called with (folder, data, workers, quick, say, only), gives the path of its page.
-STUDIES: dict[str, Callable[[Path, Path | None, int | None, bool, Callable[[str], None], Sequence[str]], Path]] = {
-    "source": source,
-    "cube": cube,
-}
+def earthquake(asked: Request) -> Path:
+    """The calibrated block and its symmetric twin under artificial bidirectional signals at ten levels."""
+    from rockref.report.earthquake_page import reproduce_earthquake
+
+    only_for("other studies", only=bool(asked.only), data=asked.data is not None)
+    return reproduce_earthquake(asked.folder, asked.signals, asked.step, asked.quick, asked.workers, asked.say)
+
+
+#: Each study by name: called with what is asked for, gives the path of its page.
+STUDIES: dict[str, Callable[[Request], Path]] = {"source": source, "cube": cube, "earthquake": earthquake}

@@ -23,9 +23,9 @@ def studies(monkeypatch):
     called = []
 
     def made(name):
-        def make(folder, data, workers, quick, say, only):
-            called.append((name, folder, workers, quick))
-            return folder / "p"
+        def make(asked):
+            called.append((name, asked.folder, asked.workers, asked.quick))
+            return asked.folder / "p"
 
         return make
 
@@ -55,6 +55,24 @@ def test_a_part_that_is_not_there_is_unusable_input(capsys, tmp_path, monkeypatc
     monkeypatch.chdir(tmp_path)
     code, _, err = run(capsys, "reproduce", *words)
     assert code == 2 and "--only" in err and not list(tmp_path.iterdir())
+
+
+def test_the_earthquake_goes_once_through_on_a_page(capsys, tmp_path, monkeypatch):
+    pytest.importorskip("numba")
+    from rockref.shake import defects
+
+    monkeypatch.setattr(defects, "LEVELS", (0.5, 30.0))
+    for name, value in (("RISE", 0.1), ("STRONG", 0.5), ("LENGTH", 0.7), ("AFTER", 0.6)):
+        monkeypatch.setattr(defects, name, value)
+    code, _, _ = run(capsys, "reproduce", "earthquake", tmp_path / "r", "--signals", 20, "--step", 4e-5, "--workers", 1)
+    page = (tmp_path / "r/index.html").read_text(encoding="utf-8")
+    record = json.loads((tmp_path / "r/earthquake.json").read_text())
+    assert code == 0 and "The authors state" in page
+    assert [level["signals"] for level in record["levels"]] == [10, 10]
+    # A third of the acceleration that lifts the block, and twenty times it.
+    assert record["levels"][0]["rocked"] == [0, 0] and record["levels"][1]["fell"] == [10, 10]
+    assert record["only_calibrated_fell"] == record["only_symmetric_fell"] == 0
+    assert run(capsys, "reproduce", "cube", tmp_path / "c", "--signals", 20)[0] == 2
 
 
 def test_a_part_alone_has_a_page_of_its_own(capsys, tmp_path):
