@@ -22,7 +22,7 @@ MODULES: tuple[str, ...] = (
     "blind",
     "lab",
     "conform",
-    "import_contactnets",
+    "imports",
     "reproduce",
     "version_info",
 )

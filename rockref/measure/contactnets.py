@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import io
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +43,7 @@ def import_contactnets(source: Path, folder: Path) -> tuple[int, int]:
         E-FOLDER, where there are no such files; E-FILE, E-SHAPE, for one that is no toss; E-WRITE, for a folder that
         holds files of others: a ``README.md`` that is there stays as it is.
     """
-    own_folder(folder)
+    own_folder(folder, README.splitlines()[0], lambda name: name == TABLES[0])
     where = source / INSIDE if (source / INSIDE).is_dir() else source
     paths = sorted((p for p in where.glob("*.pt") if p.stem.isdigit()), key=lambda p: int(p.stem))
     if not paths:
@@ -67,15 +68,18 @@ def import_contactnets(source: Path, folder: Path) -> tuple[int, int]:
     return len(tables), copies
 
 
-def own_folder(folder: Path) -> None:
-    """Refuse a folder that is none, or has files that are not those of an import. Raises InputError E-WRITE."""
+def own_folder(folder: Path, head: str, is_own: Callable[[str], bool]) -> None:
+    """Refuse a folder that is none, or has files that are not those of an import. Raises InputError E-WRITE.
+
+    head : first line of the import's ``README.md``;  is_own : whether a name is that of another of its files
+    """
     if not folder.exists():
         return
     others = [] if folder.is_dir() else [folder.name]
     if folder.is_dir():
-        others = sorted(p.name for p in folder.iterdir() if p.name not in (TABLES[0], "README.md"))
+        others = sorted(p.name for p in folder.iterdir() if p.name != "README.md" and not is_own(p.name))
         readme = folder / "README.md"
-        if readme.is_file() and not readme.read_bytes().startswith(README.splitlines()[0].encode()):
+        if readme.is_file() and not readme.read_bytes().startswith(head.encode()):
             others.append("README.md")
     if others:
         raise InputError(

@@ -29,4 +29,4 @@ def test_recordings_and_copies_are_counted(capsys, calls):
 def test_another_kind_is_refused_with_what_there_is(capsys, calls):
     code, out, err = run(capsys, "contactnet", "clone", "-o", "tosses")
     assert (code, out, calls) == (2, "", [])
-    assert "'contactnet'" in err and "Use contactnets. [E-CHOICE]" in " ".join(err.split())
+    assert "'contactnet'" in err and "Use contactnets or planardrops. [E-CHOICE]" in " ".join(err.split())
