@@ -11,7 +11,7 @@ from collections import Counter
 import numpy as np
 
 from rockref.shake.granite import CROSSOVER, FELL, load_granite, record_sizes, sessions, sizes
-from rockref.shake.granite_plane import STEP, falls, probabilities
+from rockref.shake.granite_plane import PHYSICAL, STEP, WIDENED, falls, probabilities
 from rockref.shake.granite_space import fall_shares
 from rockref.shake.statistics.held_out import held_out_choice, held_out_regression
 from rockref.shake.statistics.resampling import mean_over_motions, paired_difference
@@ -24,12 +24,13 @@ def main() -> None:
     parser.add_argument(
         "--crossover", type=float, nargs="*", default=[0.0, CROSSOVER], help="Hz; 0: accelerometer alone"
     )
+    parser.add_argument("--widened", action="store_true", help="the range that was widened while looking at outcomes")
     parser.add_argument("--step", type=float, default=STEP, help="s, of the integration")
     parser.add_argument("--reach", type=float, nargs="*", default=[], help="of the feet in three dimensions")
     parser.add_argument("--rounds", type=int, default=4, help="runs of each test in three dimensions")
     parser.add_argument("--blocks", type=int, nargs="+", default=[1, 2])
     given = parser.parse_args()
-    data = load_granite()
+    data, of = load_granite(), WIDENED if given.widened else PHYSICAL
     tests = data.clean()
     for block in given.blocks:
         name = FELL[block - 1]
@@ -42,9 +43,9 @@ def main() -> None:
             ),
         }
         for crossover in given.crossover:
-            fell = falls(data, tests.test, block, crossover, given.step, say=lambda text: print(text, flush=True))
+            fell = falls(data, tests.test, block, crossover, given.step, of, say=lambda text: print(text, flush=True))
             for title, session in (("one session", None), ("two sessions", sessions(tests))):
-                p, numbers = probabilities(fell, session)
+                p, numbers = probabilities(fell, session, of)
                 title = f"plane blocks, {crossover:g} Hz, {title}"
                 found[title], chosen = held_out_choice(p, y, motion)
                 for k, times in Counter(chosen.tolist()).most_common(3):
