@@ -25,10 +25,14 @@ def shake(
     heading: Annotated[float, typer.Option(min=0, help="Placing: turn to either side, uniform, in degrees.")] = 0.0,
     feet: Annotated[float, typer.Option(min=0, help="Heights of the feet: standard deviation in metres.")] = 0.0,
     friction: Annotated[float, typer.Option(min=0, help="Friction: standard deviation of its logarithm.")] = 0.0,
-    step: Annotated[float, typer.Option(help="Time step in seconds.")] = 1e-5,
+    step: Annotated[str, typer.Option(help="Time step in seconds, or several, separated by commas.")] = "1e-5",
     after: Annotated[float, typer.Option(min=0, help="Seconds after the record, unless a block rests before.")] = 10.0,
     seed: Annotated[int, typer.Option(min=0, help="Seed of all draws.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; all cores by default.")] = None,
+    dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler instead (extra `distributed`).")] = None,
+    report: Annotated[
+        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
+    ] = None,
     effect: Annotated[
         list[str] | None, typer.Option("--effect", help="Add an effect: id:key=value,key=value. May be repeated.")
     ] = None,
@@ -38,70 +42,87 @@ def shake(
 
     Every run stands still at first, takes a record and a factor in turn, and what is drawn anew: placing, feet,
     friction. The same seed gives the same table, whatever the workers and the interruptions. A row a run: whether it
-    fell, largest tilt, slide and twist, first uplift, impacts, what is left at the end.
+    fell, largest tilt, slide and twist, first uplift, impacts, what is left at the end. The page of --report has
+    fragility, maps of what fell, and distributions.
 
     \b
     Example:
       rockref shake table_3_1 record.csv --runs 200 --scale 0.5,1,2 --heading 180 --feet 5e-5 -o shaken
       rockref shake model.toml a.AT2+b.AT2 c.AT2+d.AT2 --runs 1000 --friction 0.1 -o shaken --workers 2
+      rockref shake table_3_1 record.csv --runs 200 --step 1e-5,2e-5 -o shaken --report report
     """
     from rockref.commands._models import known_files, named_model, of_file, with_effects
     from rockref.commands._progress import progress
     from rockref.commands._results import in_json
     from rockref.commands._shaking import motion, numbers
+    from rockref.identify.campaign import campaign
     from rockref.model.errors import Interrupted
+    from rockref.report.output import made_folder, usable_folder
     from rockref.shake.ensemble import BLOCK, Draws, Ensemble, run_ensemble
     from rockref.shake.ensemble_store import EnsembleFolder
 
     known_files(effect)
+    page = None if report is None else usable_folder(report)
     chosen = with_effects(named_model(model), effect or [])
     motions = tuple(motion(record, rotate=rotate) for record in records)
     factors = tuple(numbers(scale, "--scale"))
-    ensemble = Ensemble(chosen, motions, factors, Draws(heading, feet, friction), step, after, seed)
+    steps = tuple(numbers(step, "--step"))
+    ensemble = Ensemble(chosen, motions, factors, Draws(heading, feet, friction), steps, after, seed)
     folder, last = EnsembleFolder(output, ensemble), max(1, -(-runs // BLOCK))
     try:
-        with progress("shaking") as ahead, of_file(model):
+        # Threads of this process share the compiled loop; a cluster has an executor of its own.
+        with campaign(1, dask) as work, progress("shaking") as ahead, of_file(model):
 
             def keep(block: int, rows: list) -> None:
                 folder.keep(block, rows)
                 if ahead is not None:
                     ahead((block + 1) / last)
 
-            rows = run_ensemble(ensemble, runs, workers, keep, folder.known)
+            rows = run_ensemble(ensemble, runs, workers, keep, folder.known, work.executor)
     except KeyboardInterrupt:
         raise Interrupted(f"interrupted. What is done is kept in {output}: the same command goes on.") from None
     files = folder.write_table(rows)
+    if page is not None:
+        from rockref.report.ensemble_page import write_ensemble
+
+        files.append(write_ensemble(rows, chosen, made_folder(page)))
     facts = summary(rows)
     if as_json:
         typer.echo(in_json({"runs": runs, "levels": facts, "files": [str(path) for path in files]}))
         return
-    typer.echo(f"{'factor':>8} {'PGA (m/s2)':>11} {'runs':>6} {'fell':>6}  {'share, 95 %':>14}  median tilt (deg)")
-    for row in facts:
-        share = f"{row['low']:.3f} to {row['high']:.3f}"
-        typer.echo(
-            f"{row['factor']:8g} {row['pga_m_s2']:11.3f} {row['runs']:6d} {row['fell']:6d}  {share:>14}  "
-            f"{row['median_tilt_deg']:.4f}"
-        )
+    print_levels(facts)
     for path in files:
         typer.echo(f"wrote {path}: {len(rows)} runs")
 
 
+def print_levels(facts: list[dict]) -> None:
+    """Print a line for each factor and step."""
+    head = f"{'factor':>8} {'step (s)':>9} {'PGA (m/s2)':>11} {'runs':>6} {'fell':>6}  {'share, 95 %':>14}"
+    typer.echo(f"{head}  median tilt (deg)")
+    for row in facts:
+        share = f"{row['low']:.3f} to {row['high']:.3f}"
+        typer.echo(
+            f"{row['factor']:8g} {row['step_s']:9g} {row['pga_m_s2']:11.3f} {row['runs']:6d} {row['fell']:6d}  "
+            f"{share:>14}  {row['median_tilt_deg']:.4f}"
+        )
+
+
 def summary(rows: list[dict]) -> list[dict]:
-    """Return, by factor on the records, how many runs fell, the share's Wilson interval, and the median tilt."""
+    """Return, by factor and step, how many runs fell, the share's Wilson interval, and the median tilt."""
     import math
     from statistics import mean, median
 
     from rockref.shake.statistics.bands import wilson_interval
 
     found = []
-    for factor in sorted({row["factor"] for row in rows}):
-        own = [row for row in rows if row["factor"] == factor]
+    for factor, step in sorted({(row["factor"], row["step_s"]) for row in rows}):
+        own = [row for row in rows if (row["factor"], row["step_s"]) == (factor, step)]
         fell = sum(bool(row["fell"]) for row in own)
         low, high = wilson_interval(fell, len(own))
         tilt = math.degrees(median(row["tilt_rad"] for row in own))
         pga = mean(row["pga_m_s2"] for row in own)
         found.append(
-            {"factor": factor, "pga_m_s2": pga, "runs": len(own), "fell": fell, "low": low, "high": high,
-             "median_tilt_deg": tilt}
+            {"factor": factor, "step_s": step, "pga_m_s2": pga, "runs": len(own), "fell": fell, "low": low,
+             "high": high, "median_tilt_deg": tilt}
         )  # fmt: skip
     return found

@@ -54,36 +54,45 @@ def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str, confidence
     return figure
 
 
-def overturning_map(pga_g: Any, ratio_s: Any, fell: Any, probability: Any = None) -> Any:
-    """Draw outcomes over PGA [g] and PGV/PGA [s], both (n,); the lines are those of equal predicted probability.
+def overturning_map(
+    x: Any, y: Any, fell: Any, probability: Any = None, axes: tuple[str, str] = ("PGA (g)", "PGV / PGA (s)")
+) -> Any:
+    """Draw outcomes (n,) over two sizes of their motions, both (n,); lines are those of equal predicted probability.
 
-    probability : function of PGA (m,) and PGV/PGA (m,) that returns (m,), or None
+    probability : function of both sizes (m,) that returns (m,), or None;  axes : what the axes say
     """
-    pga, ratio, y = (np.asarray(v, float) for v in (pga_g, ratio_s, fell))
+    across_all, up_all, outcome = (np.asarray(v, float) for v in (x, y, fell))
     figure = new_figure(7.0, 4.8)
     ax = figure.subplots(1, 1)
     ax.set_xscale("log")
     ax.set_yscale("log")
     if probability is not None:
         # A tenth beyond the tests on all sides, so that no mark is cut.
-        across, up = (np.geomspace(v.min() / 1.1, v.max() * 1.1, 120) for v in (pga, ratio))
+        across, up = (np.geomspace(v.min() / 1.1, v.max() * 1.1, 120) for v in (across_all, up_all))
         X, Y = np.meshgrid(across, up)
         P = np.asarray(probability(X.ravel(), Y.ravel())).reshape(X.shape)
         ax.contourf(X, Y, P, levels=np.linspace(0.0, 1.0, 11), cmap="Greys", alpha=0.35)
         lines = ax.contour(X, Y, P, levels=[0.1, 0.5, 0.9], colors=style.INK, linewidths=[0.7, 1.4, 0.7])
         ax.clabel(lines, fmt="%.1f", fontsize=8)
     for value, mark, colour, name in ((0.0, "o", style.COLOURS[1], "stood"), (1.0, "x", style.COLOURS[0], "fell")):
-        inside = y == value
+        inside = outcome == value
         ax.plot(
-            pga[inside], ratio[inside], mark, ms=4, mfc="none", color=colour, lw=0, label=f"{name} ({inside.sum()})"
+            across_all[inside],
+            up_all[inside],
+            mark,
+            ms=4,
+            mfc="none",
+            color=colour,
+            lw=0,
+            label=f"{name} ({inside.sum()})",
         )
     _plain_ticks(ax.xaxis)
     _plain_ticks(ax.yaxis)
-    ax.set_xlabel("PGA (g)")
-    ax.set_ylabel("PGV / PGA (s)")
+    ax.set_xlabel(axes[0])
+    ax.set_ylabel(axes[1])
     ax.legend(loc="upper right", frameon=True, framealpha=0.9, edgecolor="none", fontsize=8)
     said = "" if probability is None else "; lines: predicted probability of falling"
-    figure.suptitle(f"{len(y)} tests{said}", fontsize=9, x=0.02, ha="left")
+    figure.suptitle(f"{len(outcome)} tests{said}", fontsize=9, x=0.02, ha="left")
     return figure
 
 

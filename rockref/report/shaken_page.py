@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,9 @@ from rockref.report import shake_figures, shaken_text
 from rockref.report.figures import rendered
 from rockref.report.page import Page
 from rockref.shake.comparison import ShakenComparison
+from rockref.shake.experiment import MAXIMA
+from rockref.shake.motion_size import pulse_frequency
+from rockref.shake.plane_block import PlaneBlock
 from rockref.shake.statistics.binary_regression import fit_binary
 from rockref.shake.statistics.fragility import fit_fragility
 
@@ -66,6 +70,21 @@ def add_fragility(page: Page, sizes: np.ndarray, fell: np.ndarray) -> None:
     )
 
 
+def add_spectrum(page: Page, sizes: np.ndarray, fell: np.ndarray, block: PlaneBlock) -> None:
+    """Add the map of `add_fragility` in the numbers of a block: A = PGA/(g tan alpha), and w_p/p of the pulse."""
+    angle, p = min(block.alpha), max(block.p)
+    size, frequency = sizes[:, 0] / (GRAVITY * math.tan(angle)), pulse_frequency(*sizes.T) / p
+    if np.ptp(np.log(size)) < 1e-9 or np.ptp(np.log(frequency)) < 1e-9:
+        return
+    axes = "w_p / p of the one-sine pulse with this PGA and PGV", "PGA / (g tan alpha)"
+    figure = shake_figures.overturning_map(frequency, size, fell, _regression(frequency, size, fell), axes)
+    page.add_figure(
+        rendered(figure, "png", DPI),
+        f"The same as an overturning spectrum: alpha = {math.degrees(angle):.2f} degrees and p = {p:.3f} rad/s are "
+        "those of the block about its nearer edge. Below 1 no block in a plane lifts.",
+    )
+
+
 def _regression(x: np.ndarray, y: np.ndarray, fell: np.ndarray) -> Any:
     """Return the probability as a function of two sizes, by a logit of their logarithms."""
     design = lambda a, b: np.column_stack([np.ones(len(a)), np.log(a), np.log(b)])  # noqa: E731
@@ -75,8 +94,6 @@ def _regression(x: np.ndarray, y: np.ndarray, fell: np.ndarray) -> Any:
 
 def add_distributions(page: Page, samples: dict[str, dict[str, np.ndarray]]) -> None:
     """Add a figure of distribution functions with their bands for each quantity of `shaken_text.UNITS`' units."""
-    from rockref.shake.experiment import MAXIMA
-
     for quantity, parts in samples.items():
         unit, scale = shaken_text.UNITS[MAXIMA[quantity]]
         drawn = {name: scale * values for name, values in parts.items()}

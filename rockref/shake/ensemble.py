@@ -55,23 +55,29 @@ class Ensemble:
     """A block, the motions of its plate, the factors on them, and what is drawn.
 
     Runs take pairs of motion and factor in turn: run k has pair k modulo their number, so each has as many runs.
-    step [s]; after : time after the record [s]; seed : of all draws
+    step [s], or several of them, which runs take in turn, too; after : time after the record [s]; seed : of all draws
     """
 
     model: Model
     motions: tuple[BaseMotion, ...]
     factors: tuple[float, ...] = (1.0,)
     draws: Draws = Draws()
-    step: float = 1e-5
+    step: float | tuple[float, ...] = 1e-5
     after: float = AFTER
     seed: int = 0
 
+    @property
+    def steps(self) -> tuple[float, ...]:
+        """Return the time steps [s]."""
+        return self.step if isinstance(self.step, tuple) else (self.step,)
+
     def drawn(self, k: int) -> dict[str, Any]:
-        """Return what run k has: record, factor, heading [rad], heights of feet (4,) [m], factor on friction."""
+        """Return what run k has: record, factor, step [s], heading [rad], feet (4,) [m], factor on friction."""
         rng = np.random.default_rng([self.seed, k])
         heading, feet, friction = rng.uniform(-1, 1), rng.standard_normal(4), rng.standard_normal()
-        pair = k % (len(self.motions) * len(self.factors))
+        turn, pair = divmod(k, len(self.motions) * len(self.factors))
         return {
+            "step": self.steps[turn % len(self.steps)],
             "record": pair // len(self.factors),
             "factor": self.factors[pair % len(self.factors)],
             "heading": math.radians(self.draws.heading) * heading,
@@ -91,7 +97,7 @@ class Ensemble:
         start = standing_posture(block, points, own["heading"])
         duration = max(base.end, 0.0) + self.after
         effects = self.model.active_effects()
-        return Problem(block, points, start, self.step, duration, 1 / extremes.TICK, effects, base=base)
+        return Problem(block, points, start, own["step"], duration, 1 / extremes.TICK, effects, base=base)
 
     def rows(self, first: int, last: int, workers: int | None = None) -> list[dict[str, Any]]:
         """Run the runs first to last - 1 and return their rows of the table.
@@ -105,8 +111,12 @@ class Ensemble:
                 problems.append(self.problem(k, body, bases))
             except InputError as e:
                 raise InputError(e.code, f"run {k}: {e.where}", e.what, e.cure) from e
-        found = run_all(problems, workers)
-        return [self.row(k, f, p) for k, f, p in zip(range(first, last), found, problems, strict=True)]
+        found: dict[int, Extremes] = {}
+        # Runs of a batch share their step.
+        for step in self.steps:
+            own = [i for i, problem in enumerate(problems) if problem.step == step]
+            found |= zip(own, run_all([problems[i] for i in own], workers), strict=True) if own else {}
+        return [self.row(first + i, found[i], problem) for i, problem in enumerate(problems)]
 
     def row(self, k: int, found: Extremes, problem: Problem) -> dict[str, Any]:
         """Return the row of one run: its number, what was drawn, the peak of its motion, what was found."""
@@ -115,7 +125,7 @@ class Ensemble:
         feet = {f"foot_{i + 1}_m": float(height) for i, height in enumerate(own["feet"])}
         pga, pgv = motion_size(base)
         drawn = {"run": k, "record": base.name, "factor": own["factor"], "pga_m_s2": pga, "pgv_m_s": pgv}
-        drawn |= {"heading_rad": own["heading"], **feet, "friction_factor": own["friction"]}
+        drawn |= {"step_s": own["step"], "heading_rad": own["heading"], **feet, "friction_factor": own["friction"]}
         return drawn | dict(zip(COLUMNS, astuple(found), strict=True))
 
 

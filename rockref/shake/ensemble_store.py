@@ -34,7 +34,7 @@ def description(ensemble: Ensemble) -> dict[str, Any]:
     ]
     return {
         "schema": SCHEMA, "model_sha256": _digest(model), "motions": motions, "factors": list(ensemble.factors),
-        "draws": asdict(ensemble.draws), "step_s": ensemble.step, "after_s": ensemble.after, "seed": ensemble.seed,
+        "draws": asdict(ensemble.draws), "steps_s": ensemble.steps, "after_s": ensemble.after, "seed": ensemble.seed,
         "runs_a_part": BLOCK,
     }  # fmt: skip
 

@@ -10,6 +10,7 @@ pytest.importorskip("numba")
 
 from rockref.shake import ensemble
 from tests.unit.commands.test_simulate import run
+from tests.unit.report.page_checks import faults_of
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +44,24 @@ def test_one_run_says_its_extremes_and_ends_when_it_is_over(capsys, record, tmp_
 def test_what_belongs_to_a_release_or_to_the_room_is_refused(capsys, record, options, code):
     ended, out, err = run(capsys, "simulate", "--base", record, "--duration", 0.1, *options)
     assert ended == 2 and not out and f"[{code}]" in err
+
+
+def test_the_page_of_an_ensemble_has_fragility_and_spectrum(capsys, record, tmp_path):
+    other = tmp_path / "slow.csv"
+    rows = [f"{0.02 * k:.2f},{0.5 * math.cos(4 * k):.6f},{3 * math.sin(0.13 * k):.6f}" for k in range(50)]
+    other.write_text("\n".join(["t [s],ax [m/s2],ay [m/s2]", *rows]) + "\n")
+    options = ("--runs", 8, "--scale", "0.3,3", *SMALL[2:], "--step", "4e-5,5e-5", "--report", tmp_path / "r")
+    code, out, _ = run(capsys, "shake", "table_3_1", record, other, *options, "-o", tmp_path / "e")
+    page = (tmp_path / "r" / "index.html").read_text(encoding="utf-8")
+    assert code == 0 and out.splitlines()[-1].endswith("index.html: 8 runs") and not faults_of(page)
+    assert "overturning spectrum" in page
+    assert [line.split()[1] for line in out.splitlines()[1:5]] == ["4e-05", "5e-05"] * 2
+
+
+def test_no_scheduler_is_told(capsys, record, tmp_path):
+    pytest.importorskip("distributed")
+    options = ("--runs", 2, *SMALL, "--dask", "tcp://127.0.0.1:1", "-o", tmp_path / "e")
+    assert "[E-DASK]" in run(capsys, "shake", "table_3_1", record, *options)[2]
 
 
 def test_an_interrupted_ensemble_goes_on_to_the_same_table(capsys, record, tmp_path, monkeypatch):

@@ -87,6 +87,13 @@ def test_draws_take_each_motion_and_factor_alike_and_spread_as_they_say():
     assert abs(heading).max() <= np.pi and abs(heading).max() > 3 and abs(heading.mean()) < 0.3
 
 
+def test_steps_are_taken_in_turn_and_a_run_has_the_bits_of_its_own(rows):
+    own = replace(SHAKEN, motions=SHAKEN.motions[:1], factors=(3.0,), step=(STEP, 2 * STEP), after=0.2).rows(0, 4, 1)
+    assert [row["step_s"] for row in own] == [STEP, 2 * STEP, STEP, 2 * STEP]
+    alone = replace(SHAKEN, motions=SHAKEN.motions[:1], factors=(3.0,), step=2 * STEP, after=0.2).rows(0, 4, 1)
+    assert repr(own[1]) == repr(alone[1]) and repr(own[3]) == repr(alone[3]) and repr(own[0]) != repr(alone[0])
+
+
 def test_blocks_that_are_known_are_not_run_again(monkeypatch, rows):
     monkeypatch.setattr(module, "BLOCK", 8)
     kept = {}
