@@ -55,7 +55,7 @@ def shake(
     from rockref.commands._progress import progress
     from rockref.commands._results import in_json
     from rockref.commands._shaking import motion, numbers
-    from rockref.identify.campaign import campaign
+    from rockref.jobs.campaign import campaign
     from rockref.model.errors import Interrupted
     from rockref.report.output import made_folder, usable_folder
     from rockref.shake.ensemble import BLOCK, Draws, Ensemble, run_ensemble

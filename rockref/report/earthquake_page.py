@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.identify.alone import alone_in
+from rockref.jobs.folder_lock import alone_in
 from rockref.model.problem import GRAVITY
 from rockref.model.storage import write_text
 from rockref.report import style
