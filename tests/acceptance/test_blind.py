@@ -33,7 +33,7 @@ def test_nothing_hidden_nothing_found(tmp_path):
     [
         pytest.param("cable_restraint", 2.0, id="load", marks=pytest.mark.slow),
         pytest.param("stribeck_friction", 2.0, id="friction", marks=pytest.mark.slow),
-        pytest.param("gyro_misalignment", 1.0, id="sensor"),
+        pytest.param("gyro_misalignment", 1.0, id="sensor", marks=pytest.mark.slow),
     ],
 )
 def test_hidden_effect_is_named_or_in_a_class_that_holds_it(tmp_path, effect, size):
