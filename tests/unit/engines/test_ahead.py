@@ -67,6 +67,8 @@ def test_what_is_made_is_the_variant_that_was_asked_for(monkeypatch, groups):
     assert called == [groups]
 
 
+# It compiles a variant in a folder of its own, some ten seconds.
+@pytest.mark.slow
 def test_what_numba_has_kept_is_not_missing(tmp_path):
     """In an empty folder all are missing; once a variant has been made there it is not."""
     script = """

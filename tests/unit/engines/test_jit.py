@@ -51,6 +51,8 @@ for id in sys.argv[1:]:
 """
 
 
+# It compiles two variants in a folder of its own, some twenty seconds.
+@pytest.mark.slow
 def test_variants_that_were_compiled_in_different_processes_live_in_one(tmp_path):
     """Each process numbers what it compiles from the beginning: the first thing that each compiles has one number."""
     kept = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
@@ -73,6 +75,8 @@ for _ in range(2):
 """
 
 
+# It compiles the law in a folder of its own, some ten seconds.
+@pytest.mark.slow
 def test_who_watches_is_told_when_machine_code_is_made(tmp_path):
     """In the first run of the first process, and never where it is loaded."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}

@@ -7,7 +7,7 @@ import pytest
 
 from rockref.identify import polish as polishing
 from rockref.identify import unknowns
-from rockref.identify.descent import BEYOND_ALL, FACTORS, NEARLY, Descent, Place
+from rockref.identify.descent import BEYOND_ALL, FACTORS, NEARLY, Descent
 from rockref.identify.genes import chromosome, space_12
 from rockref.identify.identifiability import identifiability, profile
 from rockref.identify.polish import Effort, polish
@@ -140,23 +140,6 @@ def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monke
     np.testing.assert_array_equal(together[[0, 3, -1]], alone)
 
 
-def test_a_window_that_went_astray_is_begun_again_from_the_start(space, truth, noisy_twin, monkeypatch):
-    """The first window ends far away, and nothing leads back from there: the second begins where everything began."""
-    begun = []
-
-    def in_window(descent, z, after):
-        begun.append(z)
-        if after == 0.0:
-            return Place(np.full(12, 0.9), np.zeros(3), 0.95)
-        return Place(z, np.zeros(3), 1.0 if np.array_equal(z, truth) else 4.7)
-
-    monkeypatch.setattr(polishing, "_in_window", in_window)
-    monkeypatch.setattr(polishing, "_long_moves", lambda descent, at: at)
-    end = polish(space, [noisy_twin], truth, effort=Effort(windows=(0.0, 0.06), steps=0, moves=1, walks=0))
-    np.testing.assert_array_equal(begun, [truth, np.full(12, 0.9), truth])
-    np.testing.assert_array_equal(end.z, truth)
-
-
 def test_where_no_step_gains_the_slopes_are_not_taken_again():
     """At the bottom of a bowl: slopes over two step sizes, then dampings alone, each larger than those before."""
 
@@ -210,50 +193,3 @@ def test_long_moves_leave_a_dent_in_the_windows_where_they_are_cheap():
     assert abs(stuck.z[0] - 0.2) > 0.3 and stuck.z[1] == pytest.approx(0.2, abs=1e-3) and stuck.chi2 > 1.5
     free = polishing._in_window(Dents(), start, 0.0)
     assert free.z == pytest.approx([0.2, 0.2], abs=0.02) and free.chi2 < NEARLY
-
-
-@pytest.mark.parametrize("share, wanted", [(0.9, polishing.WINDOW_MOVES), (0.99, 1)])
-def test_moves_in_a_window_end_where_a_round_brings_next_to_nothing(monkeypatch, share, wanted):
-    asked = []
-
-    def moves(descent, at):
-        asked.append(at)
-        return Place(at.z, at.r, share * at.chi2)
-
-    monkeypatch.setattr(polishing, "_long_moves", moves)
-    monkeypatch.setattr(Dents, "descend", lambda self, at, change: at)
-    end = polishing._in_window(Dents(noise=2.0), np.full(2, 0.2), 0.0)
-    assert len(asked) == wanted and end.chi2 == pytest.approx(4.0 * share**wanted)
-
-
-@pytest.mark.parametrize("first, share, wanted", [(4.0, 0.9, 3), (4.0, 0.999, 1), (1.02, 0.9, 0)])
-def test_moves_go_on_while_they_gain_and_the_residual_is_not_the_noise(
-    space, truth, noisy_twin, monkeypatch, first, share, wanted
-):
-    asked = []
-
-    def moves(descent, at):
-        asked.append(at)
-        return Place(at.z, at.r, share * at.chi2)
-
-    monkeypatch.setattr(polishing, "_long_moves", moves)
-    place = Descent.place
-    monkeypatch.setattr(Descent, "place", lambda self, z: replace(place(self, z), chi2=first))
-    end = polish(space, [noisy_twin], truth, effort=Effort(windows=(), steps=0, moves=3, walks=0))
-    assert len(asked) == wanted and end.chi2 == pytest.approx(first * share**wanted)
-
-
-def test_after_the_windows_the_valley_is_walked_from_where_the_last_one_ended(space, truth, noisy_twin, monkeypatch):
-    begun = []
-
-    def along(short, whole, z, rounds):
-        begun.append((z, short.unknowns.targets[0].until, whole.unknowns.targets[0].until, rounds))
-        return whole.place(z)
-
-    monkeypatch.setattr(polishing, "_in_window", lambda descent, z, after: Place(z + 1e-4, np.zeros(3), 1.0))
-    monkeypatch.setattr(polishing, "along", along)
-    polish(space, [noisy_twin], truth, effort=Effort(windows=(0.0, 0.06), steps=0, moves=0, walks=2))
-    ((z, short, whole, rounds),) = begun
-    np.testing.assert_allclose(z, truth + 2e-4)
-    first = noisy_twin.features.impacts[0]
-    assert short == pytest.approx(first + 0.06) and whole == noisy_twin.until and rounds == 2
