@@ -15,17 +15,18 @@ KEPT = 200
 
 
 def printable(words: object) -> str:
-    """A stranger's words for a verdict: not too long, and without what a terminal obeys or a file cannot hold."""
+    """Return a stranger's words for a verdict: not too long, and without what a terminal obeys or a file cannot
+    hold."""
     return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in str(words)[:KEPT])
 
 
 def raised(error: BaseException) -> str:
-    """What a backend raised, in a line."""
+    """Return what a backend raised, in a line."""
     return printable(f"{type(error).__name__}: {error}".splitlines()[0])
 
 
 def as_mapping(answer: Any, piece: str) -> dict[str, Any]:
-    """A piece's answer as a mapping: a dict, or an object with attributes."""
+    """Return a piece's answer as a mapping: a dict, or an object with attributes."""
     if isinstance(answer, dict):
         return answer
     if piece == "simulate":
@@ -36,12 +37,12 @@ def as_mapping(answer: Any, piece: str) -> dict[str, Any]:
 
 
 def has(backend: Any, piece: str) -> bool:
-    """Whether a backend shows a piece."""
+    """Return whether a backend shows a piece."""
     return callable(getattr(backend, piece, None))
 
 
 def ask(backend: Any, vector: Vector) -> dict[str, Any]:
-    """The backend's answer to a vector. What the backend raises goes through."""
+    """Return the backend's answer to a vector. What the backend raises goes through."""
     if vector.piece in ("step", "simulate"):
         answer = getattr(backend, vector.piece)(problem_of(vector.inputs))
     else:

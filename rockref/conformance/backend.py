@@ -34,7 +34,7 @@ class Backend(Protocol):
 
 
 def engine(name: str) -> Any:
-    """One of rockref's own: "numpy", "numba", the law in "float32" or "longdouble", or the other integrator,
+    """Return one of rockref's own: "numpy", "numba", the law in "float32" or "longdouble", or the other integrator,
     "scheme"."""
     import numpy as np
 
@@ -54,7 +54,7 @@ def engine(name: str) -> Any:
 
 
 def from_file(path: Path) -> ModuleType:
-    """The module in a file. Raises InputError (E-BACKEND) where it cannot be run."""
+    """Return the module in a file. Raises InputError (E-BACKEND) where it cannot be run."""
     if not path.is_file():
         raise InputError("E-BACKEND", str(path), "is not there", "Give path/to/file.py:Class.")
     spec = importlib.util.spec_from_file_location(f"rockref_backend_{path.stem}", path)
@@ -69,7 +69,7 @@ def from_file(path: Path) -> ModuleType:
 
 
 def from_package(name: str) -> ModuleType:
-    """An installed module. Raises InputError (E-BACKEND) where there is none."""
+    """Return an installed module. Raises InputError (E-BACKEND) where there is none."""
     try:
         return importlib.import_module(name)
     except ANYTHING as e:
@@ -82,7 +82,8 @@ def from_package(name: str) -> ModuleType:
 
 
 def named(target: str) -> Any:
-    """A backend registered in the entry-point group `rockref.backends`, made; None where there is none of that name."""
+    """Return a backend registered in the entry-point group `rockref.backends`, made; None where there is none of that
+    name."""
     for point in entry_points(group=GROUP):
         if point.name == target:
             return made(loaded(point), target)
@@ -90,7 +91,7 @@ def named(target: str) -> Any:
 
 
 def loaded(point: Any) -> Any:
-    """What an entry point names. Raises InputError (E-BACKEND) where it cannot be imported."""
+    """Return what an entry point names. Raises InputError (E-BACKEND) where it cannot be imported."""
     try:
         return point.load()
     except ANYTHING as e:
@@ -99,7 +100,7 @@ def loaded(point: Any) -> Any:
 
 
 def made(thing: Any, target: str) -> Any:
-    """An instance of a class, or the thing itself. Raises InputError (E-BACKEND) where it cannot be made."""
+    """Return an instance of a class, or the thing itself. Raises InputError (E-BACKEND) where it cannot be made."""
     if not isinstance(thing, type):
         return thing
     try:
@@ -110,8 +111,8 @@ def made(thing: Any, target: str) -> Any:
 
 
 def load(target: str) -> Any:
-    """The backend that a target names: "numpy", "numba", "path/to/file.py:Class", "package.module:Class", or an entry
-    point.
+    """Return the backend that a target names: "numpy", "numba", "path/to/file.py:Class", "package.module:Class", or an
+    entry point.
 
     Raises
     ------

@@ -37,7 +37,7 @@ SIMILAR = 0.25
 
 
 def mark(got: Any, expected: np.ndarray, bar: np.ndarray, size: float) -> np.ndarray:
-    """sign(deviation) log10(1 + deviation in bars), flat; 0 inside ten bars, and below a physical size."""
+    """Return sign(deviation) log10(1 + deviation in bars), flat; 0 inside ten bars, and below a physical size."""
     ratio, _ = weighed_in_bars(got, expected, bar, size)
     with np.errstate(all="ignore"):
         size = np.minimum(np.log10(1 + ratio), LARGEST)
@@ -46,7 +46,7 @@ def mark(got: Any, expected: np.ndarray, bar: np.ndarray, size: float) -> np.nda
 
 
 def of_short_run(vector: Vector, out: dict[str, Any]) -> np.ndarray:
-    """The marks of one short run."""
+    """Return the marks of one short run."""
     marks = []
     for name, expected in vector.expect.items():
         marks.append(_mark_of(name, expected, vector, out))
@@ -67,7 +67,7 @@ def _mark_of(name: str, expected: Expected, vector: Vector, out: dict[str, Any])
 
 
 def of_window(name: str, out: dict[str, Any]) -> np.ndarray:
-    """The marks of one window."""
+    """Return the marks of one window."""
     t = trajectory(name)
     expected, bars = expected_columns(t, "float64")
     marks = []
@@ -86,12 +86,12 @@ def of_window(name: str, out: dict[str, Any]) -> np.ndarray:
 
 
 def compared() -> list[str]:
-    """The windows that enter a fingerprint: those of few steps."""
+    """Return the windows that enter a fingerprint: those of few steps."""
     return [name for name in vectors.window_names() if steps_of(trajectory(name).problem) <= MOST_STEPS]
 
 
 def fingerprint(backend: Any) -> np.ndarray:
-    """All marks of a backend, in a fixed order; not a number where it shows nothing."""
+    """Return all marks of a backend, in a fixed order; not a number where it shows nothing."""
     short, names = vectors.layer("L5s"), compared()
     problems = [problem_of(v.inputs) for v in short] + [trajectory(name).problem for name in names]
     answers: list[Any] = [None] * len(problems)
@@ -103,13 +103,13 @@ def fingerprint(backend: Any) -> np.ndarray:
 
 
 def code(marks: np.ndarray) -> np.ndarray:
-    """Marks as small whole numbers."""
+    """Return marks as small whole numbers."""
     return np.rint(np.nan_to_num(marks) * TENTHS).astype(int)
 
 
 @lru_cache
 def library() -> tuple[tuple[str, ...], np.ndarray]:
-    """Ids of the mistakes, and their fingerprints (mistakes, marks)."""
+    """Return ids of the mistakes, and their fingerprints (mistakes, marks)."""
     name = "fingerprints.csv.gz"
     with as_shipped(name):
         rows = list(csv.reader(io.StringIO(unpacked(read_bytes(name), name, vectors.LARGEST).decode())))
@@ -119,7 +119,7 @@ def library() -> tuple[tuple[str, ...], np.ndarray]:
 def neighbours(
     marks: np.ndarray, without: tuple[str, ...] = (), count: int = 2, rule: str | None = None
 ) -> list[tuple[str, float]]:
-    """The mistakes whose fingerprints are most similar: id and cosine, best first; `without` some ids. None where no
+    """Return mistakes whose fingerprints are most similar: id and cosine, best first; `without` some ids. None where no
     mistake leaves similar traces.
 
     rule : the rule that the short runs point to. Its nearest mistake is among them, unless another is as good as the

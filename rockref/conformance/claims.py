@@ -54,20 +54,20 @@ class ClaimCheck:
 
     @property
     def failed(self) -> bool:
-        """Whether the claim does not hold."""
+        """Return whether the claim does not hold."""
         return self.grade == "outside"
 
 
 @lru_cache
 def claims() -> tuple[Claim, ...]:
-    """All vectors of effects. Raises InputError (E-VECTORS)."""
+    """Return all vectors of effects. Raises InputError (E-VECTORS)."""
     with as_shipped("LE.json"):
         document = json.loads(read_bytes("LE.json"))
         return tuple(claim_of(entry, document["sets"]) for entry in document["vectors"])
 
 
 def claim_of(entry: dict[str, Any], sets: dict[str, Any]) -> Claim:
-    """A vector from its stored form; `sets` holds the inputs, which many share."""
+    """Return a vector from its stored form; `sets` holds the inputs, which many share."""
     inputs = {k: value_of(v) for k, v in sets[entry["set"]].items()}
     values = {k: np.asarray(value_of(v)) for k, v in entry["expect"].items()}
     expect = {k: (v, np.full(v.shape, float(entry["expect"][k]["bar"]))) for k, v in values.items()}
@@ -76,14 +76,15 @@ def claim_of(entry: dict[str, Any], sets: dict[str, Any]) -> Claim:
 
 
 def with_effect(problem: Problem, effect: Any) -> Problem:
-    """The problem with an effect of the catalogue: body, points and start changed as it says, and its terms added."""
+    """Return the problem with an effect of the catalogue: body, points and start changed as it says, and its terms
+    added."""
     block, points = effect.points(problem.block, problem.points)
     start = effect.release(block, points, with_new_points(problem.start, points.n))
     return replace(problem, block=block, points=points, start=start, effects=(effect,))
 
 
 def with_new_points(start: State, n: int) -> State:
-    """The start of a body that an effect gives points beyond those that it had: n of them, the new ones last.
+    """Return the start of a body that an effect gives points beyond those that it had: n of them, the new ones last.
 
     The pose stays, and so does what the old points remember: s (..., n, 2), anchored, sliding (..., n). A new point has
     touched nothing yet (T5). The forces of the last evaluation are those of another body, and are made anew.
@@ -99,7 +100,7 @@ def with_new_points(start: State, n: int) -> State:
 
 
 def ask(backend: Any, claim: Claim) -> dict[str, Any] | None:
-    """The backend's answer; None where it does not claim the effect."""
+    """Return the backend's answer; None where it does not claim the effect."""
     if claim.piece == "effect":
         answer = backend.effect(problem_of(claim.inputs), claim.effect, dict(claim.parameters))
         return None if answer is None else as_mapping(answer, "simulate")
@@ -108,12 +109,12 @@ def ask(backend: Any, claim: Claim) -> dict[str, Any] | None:
 
 
 def judge_claims(backend: Any) -> list[ClaimCheck]:
-    """Every effect that the backend claims; it claims none where it shows neither piece."""
+    """Return every effect that the backend claims; it claims none where it shows neither piece."""
     return [judge_claim(backend, claim) for claim in claims() if has(backend, claim.piece)]
 
 
 def judge_claim(backend: Any, claim: Claim) -> ClaimCheck:
-    """One effect of a backend that shows its piece."""
+    """Return one effect of a backend that shows its piece."""
     try:
         answer = ask(backend, claim)
         check = ClaimCheck(claim.effect, "not shown") if answer is None else explained(claim, answer)
@@ -123,7 +124,7 @@ def judge_claim(backend: Any, claim: Claim) -> ClaimCheck:
 
 
 def explained(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
-    """One answer against its vector; one that is outside with the mistake that gives it, where one is known."""
+    """Compare one answer with its vector; one that is outside with the mistake that gives it, where one is known."""
     from rockref.conformance.likely import likely  # which runs the law: only where something is wrong
 
     check = compare(claim, answer)
@@ -132,7 +133,7 @@ def explained(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
 
 
 def compare(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
-    """One answer against its vector."""
+    """Compare one answer with its vector."""
     worst, negligible = 0.0, False
     for name, (right, bar) in claim.expect.items():
         got = answer.get(name)

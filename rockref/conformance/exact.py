@@ -17,33 +17,33 @@ Matrix = list
 
 
 def dot(a: Vector, b: Vector) -> Number:
-    """Scalar product."""
+    """Return scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """Vector product."""
+    """Return vector product."""
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def apply(A: Matrix, b: Vector) -> Vector:
-    """Matrix times vector."""
+    """Return matrix times vector."""
     return [dot(row, b) for row in A]
 
 
 def transposed(A: Matrix) -> Matrix:
-    """The transposed matrix."""
+    """Return the transposed matrix."""
     return [list(column) for column in zip(*A, strict=True)]
 
 
 def product(A: Matrix, B: Matrix) -> Matrix:
-    """Matrix product."""
+    """Return matrix product."""
     columns = transposed(B)
     return [[dot(row, column) for column in columns] for row in A]
 
 
 def solve(A: Matrix, b: Vector) -> Vector:
-    """x with A x = b, by Cramer's rule; exact for a diagonal matrix up to one division."""
+    """Return x with A x = b, by Cramer's rule; exact for a diagonal matrix up to one division."""
     if not any(A[i][j] for i in range(3) for j in range(3) if i != j):
         return [b[i] / A[i][i] for i in range(3)]
     c = [cross(A[1], A[2]), cross(A[2], A[0]), cross(A[0], A[1])]
@@ -55,7 +55,7 @@ def solve(A: Matrix, b: Vector) -> Vector:
 
 
 def cuboid_inertia(mass: Number, width: Number, depth: Number, height: Number) -> Matrix:
-    """G1: uniform cuboid about its centre, sides along X, Y, Z."""
+    """Apply G1: uniform cuboid about its centre, sides along X, Y, Z."""
     zero = mass - mass
     J = [zero, zero, zero]
     J[0] = mass * (depth * depth + height * height) / 12
@@ -67,7 +67,8 @@ def cuboid_inertia(mass: Number, width: Number, depth: Number, height: Number) -
 def contact_points(
     width: Number, depth: Number, height: Number, delta_long: list, delta_diag: Number, m
 ) -> list[Vector]:
-    """G2: 1ext..4ext at the corners, raised by delta_long; 1int..4int on the diagonals, delta_diag from the corner."""
+    """Apply G2: 1ext..4ext at the corners, raised by delta_long; 1int..4int on the diagonals, delta_diag from the
+    corner."""
     half = m.sqrt(width * width + depth * depth) / 2
     external, internal = [], []
     for (sign_x, sign_y), raised in zip(((1, 1), (-1, 1), (-1, -1), (1, -1)), delta_long, strict=True):
@@ -78,12 +79,12 @@ def contact_points(
 
 
 def damping(beta: Number, K: Number, mass: Number, m) -> Number:
-    """P2: C = 2 beta sqrt(K m)."""
+    """Apply P2: C = 2 beta sqrt(K m)."""
     return 2 * beta * m.sqrt(K * mass)  # (3.8)
 
 
 def properties(mass, K_N, K_T, beta_int, beta_ext, mu_int, mu_ext, m) -> dict[str, list]:
-    """P1 to P3: K_N, K_T, C_N, C_T, mu_0, mu of the eight points, external ones first."""
+    """Apply P1 to P3: K_N, K_T, C_N, C_T, mu_0, mu of the eight points, external ones first."""
     beta = 4 * [beta_ext] + 4 * [beta_int]
     mu = 4 * [mu_ext] + 4 * [mu_int]
     return {
@@ -110,7 +111,7 @@ class Motion(NamedTuple):
 
 
 def kinematics(x: Vector, Lambda: Matrix, v: Vector, W: Vector, P: Vector) -> Motion:
-    """K1: place and velocity of one body point; penetration is counted downwards from the plate."""
+    """Apply K1: place and velocity of one body point; penetration is counted downwards from the plate."""
     r = apply(Lambda, P)
     turning = cross(apply(Lambda, W), r)
     u = [x[i] + r[i] for i in range(3)]
@@ -143,7 +144,7 @@ class Touch(NamedTuple):
 
 
 def contact(xi, xi_rate, u_t, v_slide, s, anchored: bool, sliding: bool, point: Point, m) -> Touch:
-    """N1, N2, T1 to T6 for one point. u_t, v_slide, s are plane vectors."""
+    """Apply N1, N2, T1 to T6 for one point. u_t, v_slide, s are plane vectors."""
     zero = xi - xi
     if xi < 0:  # N2 (3.5b) and T5
         return Touch(zero, [zero, zero], list(u_t), False, False, list(u_t), [zero, zero], zero)
@@ -166,8 +167,8 @@ def contact(xi, xi_rate, u_t, v_slide, s, anchored: bool, sliding: bool, point: 
 
 
 def resultants(Lambda: Matrix, r: list[Vector], F: list[Vector], mass: Number, g: Number):
-    """A1 to A3: force (plate axes, with the weight), moment about the centre of mass (plate axes), the same in body
-    axes."""
+    """Apply A1 to A3: force (plate axes, with the weight), moment about the centre of mass (plate axes), the same in
+    body axes."""
     zero = mass - mass
     force, moment = [zero, zero, -mass * g], [zero, zero, zero]
     for lever, f in zip(r, F, strict=True):
@@ -181,7 +182,7 @@ def resultants(Lambda: Matrix, r: list[Vector], F: list[Vector], mass: Number, g
 
 
 def exponential_minus_identity(Theta: Vector, m) -> Matrix:
-    """exp(Theta^) - I, Rodrigues: sin(q)/q Theta^ + 2 sin(q/2)^2/q^2 Theta^ Theta^, q = |Theta|."""
+    """Return exp(Theta^) - I, Rodrigues: sin(q)/q Theta^ + 2 sin(q/2)^2/q^2 Theta^ Theta^, q = |Theta|."""
     zero = Theta[0] - Theta[0]
     H = [[zero, -Theta[2], Theta[1]], [Theta[2], zero, -Theta[0]], [-Theta[1], Theta[0], zero]]
     square = dot(Theta, Theta)
@@ -194,7 +195,7 @@ def exponential_minus_identity(Theta: Vector, m) -> Matrix:
 
 
 def exponential(Theta: Vector, m) -> Matrix:
-    """exp(Theta^)."""
+    """Return exp(Theta^)."""
     E = exponential_minus_identity(Theta, m)
     return [[E[i][j] + (1 if i == j else 0) for j in range(3)] for i in range(3)]
 
@@ -213,7 +214,7 @@ class Half(NamedTuple):
 
 
 def first_half(x, v, Lambda, W, a, T, h, J: Matrix, m) -> Half:
-    """I1 to I3, and the velocities with which the contact forces at n+1 are evaluated."""
+    """Apply I1 to I3, and the velocities with which the contact forces at n+1 are evaluated."""
     JW = apply(J, W)
     gyroscopic = cross(W, JW)
     A = solve(J, [T[i] - gyroscopic[i] for i in range(3)])
@@ -228,7 +229,7 @@ def first_half(x, v, Lambda, W, a, T, h, J: Matrix, m) -> Half:
 
 
 def second_half(v, a, T, a_next, T_next, h, J: Matrix, half: Half):
-    """I4 and I5: v and W at n+1."""
+    """Apply I4 and I5: v and W at n+1."""
     v_next = [v[i] + h * (a[i] + a_next[i]) / 2 for i in range(3)]  # I4
     momentum = [half.JW[i] + h * T[i] / 2 for i in range(3)]
     turned = apply(transposed(half.E), momentum)
@@ -237,5 +238,5 @@ def second_half(v, a, T, a_next, T_next, h, J: Matrix, half: Half):
 
 
 def channel(W: Vector, pi: Number) -> Vector:
-    """M1: crv in deg/s."""
+    """Apply M1: crv in deg/s."""
     return [180 * w / pi for w in W]

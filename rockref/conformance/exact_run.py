@@ -38,7 +38,7 @@ class Moment:
 
 
 def evaluate(body: Body, memory: Moment, x, Lambda, v, W, m) -> tuple[list[Touch], list[Vector], Vector, Vector]:
-    """All points at one pose with one pair of velocities: touches, forces, acceleration, body moment."""
+    """Return all points at one pose with one pair of velocities: touches, forces, acceleration, body moment."""
     touches, levers, forces = [], [], []
     for i, (P, point) in enumerate(zip(body.P, body.made, strict=True)):
         k = exact.kinematics(x, Lambda, v, W, P)
@@ -53,7 +53,7 @@ def evaluate(body: Body, memory: Moment, x, Lambda, v, W, m) -> tuple[list[Touch
 
 
 def started(body: Body, state: Moment, m) -> Moment:
-    """The state with a, T, F and the contact memory of the first force evaluation, where it has none yet."""
+    """Return the state with a, T, F and the contact memory of the first force evaluation, where it has none yet."""
     if state.a is not None:
         return state
     touches, forces, a, T = evaluate(body, state, state.x, state.Lambda, state.v, state.W, m)
@@ -69,7 +69,7 @@ def _memory(touches: list[Touch]) -> dict[str, Any]:
 
 
 def step(body: Body, state: Moment, h: Number, m) -> Moment:
-    """One step of length h from a started state."""
+    """Return one step of length h from a started state."""
     assert state.a is not None and state.T is not None
     half = exact.first_half(state.x, state.v, state.Lambda, state.W, state.a, state.T, h, body.J, m)
     touches, forces, a, T = evaluate(body, state, half.x, half.Lambda, half.v_predicted, half.W_predicted, m)
@@ -78,7 +78,7 @@ def step(body: Body, state: Moment, h: Number, m) -> Moment:
 
 
 def run(body: Body, state: Moment, h: Number, wanted: list[int], m) -> Iterator[Moment]:
-    """The states at the wanted step numbers, in order."""
+    """Yield the states at the wanted step numbers, in order."""
     state = started(body, state, m)
     done = 0
     for count in wanted:
@@ -89,7 +89,7 @@ def run(body: Body, state: Moment, h: Number, wanted: list[int], m) -> Iterator[
 
 
 def release(mass: Number, g: Number, P: list[Vector], K_N: list, theta_0: Number, m) -> tuple[Vector, Matrix]:
-    """Release posture: x and Lambda = exp(-theta_0 X) exp(phi Y), both pivot points bearing half the weight.
+    """Return release posture: x and Lambda = exp(-theta_0 X) exp(phi Y), both pivot points bearing half the weight.
 
     phi by Newton's method on the difference of the two heights; the pivots are the lowest points with x > 0 and x < 0
     at phi = 0.

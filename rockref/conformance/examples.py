@@ -12,7 +12,7 @@ FILES = {"python": "backend_numpy.py", "c": "backend_c/backend.c", "javascript":
 
 
 def source(language: str) -> str:
-    """The text of a backend to start from. Raises InputError (E-ARGUMENT) for another language."""
+    """Return the text of a backend to start from. Raises InputError (E-ARGUMENT) for another language."""
     if language not in FILES:
         raise InputError("E-ARGUMENT", language, "has no example", f"Use one of {', '.join(FILES)}.")
     for place in PLACES:

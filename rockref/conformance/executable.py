@@ -92,7 +92,7 @@ class Executable:
         return f"q{self.asked}"
 
     def simulate(self, problem: Problem) -> dict[str, Any]:
-        """A run."""
+        """Return a run."""
         few = problem.duration <= FEW_STEPS * problem.step
         request = jsonlines.of_problem(self._new_id(), "simulate", problem)
         return self._run(request, self.small if few else self.long)
@@ -231,7 +231,7 @@ class Executable:
 
 
 def _is_answer(reply: dict[str, Any], request: dict[str, Any]) -> bool:
-    """Whether an object is an answer, right or wrong, and not a line of a log.
+    """Return whether an object is an answer, right or wrong, and not a line of a log.
 
     To a start it says who it is; to a question it has its id, or a result, or an error and nothing else.
     """
@@ -273,12 +273,12 @@ def _close(pipe: Any) -> None:
 
 
 def _and(rubbish: list[str]) -> str:
-    """What was printed in place of an answer."""
+    """Return what was printed in place of an answer."""
     return f", printed rubbish: {rubbish[0][:80]!r}" if rubbish else ""
 
 
 def _write(pipe: Any, text: str) -> None:
-    """A request into a program."""
+    """Write a request into a program."""
     try:
         pipe.write(text)
         pipe.flush()
@@ -287,7 +287,7 @@ def _write(pipe: Any, text: str) -> None:
 
 
 def _pump(pipe: Any, lines: queue.Queue[str | None], ended: threading.Event) -> None:
-    """Lines of a program into a queue, then None."""
+    """Put lines of a program into a queue, then None."""
     try:
         while text := pipe.readline(LONGEST_LINE):
             if not _put(lines, text, ended):
@@ -310,7 +310,7 @@ def _put(lines: queue.Queue[str | None], text: str | None, ended: threading.Even
 
 
 def _keep(pipe: Any, complaints: list[str]) -> None:
-    """The last complaints of a program."""
+    """Keep the last complaints of a program."""
     try:
         while text := pipe.readline(LONGEST_LINE):
             complaints.append(text.strip()[-KEPT:])

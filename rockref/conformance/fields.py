@@ -25,7 +25,7 @@ RESULTS = {
 
 
 def branch_of(anchored: Any, sliding: Any) -> dict[str, list[int]]:
-    """Which points stick and which slide, from their flags (n,)."""
+    """Return which points stick and which slide, from their flags (n,)."""
     anchored, sliding = np.asarray(anchored, bool), np.asarray(sliding, bool)
     return {
         "stick": np.flatnonzero(anchored & ~sliding).tolist(),
@@ -34,7 +34,8 @@ def branch_of(anchored: Any, sliding: Any) -> dict[str, list[int]]:
 
 
 def part(name: str, whole: Any, branch: dict[str, Any]) -> Any:
-    """The part of F (n, 3), s (n, 2) or x (3,) that `name` means; `branch` says which points stick and which slide."""
+    """Return the part of F (n, 3), s (n, 2) or x (3,) that `name` means; `branch` says which points stick and which
+    slide."""
     whole = np.asarray(whole)
     if name == "F_N":
         return whole[..., 2]
@@ -48,7 +49,7 @@ class Missing(KeyError):
 
 
 def result(name: str, out: dict[str, Any], branch: dict[str, Any]) -> Any:
-    """The result called `name` in a piece's answer. Raises `Missing` where the backend does not show it."""
+    """Return the result called `name` in a piece's answer. Raises `Missing` where the backend does not show it."""
     base, _, row = name.partition("@")
     if base.startswith("trace."):
         trace = out.get("trace") or {}

@@ -21,8 +21,8 @@ GOOD, BAD, INK = "#2e7d32", "#c62828", "#1f2933"
 
 
 def junit(v: Verdict) -> bytes:
-    """JUnit XML: a test suite per layer, a test case per vector, run, property, claimed effect; what is not shown is
-    skipped."""
+    """Return JUnit XML: a test suite per layer, a test case per vector, run, property, claimed effect; what is not
+    shown is skipped."""
     root = ElementTree.Element("testsuites", name=f"rockref conform {v.findings.backend['name']}")
     by_layer: dict[str, dict[str, list]] = {}
     for check in v.findings.checks:
@@ -60,7 +60,7 @@ def _runs(root: ElementTree.Element, runs: list[RunCheck]) -> None:
 
 
 def _suite(root: ElementTree.Element, layer: str, cases: list[tuple[str, str]]) -> None:
-    """A suite of cases: name, and what is said where it fails."""
+    """Add a suite of cases: name, and what is said where it fails."""
     if not cases:
         return
     bad = sum(bool(said) for _, said in cases)
@@ -72,7 +72,7 @@ def _suite(root: ElementTree.Element, layer: str, cases: list[tuple[str, str]]) 
 
 
 def badge(v: Verdict) -> str:
-    """A badge, SVG."""
+    """Return a badge, SVG."""
     said = [v.findings.profile] if v.findings.profile != "float64" else []
     said += ["quick"] if "L5" not in v.findings.layers else []
     profile = f" ({', '.join(said)})" if said else ""
@@ -90,7 +90,7 @@ def badge(v: Verdict) -> str:
 
 
 def curve(run: RunCheck, width: int = 640, height: int = 160) -> str:
-    """The deviation of a run in bars over time, logarithmic, with the bar itself as a line; SVG."""
+    """Return the deviation of a run in bars over time, logarithmic, with the bar itself as a line; SVG."""
     low, high = -3.0, max(2.0, math.ceil(np.log10(np.clip(run.ratios, 1e-3, 1e12).max())))
     left, bottom = 48, height - 24
     span = max(run.t[-1] - run.t[0], 1e-12) if len(run.t) else 1.0
@@ -127,7 +127,8 @@ def curve(run: RunCheck, width: int = 640, height: int = 160) -> str:
 
 
 def page(v: Verdict) -> str:
-    """One self-contained page: the verdict, the rule with what was expected and got, its text in the law, the rest."""
+    """Return one self-contained page: the verdict, the rule with what was expected and got, its text in the law, the
+    rest."""
     colour = GOOD if v.passed else BAD
     runs = "".join(
         f"<h3>{escape(r.id)}: {escape(r.grade)}</h3><p>{escape(r.title)}{'. ' + escape(r.note) if r.note else ''}</p>"
@@ -150,7 +151,8 @@ def page(v: Verdict) -> str:
 
 
 def rule_card(v: Verdict) -> str:
-    """The first wrong rule: what it says, what was expected and got, and its text in the law; nothing without one."""
+    """Return the first wrong rule: what it says, what was expected and got, and its text in the law; nothing without
+    one."""
     if v.rule is None:
         return ""
     rule, check = BY_ID[v.rule], v.check
@@ -175,11 +177,11 @@ def rule_card(v: Verdict) -> str:
 
 
 def _source(function: str) -> str:
-    """The text of a function of the law, named as module:function."""
+    """Return the text of a function of the law, named as module:function."""
     module, _, name = function.partition(":")
     return inspect.getsource(getattr(importlib.import_module(module), name))
 
 
 def _style() -> str:
-    """The style that all pages share."""
+    """Return the style that all pages share."""
     return (resources.files("rockref") / "report" / "assets" / "style.css").read_text(encoding="utf-8")

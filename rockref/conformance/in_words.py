@@ -16,24 +16,24 @@ RED, GREEN, BOLD, PLAIN = "\x1b[31m", "\x1b[32m", "\x1b[1m", "\x1b[0m"
 
 
 def painted(text: str, *codes: str, colour: bool) -> str:
-    """Text in colour, or as it is."""
+    """Return text in colour, or as it is."""
     return "".join(codes) + text + PLAIN if colour else text
 
 
 def number(value: float | bool | None) -> str:
-    """A number as far as it is worth reading."""
+    """Return a number as far as it is worth reading."""
     if value is None or isinstance(value, bool):
         return str(value)
     return f"{value:.10g}" if math.isfinite(value) else str(value)
 
 
 def bars(value: float) -> str:
-    """A deviation in bars."""
+    """Return a deviation in bars."""
     return f"{value:.3g} bars" if math.isfinite(value) else "not comparable"
 
 
 def numbers(check: Check) -> str:
-    """Expected, bar and got of a check."""
+    """Return expected, bar and got of a check."""
     at = f"[{', '.join(map(str, check.index))}]" if check.index else ""
     if check.expected is None:
         return f"{check.name}: {check.note}"
@@ -45,13 +45,13 @@ def numbers(check: Check) -> str:
 
 
 def flags_of(id_: str, name: str) -> str:
-    """What a vector shows, in its own flags."""
+    """Return what a vector shows, in its own flags."""
     found = next((v for v in layer(name) if v.id == id_.removesuffix(AS_RUN)), None)
     return ", ".join(found.flags) if found else ""
 
 
 def rule_lines(v: Verdict) -> list[str]:
-    """A rule a line, with its status."""
+    """Return a rule a line, with its status."""
     words = {
         "pass": "pass",
         "look": "pass (see the remarks)",
@@ -66,7 +66,7 @@ def rule_lines(v: Verdict) -> list[str]:
 
 
 def divergence(v: Verdict, colour: bool) -> list[str]:
-    """The first wrong rule, and what shows it."""
+    """Return the first wrong rule, and what shows it."""
     lines = [painted(f"COMMON SLIP  {v.slip}", BOLD, RED, colour=colour)] if v.slip else []
     if v.rule is not None:
         rule = BY_ID[v.rule]
@@ -97,7 +97,7 @@ def _upstream(v: Verdict) -> str:
 
 
 def run_line(r: RunCheck) -> str:
-    """A run in one line."""
+    """Return a run in one line."""
     if r.note:
         return f"  {r.id:34} {r.grade:8} {r.note}"
     late = [str(k) for k, i in enumerate(r.impacts, 1) if i["grade"] == "outside"]
@@ -106,7 +106,7 @@ def run_line(r: RunCheck) -> str:
 
 
 def run_lines(v: Verdict) -> list[str]:
-    """The runs, and where the first one parts."""
+    """Return the runs, and where the first one parts."""
     runs = v.findings.runs
     if not runs:
         return []
@@ -131,7 +131,7 @@ def run_lines(v: Verdict) -> list[str]:
 
 
 def impact_lines(run: RunCheck) -> list[str]:
-    """The main impacts that are outside: run, which one, instants, deviation."""
+    """Return the main impacts that are outside: run, which one, instants, deviation."""
     return [
         f"  main impact {number} of {run.id}: expected at {i['t_s']:.9g} s +- {i['bar_s']:.2g} s, {came(i)}"
         for number, i in enumerate(run.impacts, 1)
@@ -140,7 +140,7 @@ def impact_lines(run: RunCheck) -> list[str]:
 
 
 def came(impact: dict) -> str:
-    """When an impact came, and by how much late or early."""
+    """Return when an impact came, and by how much late or early."""
     if impact["got_s"] is None:
         return "did not come"
     off = impact["got_s"] - impact["t_s"]
@@ -150,7 +150,7 @@ def came(impact: dict) -> str:
 
 
 def neighbour_lines(v: Verdict) -> list[str]:
-    """Similar mistakes of the zoo."""
+    """Return similar mistakes of the zoo."""
     known = manifest()["mistakes"]
     if v.alone:
         return ["  no mistake of the zoo leaves similar traces"]
@@ -161,7 +161,8 @@ def neighbour_lines(v: Verdict) -> list[str]:
 
 
 def unseen(v: Verdict) -> list[str]:
-    """For who passes: the rules that no piece shows and on which no run depends, as runs are given what they make."""
+    """Return for who passes: the rules that no piece shows and on which no run depends, as runs are given what they
+    make."""
     hidden = {
         piece: [r for r in rules if v.rules[r] == "not shown"]
         for piece, rules in PIECES.items()
@@ -173,7 +174,7 @@ def unseen(v: Verdict) -> list[str]:
 
 
 def passing(f: Findings) -> str:
-    """The word for who passes: in which profile, and what was not asked."""
+    """Return the word for who passes: in which profile, and what was not asked."""
     left = not_asked(f)
     quick = "quick: long runs and properties were not asked"
     said = [f.profile] if f.profile != "float64" else []
@@ -182,7 +183,7 @@ def passing(f: Findings) -> str:
 
 
 def text(v: Verdict, colour: bool = False) -> str:
-    """The whole verdict."""
+    """Return the whole verdict."""
     f = v.findings
     who = " ".join(p for p in (f.backend["name"], f.backend["version"]) if p)
     lines = [

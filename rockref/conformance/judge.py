@@ -41,7 +41,7 @@ class Findings:
 
     @property
     def failures(self) -> list[Check]:
-        """The checks that are outside."""
+        """Return the checks that are outside."""
         return [c for c in self.checks if c.failed]
 
 
@@ -54,7 +54,7 @@ def described(backend: Any) -> dict[str, Any]:
 
 
 def chosen_layers(layers: Iterable[str] | None) -> tuple[str, ...]:
-    """Layers by name, in order; all of them by default. Raises InputError (E-LAYER)."""
+    """Return layers by name, in order; all of them by default. Raises InputError (E-LAYER)."""
     if layers is None:
         return LAYERS
     wanted = tuple(layers)
@@ -65,12 +65,13 @@ def chosen_layers(layers: Iterable[str] | None) -> tuple[str, ...]:
 
 
 def of_the_profile(layer: str, profile: str) -> bool:
-    """Whether a layer is asked in a profile: of other integrators no step, but short runs of their own."""
+    """Return whether a layer is asked in a profile: of other integrators no step, but short runs of their own."""
     return layer != "L4" if profile == "scheme" else layer != "LS"
 
 
 def used_profile(backend: Any, wanted: str | None) -> str:
-    """The profile that is asked for, or else what the backend says of its precision. Raises InputError (E-PROFILE)."""
+    """Return the profile that is asked for, or else what the backend says of its precision. Raises InputError
+    (E-PROFILE)."""
     if wanted is not None and wanted not in PROFILES:
         raise InputError("E-PROFILE", "profile", f"is {wanted!r}", f"Use one of {', '.join(PROFILES)}.")
     precision = getattr(backend, "precision", "float64")
@@ -127,12 +128,13 @@ def judge(
 
 
 def asked_in(layer: str, backend: Any) -> tuple[Vector, ...]:
-    """The vectors of a small layer for a backend: the steps of L4 are asked as runs of one step where it shows none."""
+    """Return the vectors of a small layer for a backend: the steps of L4 are asked as runs of one step where it shows
+    none."""
     return vectors.steps_as_runs() if layer == "L4" and not asking.has(backend, "step") else vectors.layer(layer)
 
 
 def _small(backend: Any, findings: Findings, asked: tuple[Vector, ...], report: Callable[[float], None] | None) -> None:
-    """One of the small layers."""
+    """Judge one of the small layers."""
     for i, vector in enumerate(asked):
         if findings.profile == "scheme" and vector.piece in NOT_OF_THE_SCHEME:
             continue
@@ -145,7 +147,7 @@ def _small(backend: Any, findings: Findings, asked: tuple[Vector, ...], report: 
 def answered(
     backend: Any, vector: Vector, profile: str, kept: list[tuple[Vector, dict[str, Any]]] | None = None
 ) -> list[Check]:
-    """The checks of one vector; whatever the backend raises is its answer. `kept` gets the answer."""
+    """Return the checks of one vector; whatever the backend raises is its answer. `kept` gets the answer."""
     ask = scheme.ask if vector.layer == "LS" else asking.ask
     try:
         out = ask(backend, vector)
@@ -157,7 +159,7 @@ def answered(
 
 
 def _properties(backend: Any, findings: Findings, examples: int) -> None:
-    """L6, where hypothesis is installed."""
+    """Judge L6, where hypothesis is installed."""
     if findings.profile != "float64":
         findings.remarks.append(f"L6 (properties) is not judged in the profile {findings.profile}.")
         return
@@ -172,5 +174,5 @@ def _properties(backend: Any, findings: Findings, examples: int) -> None:
 
 
 def finite(value: float) -> float | None:
-    """A number as JSON can hold it."""
+    """Return a number as JSON can hold it."""
     return value if math.isfinite(value) else None

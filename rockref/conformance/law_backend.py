@@ -36,7 +36,7 @@ class RulesBackend:
         return a if shape is None else a.reshape(shape)
 
     def derived(self, **p: Any) -> dict[str, Any]:
-        """G1, G2, P1 to P3."""
+        """Apply G1, G2, P1 to P3."""
         q = {k: self._array(v) for k, v in p.items()}
         P = self.rules.points(q["width"], q["depth"], q["height"], q["delta_long"], q["delta_diag"])
         external = np.arange(8) < 4
@@ -48,7 +48,7 @@ class RulesBackend:
         return {"inertia": J, "P": P, **K, "C_N": C_N, "C_T": C_T, "mu_0": mu, "mu": mu}
 
     def release(self, mass, g, P, K_N, theta_0) -> dict[str, Any]:
-        """The release posture."""
+        """Return the release posture."""
         P = self._array(P)
         n = len(P)
         unused = np.zeros(n, self.dtype)
@@ -58,14 +58,14 @@ class RulesBackend:
         return {"x": state.x, "Lambda": state.Lambda}
 
     def kinematics(self, x, Lambda, v, W, P) -> dict[str, Any]:
-        """K1."""
+        """Apply K1."""
         k = self.rules.kinematics(*(self._array(a) for a in (x, Lambda, v, W, P)))
         return {"r": k.r, "u": k.u, "xi": k.xi, "xi_rate": k.xi_rate, "v_slide": k.v_slide}
 
     def contact_law(
         self, xi, xi_rate, u_t, v_slide, s, anchored, sliding, K_N, C_N, K_T, C_T, mu_0, mu
     ) -> dict[str, Any]:
-        """N1, N2, T1 to T6 for one point."""
+        """Apply N1, N2, T1 to T6 for one point."""
         one = [self._array(a, (1,)) for a in (xi, xi_rate)] + [self._array(a, (1, 2)) for a in (u_t, v_slide, s)]
         flags = [np.array([bool(a)]) for a in (anchored, sliding)]
         p = Made(*(self._array(a, (1,)) for a in (K_N, C_N, K_T, C_T, mu_0, mu)))
@@ -75,17 +75,17 @@ class RulesBackend:
         return {k: getattr(c, k)[0] for k in ("F_N", "F_T", "s", "touching", "sliding")} | {"trace": trace}
 
     def assemble(self, Lambda, r, F, mass, g) -> dict[str, Any]:
-        """A1 to A3."""
+        """Apply A1 to A3."""
         Lambda, r, F, mass, g = (self._array(a) for a in (Lambda, r, F, mass, g))
         moment = self.rules.moment(r, F)
         return {"force": self.rules.force(F, mass, g), "moment": moment, "T": self.rules.body_moment(Lambda, moment)}
 
     def rotate(self, Theta) -> dict[str, Any]:
-        """The exponential of I3."""
+        """Return the exponential of I3."""
         return {"Lambda": self.rules.exponential(self._array(Theta)) + np.eye(3, dtype=self.dtype)}
 
     def integrate(self, x, v, Lambda, W, a, T, a_next, T_next, h, inertia) -> dict[str, Any]:
-        """I1 to I5 with prescribed accelerations and moments."""
+        """Apply I1 to I5 with prescribed accelerations and moments."""
         x, v, Lambda, W, a, T, a_next, T_next, h = (
             self._array(b) for b in (x, v, Lambda, W, a, T, a_next, T_next, self.dtype.type(h))
         )
@@ -98,7 +98,7 @@ class RulesBackend:
         return {"x": x_n, "Theta": Theta, "Lambda": L_n, "v_predicted": v_p, "W_predicted": W_p, "v": v_n, "W": W_n}
 
     def step(self, problem: Problem) -> dict[str, Any]:
-        """One full step from a state that brings a, T and F."""
+        """Return one full step from a state that brings a, T and F."""
         problem = as_arrays(problem, self.dtype)
         state = self._step(problem, self.rules.start(self.rules, problem))
         return {k: getattr(state, k) for k in STATE}
@@ -108,15 +108,15 @@ class RulesBackend:
             return self.rules.step(self.rules, problem, state, prepared_inertia(problem.block))
 
     def channel(self, W, Lambda) -> dict[str, Any]:
-        """M1 on a history."""
+        """Apply M1 on a history."""
         return {"crv_deg_s": self.rules.channel(self._array(W), self._array(Lambda))}
 
     def simulate(self, problem: Problem) -> Any:
-        """A run."""
+        """Return a run."""
         return pieces.simulate(self.rules, problem, self.dtype)
 
     def simulate_many(self, problems: list[Problem]) -> list[Any]:
-        """Runs side by side as one batch."""
+        """Return runs side by side as one batch."""
         rows: Rows = pieces.simulate(self.rules, stack(problems), self.dtype)
         return [rows.pick(i) for i in range(len(problems))]
 
@@ -125,7 +125,7 @@ STATE = ("x", "v", "Lambda", "W", "s", "anchored", "sliding", "a", "T", "F")
 
 
 def claimed(problem: Problem, effect: str, parameters: dict[str, Any]) -> Problem:
-    """The problem with an effect by name."""
+    """Return the problem with an effect by name."""
     return with_effect(problem, catalogue.make(catalogue.find(effect), parameters, "effect"))
 
 
@@ -136,7 +136,7 @@ class NumpyEngine(RulesBackend):
         super().__init__(pieces.law(), dtype, name="rockref numpy")
 
     def derived(self, **p: Any) -> dict[str, Any]:
-        """G1, G2 by the rules; P1 to P3 as the model puts them together."""
+        """Apply G1, G2 by the rules; P1 to P3 as the model puts them together."""
         q = {k: np.asarray(v, float) for k, v in p.items()}
         names = ("K_N", "K_T", "beta_int", "beta_ext", "mu_int", "mu_ext")
         twelve = parameters.Parameters().replace(**{k: float(q[k]) for k in names})
@@ -144,7 +144,7 @@ class NumpyEngine(RulesBackend):
         return super().derived(**p) | made
 
     def rotate(self, Theta) -> dict[str, Any]:
-        """The exponential of the model."""
+        """Return the exponential of the model."""
         return {"Lambda": exp_minus_identity(self._array(Theta)) + np.eye(3, dtype=self.dtype)}
 
     def _step(self, problem: Problem, state: State) -> State:
@@ -153,24 +153,24 @@ class NumpyEngine(RulesBackend):
             return integrator.step(problem, state, prepared_inertia(problem.block))
 
     def simulate(self, problem: Problem) -> Any:
-        """A run of the engine."""
+        """Return a run of the engine."""
         return run(problem, engine="numpy", dtype=self.dtype)
 
     def effect(self, problem: Problem, effect: str, parameters: dict[str, Any]) -> Any:
-        """A run with an effect of the catalogue."""
+        """Return a run with an effect of the catalogue."""
         return run(claimed(problem, effect, parameters), engine="numpy", dtype=self.dtype)
 
     def shaken(self, problem: Problem) -> Any:
-        """A run on a plate that moves."""
+        """Return a run on a plate that moves."""
         return run(problem, engine="numpy", dtype=self.dtype)
 
     def sensor(self, effect: str, parameters: dict[str, Any], t: Any, crv_deg_s: Any) -> dict[str, Any]:
-        """What the gyroscope makes of rates."""
+        """Return what the gyroscope makes of rates."""
         of = (catalogue.make(catalogue.find(effect), parameters, "effect"),)
         return {"crv_deg_s": np.degrees(catalogue.measured(of, np.asarray(t), np.radians(crv_deg_s)))}
 
     def simulate_many(self, problems: list[Problem]) -> list[Any]:
-        """A batch of the engine."""
+        """Return a batch of the engine."""
         response = run(stack(problems), engine="numpy", dtype=self.dtype)
         return [response[i] for i in range(len(problems))]
 
@@ -183,18 +183,18 @@ class NumbaEngine:
     name = "rockref numba"
 
     def simulate(self, problem: Problem) -> Any:
-        """A run of the engine."""
+        """Return a run of the engine."""
         return run(problem, engine="numba")
 
     def effect(self, problem: Problem, effect: str, parameters: dict[str, Any]) -> Any:
-        """A run with an effect of the catalogue."""
+        """Return a run with an effect of the catalogue."""
         return run(claimed(problem, effect, parameters), engine="numba")
 
     def shaken(self, problem: Problem) -> Any:
-        """A run on a plate that moves."""
+        """Return a run on a plate that moves."""
         return run(problem, engine="numba")
 
     def step(self, problem: Problem) -> dict[str, Any]:
-        """One step: a run that long, from a state that brings a, T and F."""
+        """Return one step: a run that long, from a state that brings a, T and F."""
         state = run(replace(problem, duration=problem.step, output_rate=1 / problem.step), engine="numba").final_state
         return {k: getattr(state, k) for k in STATE}

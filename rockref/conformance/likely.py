@@ -26,7 +26,8 @@ Mistake = tuple[str, Callable[[], dict[str, Any]]]
 
 
 def likely(claim: Claim, answer: dict[str, Any]) -> str:
-    """The mistake that gives this answer within ten bars, in words: "as if ..."; "" where none that is tried does."""
+    """Return the mistake that gives this answer within ten bars, in words: "as if ..."; "" where none that is tried
+    does."""
     with np.errstate(all="ignore"):
         for words, made in mistakes(claim):
             try:
@@ -38,7 +39,7 @@ def likely(claim: Claim, answer: dict[str, Any]) -> str:
 
 
 def alike(claim: Claim, answer: dict[str, Any], made: dict[str, Any]) -> bool:
-    """Whether what is shown of an answer is what a mistake gives."""
+    """Return whether what is shown of an answer is what a mistake gives."""
     for name, (right, bar) in claim.expect.items():
         got, wrong = answer.get(name), np.asarray(made[name]).reshape(right.shape)
         if got is None:
@@ -49,7 +50,7 @@ def alike(claim: Claim, answer: dict[str, Any], made: dict[str, Any]) -> bool:
 
 
 def mistakes(claim: Claim) -> Iterator[Mistake]:
-    """All that are tried, the simplest first."""
+    """Yield all that are tried, the simplest first."""
     effect = catalogue.make(catalogue.find(claim.effect), dict(claim.parameters), "effect")
     yield "as if it were left out", partial(of, claim, type(effect)())
     for words, changed in other_values(effect):
@@ -61,7 +62,8 @@ def mistakes(claim: Claim) -> Iterator[Mistake]:
 
 
 def other_values(effect: Effect) -> Iterator[tuple[str, Effect]]:
-    """The effect with parameters of the other sign (a ratio: the other way round) or left out, one or all of a kind."""
+    """Yield the effect with parameters of the other sign (a ratio: the other way round) or left out, one or all of a
+    kind."""
     for names, called in groups(list(effect.quantities)):
         values = {n: getattr(effect, n) for n in names if getattr(effect, n) not in (None, effect.quantities[n].absent)}
         if not values:
@@ -75,7 +77,7 @@ def other_values(effect: Effect) -> Iterator[tuple[str, Effect]]:
 
 
 def groups(names: list[str]) -> list[tuple[list[str], str]]:
-    """Each parameter, then those that differ by their last digit together: [names], and what to call them."""
+    """Return each parameter, then those that differ by their last digit together: [names], and what to call them."""
     stems: dict[str, list[str]] = {}
     for name in names:
         stems.setdefault(name.rstrip("0123456789"), []).append(name)
@@ -83,7 +85,7 @@ def groups(names: list[str]) -> list[tuple[list[str], str]]:
 
 
 def of(claim: Claim, effect: Effect) -> dict[str, Any]:
-    """The results of a claim with another effect in place of its own."""
+    """Return the results of a claim with another effect in place of its own."""
     if claim.piece == "effect":
         return rows(with_effect(problem_of(claim.inputs), effect))
     crv = np.radians(claim.inputs["crv_deg_s"])
@@ -91,18 +93,18 @@ def of(claim: Claim, effect: Effect) -> dict[str, Any]:
 
 
 def rows(problem: Problem) -> dict[str, Any]:
-    """The rows of a run of the law."""
+    """Return the rows of a run of the law."""
     response = run(problem, engine="numpy")
     return {name: getattr(response, name) for name in ("W", "x", "Lambda")}
 
 
 def without_one(problem: Problem, i: int) -> dict[str, Any]:
-    """The rows of a run without the i-th contact point."""
+    """Return the rows of a run without the i-th contact point."""
     return rows(without_point(problem, i))
 
 
 def without_point(problem: Problem, i: int) -> Problem:
-    """The problem without its i-th contact point."""
+    """Return the problem without its i-th contact point."""
     p, s = problem.points, problem.start
 
     def rest(a: Any, axis: int = -1) -> Any:

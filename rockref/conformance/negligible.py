@@ -36,7 +36,7 @@ OF_FEW_STEPS = ("L4", "L5s", "LS")
 
 
 def size_and_unit(name: str, layer: str = "") -> tuple[float, str]:
-    """The size [SI] below which a difference of a result is negligible, zero where there is none; and its unit.
+    """Return the size [SI] below which a difference of a result is negligible, zero where there is none; and its unit.
 
     name : as results are called, `F_N@1`, `trace.s_trial`
     """
@@ -45,7 +45,8 @@ def size_and_unit(name: str, layer: str = "") -> tuple[float, str]:
 
 
 def same_force(q: dict[str, Any]) -> bool:
-    """Whether a foot is so near its cone that sticking and sliding give the same force, to a negligible difference.
+    """Return whether a foot is so near its cone that sticking and sliding give the same force, to a negligible
+    difference.
 
     q : inputs of `contact_law`
     """

@@ -22,7 +22,7 @@ SMALL = ("L0", "L1", "L2", "L3", "L4", "L5s", "LS", "L7")
 
 
 def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[str, Any]]:
-    """All requests of some layers, the first one `start`."""
+    """Yield all requests of some layers, the first one `start`."""
     yield {"cmd": "start", "protocol": jsonlines.PROTOCOL}
     wanted = tuple(layers)
     for layer in SMALL:
@@ -42,7 +42,7 @@ def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[
 
 
 def text(layers: Iterable[str], profile: str = "float64") -> str:
-    """The requests as JSON lines."""
+    """Return the requests as JSON lines."""
     return "".join(map(jsonlines.line, questions(layers, profile)))
 
 
@@ -80,7 +80,7 @@ class Recorded:
             self.remarks.append("The file begins with a byte order mark, which was dropped.")
 
     def _shown(self, facts: dict[str, Any]) -> list[str]:
-        """The pieces that it says it has; where it does not say, those that are answered by more than an error."""
+        """Return pieces that it says it has; where it does not say, those that are answered by more than an error."""
         if facts.get("capabilities"):
             return jsonlines.capabilities(facts, PIECES)
         asked = [v for layer in SMALL for v in vectors.layer(layer)]
@@ -88,7 +88,7 @@ class Recorded:
         return [p for p in PIECES if p in answered]
 
     def _left_out(self) -> list[str]:
-        """A remark for every layer with questions to pieces that are shown which the file does not answer."""
+        """Return a remark for every layer with questions to pieces that are shown which the file does not answer."""
         # What is asked of other integrators alone is not missed.
         of_all = [name for name in SMALL if name != "LS"]
         asked = {name: tuple((v.id, v.piece) for v in asked_in(name, self)) for name in of_all}
@@ -105,7 +105,7 @@ class Recorded:
 
     @property
     def layers(self) -> set[str]:
-        """The layers to which the file has at least one answer."""
+        """Return the layers to which the file has at least one answer."""
         found = {layer for layer in SMALL if any(v.id in self.answers for v in asked_in(layer, self))}
         runs = {*vectors.window_names(), *vectors.trajectory_names()}
         return found | ({"L5"} if runs & self.answers.keys() else set())
@@ -116,7 +116,7 @@ class Recorded:
         return lambda **inputs: self._answer(piece, inputs)
 
     def simulate(self, problem: Problem) -> dict[str, Any]:
-        """The recorded run."""
+        """Return the recorded run."""
         return self._answer("simulate", vectors.flat(problem))
 
     def _answer(self, piece: str, inputs: dict[str, Any]) -> dict[str, Any]:
@@ -134,7 +134,7 @@ class Recorded:
 
 @lru_cache
 def _by_content() -> dict[str, str]:
-    """Which id a question has, by its content."""
+    """Return which id a question has, by its content."""
     every = [q for profile in ("float64", "scheme") for q in questions((*SMALL, "L5"), profile)]
     return {_key(q["piece"], q["in"]): q["id"] for q in every if q["cmd"] == "run"}
 
@@ -147,7 +147,7 @@ def _key(piece: str, inputs: dict[str, Any]) -> str:
 
 
 def requests_in(path: Path) -> Iterator[dict[str, Any]]:
-    """The requests in a file. Raises InputError (E-REQUEST) that names the line."""
+    """Yield the requests in a file. Raises InputError (E-REQUEST) that names the line."""
     for number, row in _rows(path, LARGEST_REQUESTS):
         try:
             yield jsonlines.object_of(row)
@@ -157,7 +157,7 @@ def requests_in(path: Path) -> Iterator[dict[str, Any]]:
 
 
 def _replies(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Numbered answers. Raises InputError (E-RESPONSE) that names the line."""
+    """Yield numbered answers. Raises InputError (E-RESPONSE) that names the line."""
     for number, row in _rows(path, LARGEST_RESPONSES):
         try:
             yield number, jsonlines.object_of(row)
@@ -166,7 +166,7 @@ def _replies(path: Path) -> Iterator[tuple[int, dict[str, Any]]]:
 
 
 def has_mark(path: Path) -> bool:
-    """Whether a file, packed or not, begins with a byte order mark of UTF-8."""
+    """Return whether a file, packed or not, begins with a byte order mark of UTF-8."""
     data = read_bytes(path, LARGEST_RESPONSES)
     if data[:2] == b"\x1f\x8b":
         data = unpacked(data, path, LARGEST_RESPONSES)
@@ -174,7 +174,7 @@ def has_mark(path: Path) -> bool:
 
 
 def _rows(path: Path, limit: int) -> Iterator[tuple[int, str]]:
-    """The lines of a file, packed or not, with their numbers, blank ones left out.
+    """Yield the lines of a file, packed or not, with their numbers, blank ones left out.
 
     A byte order mark is dropped. Raises InputError (E-FILE, E-SIZE, E-GZIP, E-ENCODING).
     """

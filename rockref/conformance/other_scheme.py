@@ -14,7 +14,8 @@ from rockref.model.problem import Problem, State
 
 
 def kick_and_drift(rules: pieces.Rules, problem: Problem, state: State, inertia: Inertia) -> State:
-    """Symplectic Euler: velocities by the forces at n, then positions by the new velocities, then the forces there."""
+    """Advance by symplectic Euler: velocities by the forces at n, then positions by the new velocities, then the forces
+    there."""
     h = state.x.dtype.type(problem.step)
     v = state.v + h * state.a
     W = state.W + h * rules.acceleration(state.T, state.W, times(inertia.J, state.W), inertia.J_inverse)

@@ -60,12 +60,12 @@ class Rules:
     start: Callable
 
     def replace(self, **changes: Callable) -> Rules:
-        """A copy with some rules replaced."""
+        """Return a copy with some rules replaced."""
         return replace(self, **changes)
 
 
 def law() -> Rules:
-    """The rules as `rockref.model` has them at this moment."""
+    """Return the rules as `rockref.model` has them at this moment."""
     return Rules(
         inertia=geometry.cuboid_inertia,
         points=geometry.eight_points,
@@ -129,22 +129,22 @@ class Made(NamedTuple):
 
 
 def made(points: ContactPoints) -> Made:
-    """The six properties of contact points."""
+    """Return the six properties of contact points."""
     return Made(points.K_N, points.C_N, points.K_T, points.C_T, points.mu_0, points.mu)
 
 
 def predicted(v, a, W, A, h):
-    """Velocities with which the contact forces at n+1 are evaluated: v + h a, W + h A (decided in the law)."""
+    """Return velocities with which the contact forces at n+1 are evaluated: v + h a, W + h A (decided in the law)."""
     return v + h * a, W + h * A
 
 
 def channel_of_history(W: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
-    """Rule M1 on a history: W (N, 3) [rad/s] -> (N, 3) [deg/s]. The pose does not enter."""
+    """Apply rule M1 on a history: W (N, 3) [rad/s] -> (N, 3) [deg/s]. The pose does not enter."""
     return channel.crv_deg_s(W)
 
 
 def point_law(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
-    """Rules N1 to T6, in the order of the step."""
+    """Apply rules N1 to T6, in the order of the step."""
     F_N = rules.gap(xi, rules.normal(xi, xi_rate, p.K_N, p.C_N))
     s_trial, touching = rules.touch(xi, u_t, s, anchored)
     F_trial = rules.trial(u_t, s_trial, v_slide, p.K_T, p.C_T)
@@ -157,14 +157,14 @@ def point_law(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: 
 
 
 def evaluate_contact(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> tuple[Any, Touch]:
-    """Kinematics and touch of all points at one pose; `state` brings the memory of the last step."""
+    """Return kinematics and touch of all points at one pose; `state` brings the memory of the last step."""
     k = rules.kinematics(x, Lambda, v, W, problem.points.P)
     arguments = (k.xi, k.xi_rate, k.u[..., :2], k.v_slide, state.s, state.anchored, state.sliding)
     return k, rules.point_law(rules, *arguments, made(problem.points))
 
 
 def evaluate(rules: Rules, problem: Problem, state: State, x, Lambda, v, W):
-    """One force evaluation: acceleration, body moment, point forces, touch."""
+    """Return one force evaluation: acceleration, body moment, point forces, touch."""
     k, c = rules.contact(rules, problem, state, x, Lambda, v, W)
     F = np.empty_like(k.u)
     F[..., :2], F[..., 2] = c.F_T, c.F_N
@@ -174,7 +174,7 @@ def evaluate(rules: Rules, problem: Problem, state: State, x, Lambda, v, W):
 
 
 def start(rules: Rules, problem: Problem) -> State:
-    """The start with the first force evaluation made, unless the state brings one."""
+    """Return the start with the first force evaluation made, unless the state brings one."""
     state = replace(problem.start, origin=problem.start.t, count=0, h=problem.step)
     if state.a is not None and state.T is not None and state.F is not None:
         return state
@@ -183,7 +183,7 @@ def start(rules: Rules, problem: Problem) -> State:
 
 
 def first_half(rules: Rules, state: State, inertia: Inertia, h):
-    """I1 to I3 and the prediction: x, Theta, Lambda, predicted v and W; and E, J W for the second half."""
+    """Apply I1 to I3 and the prediction: x, Theta, Lambda, predicted v and W; and E, J W for the second half."""
     JW = times(inertia.J, state.W)
     A = rules.acceleration(state.T, state.W, JW, inertia.J_inverse)
     x = rules.position(state.x, state.v, state.a, h)
@@ -195,7 +195,7 @@ def first_half(rules: Rules, state: State, inertia: Inertia, h):
 
 
 def step(rules: Rules, problem: Problem, state: State, inertia: Inertia) -> State:
-    """One step: I1 to I3, prediction, forces, I4 and I5."""
+    """Return one step: I1 to I3, prediction, forces, I4 and I5."""
     h = state.x.dtype.type(problem.step)
     x, _, Lambda, v_p, W_p, E, JW = rules.first_half(rules, state, inertia, h)
     a, T, F, c = evaluate(rules, problem, state, x, Lambda, v_p, W_p)
@@ -220,7 +220,7 @@ class Rows:
     anchored: np.ndarray
 
     def pick(self, index: int) -> Rows:
-        """One run of a batch."""
+        """Return one run of a batch."""
         return Rows(self.t, *(getattr(self, k)[index] for k in RECORDED))
 
 

@@ -36,13 +36,13 @@ class PropertyCheck:
 
 
 def plane(size: float) -> st.SearchStrategy[np.ndarray]:
-    """Plane vectors."""
+    """Return plane vectors."""
     part = st.floats(-size, size, allow_subnormal=False)
     return st.tuples(part, part).map(np.array)
 
 
 def space(size: float) -> st.SearchStrategy[np.ndarray]:
-    """Space vectors."""
+    """Return space vectors."""
     part = st.floats(-size, size, allow_subnormal=False)
     return st.tuples(part, part, part).map(np.array)
 
@@ -62,33 +62,34 @@ POINTS = st.fixed_dictionaries(
 
 
 def point(q: dict[str, Any]) -> dict[str, Any]:
-    """Inputs of the contact law: a foot of Table 3.1 with one coefficient; who is not anchored does not slide."""
+    """Return inputs of the contact law: a foot of Table 3.1 with one coefficient; who is not anchored does not
+    slide."""
     return q | FOOT | {"mu_0": q["mu"], "sliding": q["sliding"] and q["anchored"]}
 
 
 def upright(run: str, z: float, steps: int, v: Any = (0, 0, 0), W: Any = (0, 0, 0)) -> Problem:
-    """The block of a shipped run, upright at height z [m], with these rates, for so many steps of 1e-5 s."""
+    """Return the block of a shipped run, upright at height z [m], with these rates, for so many steps of 1e-5 s."""
     problem = trajectory(run).problem
     start = State.at_rest(np.array([0.0, 0.0, z]), np.eye(3), problem.points.n, np.array(v, float), np.array(W, float))
     return replace(problem, start=start, duration=steps * problem.step, output_rate=1 / problem.step)
 
 
 def no_tension(backend: Any, q: dict[str, Any]) -> None:
-    """The normal force never pulls, and is zero above the plate."""
+    """Check that the normal force never pulls, and is zero above the plate."""
     F_N = float(as_mapping(backend.contact_law(**point(q)), "contact_law")["F_N"])
     assert F_N >= 0, f"F_N = {F_N}"
     assert q["xi"] >= 0 or F_N == 0, f"F_N = {F_N} at xi = {q['xi']}"
 
 
 def inside_the_cone(backend: Any, q: dict[str, Any]) -> None:
-    """Friction is never larger than mu F_N."""
+    """Check that friction is never larger than mu F_N."""
     out = as_mapping(backend.contact_law(**point(q)), "contact_law")
     size, limit = float(np.hypot(*out["F_T"])), q["mu"] * float(out["F_N"])
     assert size <= limit * (1 + ROUNDING) + FORCE, f"|F_T| = {size}, mu F_N = {limit}"
 
 
 def anchor_fits_the_force(backend: Any, q: dict[str, Any]) -> None:
-    """After the step, spring to the anchor and damper give the friction force, sticking or sliding."""
+    """Check that after the step, spring to the anchor and damper give the friction force, sticking or sliding."""
     if q["xi"] < 0:
         return
     p = point(q)
@@ -101,7 +102,7 @@ def anchor_fits_the_force(backend: Any, q: dict[str, Any]) -> None:
 
 
 def same_in_every_direction(backend: Any, q: dict[str, Any]) -> None:
-    """Turned by a quarter about the vertical, the plate answers with the turned force."""
+    """Check that, turned by a quarter about the vertical, the plate answers with the turned force."""
 
     def quarter(a: np.ndarray) -> np.ndarray:
         return np.array([-a[1], a[0]])
@@ -113,14 +114,14 @@ def same_in_every_direction(backend: Any, q: dict[str, Any]) -> None:
 
 
 def rotations_are_rotations(backend: Any, Theta: np.ndarray) -> None:
-    """exp(Theta^) is orthogonal, and exp(-Theta^) undoes it."""
+    """Check that exp(Theta^) is orthogonal, and exp(-Theta^) undoes it."""
     there, back = (np.asarray(as_mapping(backend.rotate(Theta=t), "rotate")["Lambda"]) for t in (Theta, -Theta))
     off = max(np.abs(there @ there.T - np.eye(3)).max(), np.abs(there @ back - np.eye(3)).max())
     assert off <= max(ROUNDING, ANGLE), f"off by {off}"
 
 
 def free_flight_keeps_momentum(backend: Any, W: np.ndarray) -> None:
-    """Far above the plate the angular momentum in plate axes stays, in a run of 20 steps."""
+    """Check that far above the plate the angular momentum in plate axes stays, in a run of 20 steps."""
     problem = upright("table_3_1", 2.0, 20, W=W)
     out = as_mapping(backend.simulate(problem), "simulate")
     J = problem.block.inertia
@@ -130,7 +131,7 @@ def free_flight_keeps_momentum(backend: Any, W: np.ndarray) -> None:
 
 
 def mirrored(backend: Any, v: np.ndarray) -> None:
-    """A run mirrored at the plane y-z is the mirrored run: an upright block, pushed."""
+    """Check that a run mirrored at the plane y-z is the mirrored run: an upright block, pushed."""
     mirror = np.array([-1.0, 1.0, 1.0])
     one, other = (
         as_mapping(backend.simulate(upright("planar", STANDING, 10, v=u)), "simulate") for u in (v, v * mirror)
@@ -141,20 +142,20 @@ def mirrored(backend: Any, v: np.ndarray) -> None:
 
 
 def apart(backend: Any, W: np.ndarray) -> float:
-    """By how much the rates of two runs of one problem differ [rad/s], five steps on the feet."""
+    """Return by how much the rates of two runs of one problem differ [rad/s], five steps on the feet."""
     problem = upright("table_3_1", STANDING, 5, W=W)
     one, other = (np.asarray(as_mapping(backend.simulate(problem), "simulate")["W"], float) for _ in range(2))
     return 0.0 if np.array_equal(one, other) else float(np.max(np.abs(one - other)))
 
 
 def deterministic(backend: Any, W: np.ndarray) -> None:
-    """The same question has the same answer, to rounding."""
+    """Check that the same question has the same answer, to rounding."""
     off = apart(backend, W)
     assert off <= ANGLE, f"two runs of the same problem differ by {off} rad/s"
 
 
 def bit_by_bit(backend: Any) -> str:
-    """A remark where two runs of one problem differ in their bits; "" where they do not."""
+    """Return a remark where two runs of one problem differ in their bits; "" where they do not."""
     # Rates of nearly nothing show the last bits of a moment.
     off = max(apart(backend, np.array(W)) for W in ((3e-9, -2e-9, 1e-9), (-7e-9, 4e-9, 2e-9), (1e-9, 9e-9, -6e-9)))
     return f"Two runs of one problem differ in their bits, by up to {off:.2g} rad/s in five steps." if off else ""
@@ -173,14 +174,14 @@ PROPERTIES: tuple[tuple[str, Callable[[Any, Any], None], st.SearchStrategy[Any]]
 
 
 def judge_properties(backend: Any, examples: int = 100) -> list[PropertyCheck]:
-    """All properties whose piece the backend shows, with so many examples each; the same examples every time."""
+    """Return all properties whose piece the backend shows, with so many examples each; the same examples every time."""
     return [judge_one(backend, rule, drawn, examples) for piece, rule, drawn in PROPERTIES if has(backend, piece)]
 
 
 def judge_one(
     backend: Any, rule: Callable[[Any, Any], None], drawn: st.SearchStrategy[Any], examples: int
 ) -> PropertyCheck:
-    """One property."""
+    """Return one property."""
     quiet = settings(
         max_examples=examples,
         derandomize=True,

@@ -14,7 +14,7 @@ EXAMPLES = 50
 
 
 def pytest_addoption(parser: Any) -> None:
-    """The options."""
+    """Add the options."""
     group = parser.getgroup("rockref")
     group.addoption("--rockref-backend", metavar="TARGET", help="package:Class or path/to/file.py:Class.")
     group.addoption("--rockref-profile", help="float64, float32 or scheme; default: what the backend says it is.")
@@ -42,7 +42,7 @@ def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config
 
 
 def usable(target: str) -> Any:
-    """The backend. Raises InputError (E-BACKEND) where there is none, or it has no `simulate`."""
+    """Return the backend. Raises InputError (E-BACKEND) where there is none, or it has no `simulate`."""
     from rockref.conformance import asking
     from rockref.conformance.backend import load
     from rockref.model.errors import InputError
@@ -54,7 +54,7 @@ def usable(target: str) -> Any:
 
 
 def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
-    """What becomes a test: the kind of test, its name, and what it is about."""
+    """Return what becomes a test: the kind of test, its name, and what it is about."""
     from rockref.conformance import asking, claims, vectors
     from rockref.conformance.judge import NOT_OF_THE_SCHEME, asked_in, of_the_profile
 
@@ -79,7 +79,8 @@ def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
 
 
 def properties(profile: str) -> tuple[Any, ...]:
-    """The properties of L6, which are judged in float64 only. Raises UsageError where hypothesis is not installed."""
+    """Return the properties of L6, which are judged in float64 only. Raises UsageError where hypothesis is not
+    installed."""
     if profile != "float64":
         return ()
     try:
@@ -101,11 +102,11 @@ class _Item(pytest.Item):
         self.given = given
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
-        """The message alone, where the vector failed."""
+        """Return the message alone, where the vector failed."""
         return str(excinfo.value) if isinstance(excinfo.value, Failed) else super().repr_failure(excinfo)
 
     def reportinfo(self) -> tuple[Any, int | None, str]:
-        """Where the test comes from: from the vectors."""
+        """Return where the test comes from: from the vectors."""
         return "rockref vectors", None, self.name
 
 

@@ -108,7 +108,7 @@ PIECES: dict[str, tuple[str, ...]] = {
 
 
 def downstream(rule: str) -> set[str]:
-    """The rules that feed on `rule`, directly or through others."""
+    """Return the rules that feed on `rule`, directly or through others."""
     found: set[str] = set()
     while True:
         more = {r.id for r in RULES if r.id not in found and ({rule} | found) & set(r.needs)}

@@ -20,13 +20,13 @@ SHOWN = ("W", "x", "Lambda")
 
 
 def halved(problem: Problem) -> Problem:
-    """The same run with half the step."""
+    """Return the same run with half the step."""
     return replace(problem, step=problem.step / 2)
 
 
 def extrapolated(coarse: dict[str, Any], fine: dict[str, Any]) -> dict[str, Any]:
-    """Rows for a step of nothing, from rows with a step and with half of it; the forces as they are, which tells that
-    they are shown. Raises ValueError where shapes differ."""
+    """Return rows for a step of nothing, from rows with a step and with half of it; the forces as they are, which tells
+    that they are shown. Raises ValueError where shapes differ."""
     out: dict[str, Any] = {"t": coarse.get("t"), "F": coarse.get("F")}
     for key in SHOWN:
         if coarse.get(key) is not None and fine.get(key) is not None:
@@ -38,7 +38,7 @@ def extrapolated(coarse: dict[str, Any], fine: dict[str, Any]) -> dict[str, Any]
 
 
 def ask(backend: Any, vector: Vector) -> dict[str, Any]:
-    """The extrapolated answer of a backend to a vector of LS. What the backend raises goes through."""
+    """Return the extrapolated answer of a backend to a vector of LS. What the backend raises goes through."""
     problem = problem_of(vector.inputs)
     answers = [as_mapping(backend.simulate(p), "simulate") for p in (problem, halved(problem))]
     return extrapolated(*answers)

@@ -38,7 +38,7 @@ class ShakenVector:
 
 @lru_cache
 def shaken_vectors() -> tuple[ShakenVector, ...]:
-    """All vectors of a plate that moves. Raises InputError (E-VECTORS)."""
+    """Return all vectors of a plate that moves. Raises InputError (E-VECTORS)."""
     with as_shipped(FILE):
         return tuple(_vector(entry) for entry in json.loads(read_bytes(FILE))["vectors"])
 
@@ -52,12 +52,12 @@ def _vector(entry: dict[str, Any]) -> ShakenVector:
 
 
 def judge_shaken(backend: Any) -> list[ClaimCheck]:
-    """Every run on a plate that moves; none where the backend does not show the piece."""
+    """Return every run on a plate that moves; none where the backend does not show the piece."""
     return [judge_vector(backend, v) for v in shaken_vectors()] if has(backend, PIECE) else []
 
 
 def judge_vector(backend: Any, vector: ShakenVector) -> ClaimCheck:
-    """One vector; an answer that is outside with the mistake that gives it, where one is known."""
+    """Return one vector; an answer that is outside with the mistake that gives it, where one is known."""
     try:
         answer = getattr(backend, PIECE)(vector.problem)
         if answer is None:
@@ -71,7 +71,7 @@ def judge_vector(backend: Any, vector: ShakenVector) -> ClaimCheck:
 
 
 def compare(vector: ShakenVector, answer: dict[str, Any]) -> ClaimCheck:
-    """One answer against its vector."""
+    """Compare one answer with its vector."""
     worst, negligible = 0.0, False
     for name, (right, bar) in vector.expect.items():
         got = answer.get(name)
@@ -87,7 +87,7 @@ def compare(vector: ShakenVector, answer: dict[str, Any]) -> ClaimCheck:
 
 
 def as_if(vector: ShakenVector, answer: dict[str, Any]) -> str:
-    """The mistake that gives this answer within ten bars, in words; "" where none that is known does."""
+    """Return the mistake that gives this answer within ten bars, in words; "" where none that is known does."""
     from rockref.conformance.zoo.of_base import OF_BASE, planted
     from rockref.engines import run
 

@@ -20,13 +20,13 @@ PER_POINT = ("K_N", "K_T", "C_N", "C_T", "mu_0", "mu")
 
 
 def steps_of(problem: Problem) -> int:
-    """The number of the last step of a run."""
+    """Return the number of the last step of a run."""
     return int(output_steps(problem)[-1])
 
 
 def kind(problem: Problem) -> tuple[Any, ...]:
-    """What runs must share to be computed side by side: the step, whether the start brings a force evaluation; and
-    rows that fall on whole steps, or else everything about their rows."""
+    """Return what runs must share to be computed side by side: the step, whether the start brings a force evaluation;
+    and rows that fall on whole steps, or else everything about their rows."""
     every = 1 / (problem.output_rate * problem.step)
     whole = abs(every - round(every)) < 1e-6
     rows = () if whole else (problem.output_rate, problem.duration)
@@ -34,7 +34,7 @@ def kind(problem: Problem) -> tuple[Any, ...]:
 
 
 def grouped(problems: list[Problem]) -> list[list[int]]:
-    """Indices of the problems that can be computed side by side, longest first: of one kind, about as long."""
+    """Return indices of the problems that can be computed side by side, longest first: of one kind, about as long."""
     groups: list[list[int]] = []
     for i in sorted(range(len(problems)), key=lambda i: -steps_of(problems[i])):
         for group in groups:
@@ -48,7 +48,7 @@ def grouped(problems: list[Problem]) -> list[list[int]]:
 
 
 def with_inert_points(problem: Problem, n: int) -> Problem:
-    """The problem with points up to n added that hang a metre above the centre of mass and never touch."""
+    """Return the problem with points up to n added that hang a metre above the centre of mass and never touch."""
     p, s = problem.points, problem.start
     more = n - p.n
     if not more:
@@ -64,7 +64,7 @@ def with_inert_points(problem: Problem, n: int) -> Problem:
 
 
 def alike(problems: list[Problem]) -> list[Problem]:
-    """The problems with as many points and steps each, and a row for every step that one of them asks for."""
+    """Return the problems with as many points and steps each, and a row for every step that one of them asks for."""
     if len(problems) == 1:
         return problems
     n, last = max(p.points.n for p in problems), max(map(steps_of, problems))
@@ -76,7 +76,7 @@ def alike(problems: list[Problem]) -> list[Problem]:
 
 
 def rows_of(problem: Problem, answer: Any, every: int) -> dict[str, Any]:
-    """The rows and the points that a problem asks for, of an answer with a row for each so many steps."""
+    """Return the rows and the points that a problem asks for, of an answer with a row for each so many steps."""
     rows, n = output_steps(problem) // every, problem.points.n
     out = {k: v for k, v in as_mapping(answer, "simulate").items() if v is not None}
     found = {k: np.asarray(v)[rows] for k, v in out.items()}
@@ -84,7 +84,7 @@ def rows_of(problem: Problem, answer: Any, every: int) -> dict[str, Any]:
 
 
 def simulate_group(backend: Any, problems: list[Problem]) -> list[Any]:
-    """The answers of a backend to the problems of a group, in one batch. What it raises goes through."""
+    """Return the answers of a backend to the problems of a group, in one batch. What it raises goes through."""
     shared = alike(problems)
     answers = backend.simulate_many(shared)
     if shared is problems:
@@ -94,7 +94,7 @@ def simulate_group(backend: Any, problems: list[Problem]) -> list[Any]:
 
 
 def simulate(backend: Any, problems: list[Problem]) -> list[Any]:
-    """The answers of a backend to a group, side by side where it can; an exception stands for the answer that it
+    """Return the answers of a backend to a group, side by side where it can; an exception stands for the answer that it
     spoiled."""
     if hasattr(backend, "simulate_many"):
         try:

@@ -54,7 +54,7 @@ Slip = tuple[Callable[[Pair], "np.ndarray | None"], str]
 
 
 def pairs_of(vector: Vector, out: dict[str, Any], failed: set[str]) -> Iterator[Pair]:
-    """The numbers of one vector with their answers."""
+    """Yield the numbers of one vector with their answers."""
     for name, e in vector.expect.items():
         try:
             got = np.asarray(result(name, out, vector.branch), float)
@@ -73,13 +73,13 @@ def pairs_of(vector: Vector, out: dict[str, Any], failed: set[str]) -> Iterator[
 
 
 def _pose(vector: Vector, row: str) -> np.ndarray | None:
-    """The pose that belongs to a result: that of its row, or of the inputs."""
+    """Return the pose that belongs to a result: that of its row, or of the inputs."""
     known = vector.expect.get(f"Lambda@{row}") if row else None
     return known.value if known else vector.inputs.get("Lambda")
 
 
 def ratio(factor: float) -> Callable[[Pair], np.ndarray | None]:
-    """The expected result times a factor; a rotation by so many times the angle."""
+    """Return the expected result times a factor; a rotation by so many times the angle."""
 
     def made(p: Pair) -> np.ndarray | None:
         if p.expected.shape[-2:] != (3, 3):
@@ -94,21 +94,21 @@ def ratio(factor: float) -> Callable[[Pair], np.ndarray | None]:
 
 
 def rotation_vector(R: np.ndarray) -> np.ndarray:
-    """The vector (3,) [rad] whose exponential is a rotation (3, 3)."""
+    """Return the vector (3,) [rad] whose exponential is a rotation (3, 3)."""
     axial = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
     size = float(np.sqrt(axial @ axial))
     return axial if size < 1e-12 else axial / size * np.arctan2(size, (np.trace(R) - 1) / 2)
 
 
 def exponential(Theta: np.ndarray) -> np.ndarray:
-    """exp(Theta^) (3, 3) of a vector of any size but zero: the law's own refuses whole turns in a step."""
+    """Return exp(Theta^) (3, 3) of a vector of any size but zero: the law's own refuses whole turns in a step."""
     x, y, z = Theta
     H, size = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]), np.sqrt(Theta @ Theta)
     return np.eye(3) + np.sin(size) / size * H + 2 * (np.sin(size / 2) / size) ** 2 * H @ H
 
 
 def axes(order: Sequence[int], signs: Sequence[int]) -> Callable[[Pair], np.ndarray | None]:
-    """The axes in another order, with signs."""
+    """Return the axes in another order, with signs."""
 
     def made(p: Pair) -> np.ndarray | None:
         if p.expected.shape[-1:] != (3,) or p.name.partition("@")[0] in ("Lambda", "inertia"):
@@ -119,12 +119,12 @@ def axes(order: Sequence[int], signs: Sequence[int]) -> Callable[[Pair], np.ndar
 
 
 def transposed(p: Pair) -> np.ndarray | None:
-    """A rotation the other way."""
+    """Return a rotation the other way."""
     return np.swapaxes(p.expected, -1, -2) if p.name.partition("@")[0] == "Lambda" else None
 
 
 def quaternion_order(shift: int) -> Callable[[Pair], np.ndarray | None]:
-    """A rotation whose quaternion is read with its scalar at the other end."""
+    """Return a rotation whose quaternion is read with its scalar at the other end."""
     from rockref.model.rotation import from_quaternion, quaternion
 
     def made(p: Pair) -> np.ndarray | None:
@@ -136,7 +136,7 @@ def quaternion_order(shift: int) -> Callable[[Pair], np.ndarray | None]:
 
 
 def turned(names: tuple[str, ...], back: bool) -> Callable[[Pair], np.ndarray | None]:
-    """Components in the other axes."""
+    """Return components in the other axes."""
 
     def made(p: Pair) -> np.ndarray | None:
         if p.name.partition("@")[0] not in names or p.Lambda is None:
@@ -150,14 +150,14 @@ def turned(names: tuple[str, ...], back: bool) -> Callable[[Pair], np.ndarray | 
 
 
 def row_late(p: Pair) -> np.ndarray | None:
-    """The row before."""
+    """Return the row before."""
     if p.name == "crv_deg_s":
         return np.concatenate([p.got[:1], p.expected[:-1]])
     return p.before
 
 
 def slips() -> Iterator[Slip]:
-    """All slips, the plainest first."""
+    """Yield all slips, the plainest first."""
     yield transposed, "got is the transpose of what is expected: the rotation the other way"
     for factor, words in RATIOS:
         yield ratio(factor), f"got/expected = {factor:.6g}: {words}"
@@ -182,7 +182,7 @@ def slips() -> Iterator[Slip]:
 
 
 def explains(slip: Slip, pairs: list[Pair]) -> bool:
-    """Whether a slip gives every number that was given, and the right ones do not."""
+    """Return whether a slip gives every number that was given, and the right ones do not."""
     seen = 0
     for p in pairs:
         made = slip[0](p)
@@ -198,7 +198,7 @@ def explains(slip: Slip, pairs: list[Pair]) -> bool:
 
 
 def told(answers: list[tuple[Vector, dict[str, Any]]], checks: list[Check]) -> str:
-    """The slip that explains all answers to a result that is outside, in words; "" where there is none."""
+    """Return the slip that explains all answers to a result that is outside, in words; "" where there is none."""
     failed: dict[str, set[str]] = {}
     for c in checks:
         if c.failed and c.weighed:
@@ -217,7 +217,7 @@ def told(answers: list[tuple[Vector, dict[str, Any]]], checks: list[Check]) -> s
 
 
 def evaluated_anew(vector: Vector, out: dict[str, Any]) -> bool:
-    """Whether the answer to a run is that of a start whose own a, T and F were not taken."""
+    """Return whether the answer to a run is that of a start whose own a, T and F were not taken."""
     from rockref.engines import run
 
     if vector.piece != "simulate" or vector.inputs.get("a") is None:

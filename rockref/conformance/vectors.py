@@ -81,12 +81,12 @@ class Trajectory:
 
 
 def folder():
-    """The folder of the vectors inside the package."""
+    """Return the folder of the vectors inside the package."""
     return files("rockref.conformance") / "vectors" / VERSION
 
 
 def read_bytes(name: str) -> bytes:
-    """A shipped file, e.g. "L1.json". Raises InputError (E-VECTORS) where it is missing or altered."""
+    """Return a shipped file, e.g. "L1.json". Raises InputError (E-VECTORS) where it is missing or altered."""
     path = folder().joinpath(*name.split("/"))
     try:
         with path.open("rb") as stream:
@@ -118,14 +118,14 @@ def as_shipped(name: str) -> Iterator[None]:
 
 @lru_cache
 def manifest() -> dict[str, Any]:
-    """The manifest: schema, versions, digests, resolving power. Raises InputError (E-VECTORS)."""
+    """Return the manifest: schema, versions, digests, resolving power. Raises InputError (E-VECTORS)."""
     with as_shipped("MANIFEST.json"):
         found = json.loads(read_bytes("MANIFEST.json"))
         return found | {"files": dict(found["files"]), "trajectories": list(found["trajectories"])}
 
 
 def from_hex(nested: Any) -> Any:
-    """Numbers from hexadecimal text, nested lists as they are."""
+    """Return numbers from hexadecimal text, nested lists as they are."""
     if isinstance(nested, list):
         return [from_hex(n) for n in nested]
     if len(nested) > LONGEST_NUMBER:
@@ -134,7 +134,7 @@ def from_hex(nested: Any) -> Any:
 
 
 def value_of(entry: Any) -> Any:
-    """A stored value: numbers as float64 array, flags as bool array, whole numbers and names as they are."""
+    """Return a stored value: numbers as float64 array, flags as bool array, whole numbers and names as they are."""
     if isinstance(entry, dict) and "hex" in entry:
         return np.array(from_hex(entry["hex"]))
     if isinstance(entry, dict) and "flags" in entry:
@@ -143,7 +143,7 @@ def value_of(entry: Any) -> Any:
 
 
 def expected_of(entry: dict[str, Any]) -> Expected:
-    """An expected result from its stored form."""
+    """Return an expected result from its stored form."""
     bars = {k: None if entry.get(k) is None else np.array(entry[k], float) for k in ("bar", "bar_float32")}
     rule = entry["rule"]
     return Expected(
@@ -158,7 +158,7 @@ def expected_of(entry: dict[str, Any]) -> Expected:
 
 
 def vector_of(entry: dict[str, Any], sets: dict[str, Any]) -> Vector:
-    """A vector from its stored form; `sets` holds inputs that many vectors share."""
+    """Return a vector from its stored form; `sets` holds inputs that many vectors share."""
     stored = dict(sets[entry["set"]]) if "set" in entry else {}
     stored.update(entry["in"])
     return Vector(
@@ -180,7 +180,8 @@ def vector_of(entry: dict[str, Any], sets: dict[str, Any]) -> Vector:
 
 @lru_cache
 def layer(name: str) -> tuple[Vector, ...]:
-    """All vectors of one layer, "L0" .. "L4", "L7", or of the short runs, "L5s". Raises InputError (E-VECTORS)."""
+    """Return all vectors of one layer, "L0" .. "L4", "L7", or of the short runs, "L5s". Raises InputError
+    (E-VECTORS)."""
     with as_shipped(f"{name}.json"):
         document = json.loads(read_bytes(f"{name}.json"))
         return tuple(vector_of(entry, document["sets"]) for entry in document["vectors"])
@@ -192,7 +193,8 @@ OF_A_ROW, AS_RUN = ("x", "Lambda", "W", "F_N", "anchored", "F_stick", "F_slip"),
 
 @lru_cache
 def steps_as_runs() -> tuple[Vector, ...]:
-    """The vectors of L4 as runs of one step, for who shows no step: the same numbers, looked for in the second row."""
+    """Return the vectors of L4 as runs of one step, for who shows no step: the same numbers, looked for in the second
+    row."""
 
     def as_run(v: Vector) -> Vector:
         expect = {f"{k}@1": e for k, e in v.expect.items() if k in OF_A_ROW}
@@ -202,7 +204,7 @@ def steps_as_runs() -> tuple[Vector, ...]:
 
 
 def problem_of(q: dict[str, Any]) -> Problem:
-    """A Problem from flat inputs, the keys of the JSON-lines protocol."""
+    """Return a Problem from flat inputs, the keys of the JSON-lines protocol."""
     block = Block(np.asarray(q["mass"]), np.asarray(q["inertia"]), np.asarray(q["g"]))
     made = {k: np.asarray(q[k]) for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu")}
     names = tuple(q.get("names", [f"point {i}" for i in range(len(q["P"]))]))
@@ -219,7 +221,7 @@ def problem_of(q: dict[str, Any]) -> Problem:
 
 
 def flat(problem: Problem) -> dict[str, Any]:
-    """The flat inputs of a problem, as `problem_of` takes them."""
+    """Return the flat inputs of a problem, as `problem_of` takes them."""
     b, p, s = problem.block, problem.points, problem.start
     q: dict[str, Any] = {"mass": b.mass, "inertia": b.inertia, "g": b.g, "names": list(p.names)}
     q |= {k: getattr(p, k) for k in ("P", "K_N", "K_T", "C_N", "C_T", "mu_0", "mu")}
@@ -231,18 +233,18 @@ def flat(problem: Problem) -> dict[str, Any]:
 
 
 def trajectory_names() -> tuple[str, ...]:
-    """The trajectories of L5, in order."""
+    """Return the trajectories of L5, in order."""
     return tuple(manifest()["trajectories"])
 
 
 def window_names() -> tuple[str, ...]:
-    """The windows of L5: 20 ms cut out of trajectories."""
+    """Return the windows of L5: 20 ms cut out of trajectories."""
     return tuple(manifest()["windows"])
 
 
 @lru_cache
 def trajectory(name: str) -> Trajectory:
-    """One trajectory of L5. Raises InputError (E-VECTORS; E-GZIP, E-SIZE)."""
+    """Return one trajectory of L5. Raises InputError (E-VECTORS; E-GZIP, E-SIZE)."""
     with as_shipped(f"L5/{name}.json"):
         meta = json.loads(read_bytes(f"L5/{name}.json"))
         problem = problem_of({k: value_of(v) for k, v in meta["problem"].items()})
@@ -252,7 +254,7 @@ def trajectory(name: str) -> Trajectory:
 
 
 def columns_of(text: str) -> dict[str, np.ndarray]:
-    """The columns of a run from CSV: (N,), or (N, k) where there are k of the name, `W_rad_s[0]` for example."""
+    """Return the columns of a run from CSV: (N,), or (N, k) where there are k of the name, `W_rad_s[0]` for example."""
     header, *rows = csv.reader(io.StringIO(text))
     table = np.array([[float(c) if c else np.nan for c in row] for row in rows])
     columns: dict[str, np.ndarray] = {}

@@ -19,7 +19,8 @@ KEYS = (
 
 
 def plain(value: Any) -> Any:
-    """Values of NumPy as plain ones, tuples as lists, and a number that is not finite as None, all the way down."""
+    """Return values of NumPy as plain ones, tuples as lists, and a number that is not finite as None, all the way
+    down."""
     if isinstance(value, dict):
         return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, np.ndarray):

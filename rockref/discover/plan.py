@@ -57,7 +57,8 @@ class Release:
 
 
 def releases_from(text: str) -> list[Release]:
-    """Releases from words: "0.117x3,0.098,0.117t" is three at 0.117 rad, one at 0.098, one with the block turned.
+    """Return releases from words: "0.117x3,0.098,0.117t" is three at 0.117 rad, one at 0.098, one with the block
+    turned.
 
     Raises InputError (E-RUNS).
     """
@@ -101,7 +102,7 @@ class Outlook:
     cosines: np.ndarray = field(repr=False)
 
     def confused(self) -> list[tuple[str, str, float]]:
-        """Pairs of effects that these runs do not tell apart, worst first."""
+        """Return pairs of effects that these runs do not tell apart, worst first."""
         pairs = [
             (a, b, float(self.cosines[i, j]))
             for i, a in enumerate(self.effects)
@@ -111,11 +112,11 @@ class Outlook:
         return sorted(pairs, key=lambda pair: -pair[2])
 
     def undetectable(self) -> list[str]:
-        """Effects that even three times their typical size does not show."""
+        """Return the effects that even three times their typical size does not show."""
         return [id for id in self.effects if self.sizes[id] > 3.0]
 
     def score(self) -> float:
-        """Mean logarithm of the limits in typical sizes: smaller is better."""
+        """Return mean logarithm of the limits in typical sizes: smaller is better."""
         return float(np.mean(np.log([min(max(self.sizes[id], 1e-6), 1e6) for id in self.effects])))
 
 
@@ -131,7 +132,7 @@ class Plan:
     seconds: float
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers and words."""
+        """Return plain numbers and words."""
         from rockref import __version__
 
         o = self.outlook
@@ -149,13 +150,13 @@ class Plan:
         }  # fmt: skip
 
     def cosines(self) -> dict[str, dict[str, float]]:
-        """Cosines between effects by their ids."""
+        """Return cosines between effects by their ids."""
         o = self.outlook
         rows = np.round(o.cosines, 4).tolist()
         return {a: dict(zip(o.effects, row, strict=True)) for a, row in zip(o.effects, rows, strict=True)}
 
     def comparison(self) -> dict[str, Any]:
-        """Limits of as many repeats of one release and of as many varied ones, and their ratio."""
+        """Return limits of as many repeats of one release and of as many varied ones, and their ratio."""
         ratio = {id: self.repeats.sizes[id] / self.varied.sizes[id] for id in self.varied.effects}
         return {
             "repeats": [str(r) for r in self.repeats.runs],
@@ -172,7 +173,7 @@ def switches_of(kind: type[Effect]) -> tuple[Parameter, ...]:
 
 
 def recorded(model: Model, release: Release, gyro: Gyro, seed: int, duration: float) -> Run:
-    """One simulated run as the gyroscope would record it, noise included."""
+    """Return one simulated run as the gyroscope would record it, noise included."""
     response = simulate(
         model, duration=duration, output_rate=4000.0, engine="auto", theta_0=release.tilt, turned=release.turned
     )
@@ -189,7 +190,7 @@ def recorded(model: Model, release: Release, gyro: Gyro, seed: int, duration: fl
 
 
 def campaign(model: Model, run: Run, gyro: Gyro, tilt_uncertainty: float) -> Experiment:
-    """A simulated run as an experiment."""
+    """Return a simulated run as an experiment."""
     return Experiment(
         path=Path("plan"), name="plan", kind="release",
         baseline="four_points" if model.points == "four_points" else "eight_points",
@@ -259,7 +260,7 @@ def outlook(
 
 
 def alternatives(runs: Sequence[Release]) -> list[Release]:
-    """The releases that are offered as the next run: three tilts, from either side."""
+    """Return the releases that are offered as the next run: three tilts, from either side."""
     largest = max(r.tilt for r in runs)
     return [Release(round(largest * f, 4), turned) for f in FURTHER_TILTS for turned in (False, True)]
 
@@ -320,7 +321,7 @@ def plan(
 
 
 def against(runs: Sequence[Release], wanted: Sequence[Release]) -> tuple[list[Release], list[Release]]:
-    """As many repeats of the first release, and as many varied ones, as there are runs (three at least)."""
+    """Return as many repeats of the first release, and as many varied ones, as there are runs (three at least)."""
     n = max(len(runs), 3)
     order = [wanted[k] for k in (0, 3, 4, 1, 2, 5)]
     return [wanted[0]] * n, [order[k % len(order)] for k in range(n)]
@@ -329,7 +330,8 @@ def against(runs: Sequence[Release], wanted: Sequence[Release]) -> tuple[list[Re
 def further(
     model: Model, known: dict[Release, Says], runs: Sequence[Release], wanted: Sequence[Release], chosen, now: Outlook
 ) -> list[dict[str, Any]]:
-    """What one more run would bring, best first: by which factor limits fall (mean), how many pairs come apart."""
+    """Return what one more run would bring, best first: by which factor limits fall (mean), how many pairs come
+    apart."""
     found = []
     for release in wanted:
         then = outlook(model, known, [*runs, release], chosen)

@@ -9,7 +9,7 @@ import numpy as np
 
 
 def versions(experiment) -> dict[str, Any]:
-    """Versions of the program and its libraries, and the digests of the experiment's files."""
+    """Return versions of the program and its libraries, and the digests of the experiment's files."""
     from rockref import __version__
 
     return {

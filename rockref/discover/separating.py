@@ -41,7 +41,7 @@ class Offer:
 
 
 def offers(releases: Sequence[Release], members: Sequence[str]) -> list[Offer]:
-    """Three tilts from either side; more mass; and the cable off, where a cable is among the members."""
+    """Return three tilts from either side; more mass; and the cable off, where a cable is among the members."""
     found = [Offer(release) for release in alternatives(releases)]
     largest = found[0].release
     found += [Offer(release, added=ADDED) for release in (largest, replace(largest, turned=True))]
@@ -51,7 +51,7 @@ def offers(releases: Sequence[Release], members: Sequence[str]) -> list[Offer]:
 
 
 def apart(H: np.ndarray, blocks: Sequence[np.ndarray], size: np.ndarray) -> float:
-    """Log-likelihood units by which the first effect, at `size`, is told from its nearest rival.
+    """Return log-likelihood units by which the first effect, at `size`, is told from its nearest rival.
 
     H (C, C): information about the numbers of all members, everything else eliminated; blocks: whose number is whose.
     Half the squared part of the first effect that no amount of a rival makes up for.

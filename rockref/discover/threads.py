@@ -21,7 +21,7 @@ class Crew:
 
     @contextmanager
     def more(self, by: int) -> Iterator[None]:
-        """So many more (or fewer) are at work meanwhile."""
+        """Count so many more (or fewer) at work meanwhile."""
         with self._lock:
             self.at_work += by
         try:
@@ -35,14 +35,15 @@ _crew = Crew()
 
 
 def threads_left(items: int, workers: int | None) -> int:
-    """Threads for so many items: as many as there are workers (default: all cores) less those that others have."""
+    """Return threads for so many items: as many as there are workers (default: all cores) less those that others
+    have."""
     return max(1, min(items, (workers or os.cpu_count() or 1) + 1 - _crew.at_work))
 
 
 def on_threads(
     do: Callable[[Item], Found], items: Sequence[Item], threads: int, failed: Callable[[], None] = lambda: None
 ) -> list[Found]:
-    """[do(item) for item in items] on so many threads; failed : called at once where one fails."""
+    """Return [do(item) for item in items] on so many threads; failed : called at once where one fails."""
 
     def done(item: Item) -> Found:
         with _crew.more(1):

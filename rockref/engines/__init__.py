@@ -23,12 +23,12 @@ compile_watchers: list[Callable[[], None]] = []
 
 
 def has_numba() -> bool:
-    """Whether the extra `fast` is installed."""
+    """Return whether the extra `fast` is installed."""
     return importlib.util.find_spec("numba") is not None
 
 
 def chosen(problem: Problem, engine: str, dtype=None) -> str:
-    """The engine that will run: "auto" takes numba where it is installed, knows every effect, and float64 is wanted.
+    """Return engine that will run: "auto" takes numba where it is installed, knows every effect, and float64 is wanted.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def run(problem: Problem, engine: str = "auto", progress=None, dtype=None) -> Re
 
 @contextmanager
 def compiled_ahead() -> Iterator[None]:
-    """While the block of a `with` runs, a process of its own compiles what the compiled engine has not kept on disk.
+    """Compile in a process of its own, while the block of a `with` runs, what the compiled engine has not kept on disk.
 
     For what needs effects of every kind: the first time on a machine it would wait for all of them, one after another.
     """

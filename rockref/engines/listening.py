@@ -74,7 +74,7 @@ def run_listening(
 
 
 def compiles(problems: list[Problem] | None, engine: str) -> bool:
-    """Whether the compiled engine runs these problems, or arrays (None); raises InputError (E-ENGINE)."""
+    """Return whether the compiled engine runs these problems, or arrays (None); raises InputError (E-ENGINE)."""
     if engine not in ENGINES:
         raise InputError("E-ENGINE", "engine", f"is {engine!r}", f"Use one of {', '.join(ENGINES)}.")
     if engine == "numpy" and problems is None:

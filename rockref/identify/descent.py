@@ -27,8 +27,8 @@ CHANGES = (3.0, 1.0, 0.3)
 SMALLEST, LARGEST, FIRST = 2e-4, 0.04, 1e-3
 #: Levenberg-Marquardt: first damping, factors that are tried, most steps of one descent, least relative gain (decided).
 DAMPING, FACTORS, STEPS, LEAST_GAIN = 1e-2, (0.04, 0.2, 1.0, 5.0, 25.0), 12, 1e-3
-#: Moves and walks go on while the mean square is above this and each gains. Decided: 1 is the noise, and a twin that
-#: was left at 1.08 ended at 1.02 so.
+#: Moves and walks go on while the mean square is above this and each gains. Decided: 1 is the noise, which scatters by
+#: 2 %; what lies twice as far above it is a dent that a move can leave.
 NEARLY = 1.05
 #: Part of the step with which its mark is computed. Decided: at eight places about Table 3.1 the mark is 0.06 to 0.6 of
 #: the noise; half the step gives it to 0.5, a quarter to 0.2, for both bring other orders of landings.

@@ -36,11 +36,11 @@ WINDOWS = (0.0, 0.06, 0.15, 0.35, 0.6)
 #: later ones a place is taken over that fits already.
 WINDOW_MOVES, CHEAP_WINDOW = 3, 0.1
 #: A window that ends above this mean square is started again from where everything began. Decided: the first window
-#: sees little, and two twins of eight it led astray, to damping at the ends of its range and 3 to 5 in the next window.
+#: sees little and can lead astray, to damping at the ends of its range; the next window then ends at 3 to 5.
 ASTRAY = 1.25
 #: A fit is at the noise floor below this mean square of the residual over the noise. Decided: 1 is the floor of white
-#: noise, and that of the 4000 numbers of one run scatters by 0.022, of which this is three; a twin that ended at 1.08
-#: had heights that were off by three last digits.
+#: noise, and that of the 4000 numbers of one run scatters by 0.022, of which this is three; an end above it has heights
+#: that are off by some last digits.
 FLOOR = 1.07
 #: Moves end where a round gains less than this share; decided: 4000 samples of noise scatter the mean square by 2 %.
 LEAST_ROUND_GAIN = 5e-3

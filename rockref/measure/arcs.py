@@ -39,14 +39,14 @@ class Arcs:
 
     @property
     def complete(self) -> np.ndarray:
-        """Which arcs lie between two impacts, (M + 1,) bool."""
+        """Return which arcs lie between two impacts, (M + 1,) bool."""
         mask = np.ones(len(self.starts), dtype=bool)
         mask[0] = mask[-1] = False
         return mask
 
     @property
     def apex_angles(self) -> np.ndarray:
-        """The apex angle of each arc, rad with sign: the mean of rise and fall, or the one that there is."""
+        """Return the apex angle of each arc, rad with sign: the mean of rise and fall, or the one that there is."""
         both = np.stack((self.rise, self.fall))
         known = np.isfinite(both)
         total = np.where(known, both, 0.0).sum(axis=0)

@@ -21,7 +21,7 @@ TIME_MARGIN = 0.3
 # decided: the first swing is looked at for a little longer than the block needs.
 FIRST_SWING = 1.3
 # decided: a block that creeps has come to a hundredth of its later rate when its first swing should be half over, a
-# tenth of it in the first third (one with a wire that pulled with 6.7 N at first and for 0.4 s: to 3 %, 28 % of it).
+# tenth of it in the first third. A wire that lets go slowly leaves it three times as much of both.
 RESTING, CREEPING = 0.01, 0.1
 # decided: 2 deg/s; a hand that lets go gives the block 1 deg/s, and the zero of a gyroscope is off by less. In the
 # first twentieth of its swing the block itself comes to a fiftieth of the rate.
@@ -34,12 +34,12 @@ FALLEN = 1.3
 
 
 def inside_the_tipping_angle(signal: Signal) -> np.ndarray:
-    """Which samples, (N,) bool, come before the block is beyond its tipping angle for the first time."""
+    """Return which samples, (N,) bool, come before the block is beyond its tipping angle for the first time."""
     return np.logical_and.accumulate(np.abs(signal.tilts) <= FALLEN * signal.alpha)
 
 
 def samples_before_a_fall(signal: Signal) -> int:
-    """How many samples come before the block falls over.
+    """Return how many samples come before the block falls over.
 
     The tilt is the release's less the integral of wx. The fall begins where it last leaves the tipping angle for good;
     all samples, where it does not, or where it does so before a first impact could be (another unit, another sign).

@@ -101,7 +101,7 @@ def _usual_spread(off: np.ndarray) -> float:
 
 
 def _is_beat(t: np.ndarray, missing: np.ndarray, stated: float) -> bool:
-    """Whether stamps on a grid explain all long intervals, and as well as holes do."""
+    """Return whether stamps on a grid explain all long intervals, and as well as holes do."""
     if not missing.any():
         return False
     grid = quantum(t)
@@ -148,7 +148,8 @@ def even_clock(t: np.ndarray, numbers: np.ndarray) -> tuple[float, float]:
 
 
 def follows_stamps(off: np.ndarray, rates: Sequence[np.ndarray]) -> bool | None:
-    """Whether rates, each (N,), were taken at their stamps, `off` (N,) intervals beside an even clock; None: unknown.
+    """Return whether rates, each (N,), were taken at their stamps, `off` (N,) intervals beside an even clock; None:
+    unknown.
 
     Where a rate rises, a sample taken late is larger: what a cubic leaves of it is the slope times the delay. The share
     of the delay that shows is one for stamps that are true, and zero for those of the reader.

@@ -88,7 +88,7 @@ def own_folder(folder: Path, head: str, is_own: Callable[[str], bool]) -> None:
 
 
 def toss_of(path: Path) -> np.ndarray:
-    """(N, 13) position [m], quaternion, velocity [m/s], body rates [rad/s] of one file."""
+    """Return (N, 13) position [m], quaternion, velocity [m/s], body rates [rad/s] of one file."""
     tensor = read_tensor(path)
     rows = tensor.reshape(-1, tensor.shape[-1]) if tensor.ndim >= 2 else tensor[None]
     good = rows.shape[-1] >= LEAST_COLUMNS and np.all(np.isfinite(rows))
@@ -101,7 +101,7 @@ def toss_of(path: Path) -> np.ndarray:
 
 
 def groups_of(tables: dict[int, np.ndarray]) -> dict[int, int]:
-    """For every toss the first one with the same heights: a copy turned about the vertical."""
+    """Return for every toss the first one with the same heights: a copy turned about the vertical."""
     groups: dict[int, int] = {}
     for number in sorted(tables):
         z = tables[number][:, 2]

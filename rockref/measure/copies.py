@@ -43,7 +43,7 @@ def note_copies(runs: Sequence[Run], source: str) -> list[Notice]:
 
 
 def are_copies(a: np.ndarray, b: np.ndarray, step_a: float, step_b: float) -> bool:
-    """Whether rates a (N, 3) and b (M, 3) rad/s, written in steps of so many rad/s, are the same measurement.
+    """Return whether rates a (N, 3) and b (M, 3) rad/s, written in steps of so many rad/s, are the same measurement.
 
     Records of the same steps have to be equal; of unlike steps the coarser one has to be the other one rounded.
     """

@@ -30,11 +30,11 @@ def split_line(line: str, delimiter: str) -> list[str]:
 
 
 def is_number(field: str) -> bool:
-    """Whether a field is a plain number with a decimal point."""
+    """Return whether a field is a plain number with a decimal point."""
     return bool(_NUMBER.fullmatch(field))
 
 
 def are_units(fields: Sequence[str]) -> bool:
-    """Whether all fields of a line are units, in brackets or not, and one of them at least is not empty."""
+    """Return whether all fields of a line are units, in brackets or not, and one of them at least is not empty."""
     bare = [field.strip().strip("[]()") for field in fields]
     return any(bare) and all(_UNIT.fullmatch(word) for word in bare)

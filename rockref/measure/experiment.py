@@ -105,7 +105,7 @@ class Run:
 
     @property
     def loaded(self) -> bool:
-        """Whether the file of the run was opened."""
+        """Return whether the file of the run was opened."""
         return self.t is not None
 
 
@@ -162,12 +162,12 @@ class Experiment:
 
     @property
     def digests(self) -> dict[str, str]:
-        """SHA-256 of every file that was opened, by name."""
+        """Return SHA-256 of every file that was opened, by name."""
         return {"experiment.toml": self.toml_sha256} | {r.file: r.sha256 for r in self.runs if r.sha256 is not None}
 
     @property
     def digest(self) -> str:
-        """One SHA-256 over the names and digests of the files that were opened."""
+        """Return one SHA-256 over the names and digests of the files that were opened."""
         lines = "".join(f"{name} {digest}\n" for name, digest in sorted(self.digests.items()))
         return hashlib.sha256(lines.encode()).hexdigest()
 

@@ -57,7 +57,7 @@ def flanks(x: np.ndarray) -> Flanks:
 
 
 def _shape(y: np.ndarray) -> tuple[float, float]:
-    """Straightness and bend of one flank y (n,), its tips left out."""
+    """Return straightness and bend of one flank y (n,), its tips left out."""
     tip = int(TIP * len(y))
     y = y[tip : len(y) - tip]
     s = np.linspace(-1.0, 1.0, len(y))

@@ -33,12 +33,12 @@ class Poses(NamedTuple):
 
     @property
     def measured(self) -> np.ndarray:
-        """(B, F) bool, whether a frame is measured."""
+        """Return (B, F) bool, whether a frame is measured."""
         return np.arange(len(self.t)) < self.frames[:, None]
 
 
 def side_by_side(tosses: Sequence[Toss], rate: float) -> Poses:
-    """Tosses of one camera rate [Hz] as arrays."""
+    """Stack tosses of one camera rate [Hz] as arrays."""
     frames = np.array([toss.frames for toss in tosses])
     F = int(frames.max())
     x, Lambda = np.empty((len(tosses), F, 3)), np.empty((len(tosses), F, 3, 3))
@@ -56,12 +56,12 @@ def side_by_side(tosses: Sequence[Toss], rate: float) -> Poses:
 
 
 def lowest(x: np.ndarray, Lambda: np.ndarray, P: np.ndarray) -> np.ndarray:
-    """Height of the lowest of the body points P (n, 3) [m]; x (..., 3), Lambda (..., 3, 3) -> (...)."""
+    """Return height of the lowest of the body points P (n, 3) [m]; x (..., 3), Lambda (..., 3, 3) -> (...)."""
     return x[..., 2] + np.min(Lambda[..., 2, :] @ P.T, axis=-1)
 
 
 def flight_frames(poses: Poses, P: np.ndarray, clearance: float) -> np.ndarray:
-    """How many frames pass before a body point P (n, 3) comes closer than `clearance` [m] to z = 0, (B,).
+    """Return how many frames pass before a body point P (n, 3) comes closer than `clearance` [m] to z = 0, (B,).
 
     A contact may begin and end between two frames: a flight also ends with the frame from which a point, as fast as it
     came, would be closer in the next one.
@@ -73,7 +73,7 @@ def flight_frames(poses: Poses, P: np.ndarray, clearance: float) -> np.ndarray:
 
 
 def first_true(found: np.ndarray, otherwise: np.ndarray) -> np.ndarray:
-    """Number of the first true column of every row (B, F), or `otherwise` (B,)."""
+    """Return number of the first true column of every row (B, F), or `otherwise` (B,)."""
     return np.where(found.any(axis=1), found.argmax(axis=1), otherwise)
 
 
@@ -146,7 +146,7 @@ def ballistic_starts(poses: Poses, used: np.ndarray, gravity: np.ndarray, inerti
 
 
 def _line(values: np.ndarray, weight: np.ndarray, t: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Value at zero and slope of straight lines through (B, n, 3), two (B, 3)."""
+    """Return value at zero and slope of straight lines through (B, n, 3), two (B, 3)."""
     b0 = np.einsum("bf,bfi->bi", weight, values)
     b1 = np.einsum("bf,f,bfi->bi", weight, t, values)
     return line[:, 0, :1] * b0 + line[:, 0, 1:] * b1, line[:, 1, :1] * b0 + line[:, 1, 1:] * b1
@@ -171,7 +171,7 @@ def raw_starts(poses: Poses, v: np.ndarray, W: np.ndarray) -> Starts:
 
 
 def displaced(starts: Starts, d: np.ndarray) -> Starts:
-    """The starts moved by d (B, 12): position, turn in body axes, velocity, body rates."""
+    """Return the starts moved by d (B, 12): position, turn in body axes, velocity, body rates."""
     return replace(
         starts, x=starts.x + d[:, :3], Lambda=starts.Lambda @ exponential(np.ascontiguousarray(d[:, 3:6])),
         v=starts.v + d[:, 6:9], W=starts.W + d[:, 9:12],

@@ -41,7 +41,7 @@ class RockingBlock:
 
     @property
     def rocking_rate(self) -> float:
-        """The p of Housner (1963), 1/s: p^2 = m g R/I_O."""
+        """Return the p of Housner (1963), 1/s: p^2 = m g R/I_O."""
         return math.sqrt(self.mass * GRAVITY * self.radius / self.edge_inertia)
 
 

@@ -13,7 +13,7 @@ from rockref.measure.noise import noise_floor
 
 PLANAR, REPEATABLE, ERRATIC, QUASI_2D = "planar", "repeatable 3-D", "erratic 3-D", "quasi-2-D"
 # decided: arcs that one would call planar have an out-of-plane rate of 0.01 to 0.055 of the main one, the others of
-# 0.07 and more (seen in eleven experiments of six runs).
+# 0.07 and more, over the shipped experiments.
 PLANAR_SHARE = 0.06
 # decided: one quiet arc may be a lull; two in a row, up to the end of the record, are the last phase.
 LEAST_ARCS = 2

@@ -50,7 +50,7 @@ class Prediction:
 
     @property
     def t(self) -> np.ndarray:
-        """Time from the release, (N,) s."""
+        """Return time from the release, (N,) s."""
         return self.response.t
 
     def at(self, times: np.ndarray) -> np.ndarray:
@@ -125,5 +125,5 @@ def solve(problems: list[Problem], engine: str, progress: Callable[[float], None
 
 
 def _part(progress: Callable[[float], None] | None, k: int, count: int) -> Callable[[float], None] | None:
-    """What the k-th of `count` runs reports its own fraction to."""
+    """Return what the k-th of `count` runs reports its own fraction to."""
     return None if progress is None else lambda share: progress((k + share) / count)

@@ -32,7 +32,7 @@ class Number:
 
     @property
     def keys(self) -> list[str]:
-        """Every key under which the number may stand."""
+        """Return every key under which the number may stand."""
         return [f"{self.name}_{unit}" if unit else self.name for unit in self.units]
 
 
@@ -52,7 +52,7 @@ class Text:
 
     @property
     def keys(self) -> list[str]:
-        """The one key under which the text stands."""
+        """Return the one key under which the text stands."""
         return [self.name]
 
 
@@ -66,7 +66,7 @@ class Section:
 
     @property
     def keys(self) -> list[str]:
-        """The one key under which the section stands."""
+        """Return the one key under which the section stands."""
         return [self.name]
 
 

@@ -89,32 +89,32 @@ class Signal:
 
     @cached_property
     def step(self) -> float:
-        """Mean interval between samples, s."""
+        """Return mean interval between samples, s."""
         return sample_step(self.t)
 
     @cached_property
     def rate(self) -> float:
-        """Rate of the first swing at upright, rad/s."""
+        """Return rate of the first swing at upright, rad/s."""
         return rocking_rate(self.tilt, self.width, self.height)
 
     @cached_property
     def duration(self) -> float:
-        """Time from the release to upright, s."""
+        """Return time from the release to upright, s."""
         return rocking_time(self.tilt, self.width, self.height)
 
     @cached_property
     def alpha(self) -> float:
-        """Tipping angle, rad."""
+        """Return tipping angle, rad."""
         return math.atan2(self.width, self.height)
 
     @cached_property
     def scale(self) -> float:
-        """How much slower the block is than that of Table 3.1: stretches of time go with sqrt(R/g)."""
+        """Return how much slower the block is than that of Table 3.1: stretches of time go with sqrt(R/g)."""
         return math.sqrt(0.5 * math.hypot(self.width, self.height) / GRAVITY) / REFERENCE_SCALE
 
     @cached_property
     def tilts(self) -> np.ndarray:
-        """Tilt after each sample, (N,) rad, positive on the side of the release."""
+        """Return tilt after each sample, (N,) rad, positive on the side of the release."""
         return tilts(self.t, self.crv[:, 0], self.tilt, self.sign)
 
     @cached_property
@@ -124,7 +124,7 @@ class Signal:
 
     @cached_property
     def grain(self) -> float:
-        """Stated width of a value, rad/s: noise and resolution together."""
+        """Return stated width of a value, rad/s: noise and resolution together."""
         return math.hypot(self.gyro.noise, self.gyro.resolution)
 
     def column(self, axis: int) -> str:

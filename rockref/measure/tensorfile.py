@@ -67,7 +67,7 @@ MOST_OPCODES = 10_000
 
 
 def read_pickle(stream: BinaryIO) -> Any:
-    """The plain values and tensors that a pickle writes down, up to its end, read opcode by opcode.
+    """Return the plain values and tensors that a pickle writes down, up to its end, read opcode by opcode.
 
     Nothing is unpickled: names stay names, and of these only a tensor's are known.
 
@@ -107,7 +107,7 @@ def read_pickle(stream: BinaryIO) -> Any:
 
 
 def _of_a_tensor(name: str, argument: Any, stack: list[Any]) -> Any:
-    """What stands for a name, for the numbers of a storage, and for the call of a name."""
+    """Return what stands for a name, for the numbers of a storage, and for the call of a name."""
     if name == "GLOBAL":
         module, _, what = argument.partition(" ")
         if (module, what) in REBUILD or (module, what) == ORDERED or (module in STORED_IN and what in STORAGES):
@@ -149,7 +149,7 @@ def _fill(name: str, stack: list[Any]) -> None:
 
 
 def read_tensor(path: Path) -> np.ndarray:
-    """The tensor in a ``.pt`` file, float64.
+    """Return the tensor in a ``.pt`` file, float64.
 
     Raises
     ------

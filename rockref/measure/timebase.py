@@ -110,7 +110,8 @@ def check_order(table: Table, rate: float) -> None:
 
 
 def _overtake(t: np.ndarray, rate: float) -> bool:
-    """Whether stamps t (N,) s are late by more than an interval, so that one passes the next, and rows are in order.
+    """Return whether stamps t (N,) s are late by more than an interval, so that one passes the next, and rows are in
+    order.
 
     Where rows are out of order their stamps are even once they are sorted.
     """

@@ -144,7 +144,7 @@ def _heights(toss: Toss, corners: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
 
 
 def _at_rest(toss: Toss) -> bool:
-    """Whether a toss ends with eight frames in which the block lies still."""
+    """Return whether a toss ends with eight frames in which the block lies still."""
     last = toss.x[-LEAST_FRAMES:]
     turn = np.abs(toss.Lambda[-LEAST_FRAMES:] - toss.Lambda[-1]).max()
     return toss.frames > 2 * LEAST_FRAMES and float(np.ptp(last, axis=0).max()) < STILL * 0.1 and float(turn) < STILL

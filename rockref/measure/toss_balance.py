@@ -30,13 +30,13 @@ class Measured:
     scatter: float
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers."""
+        """Return plain numbers."""
         rows = {k: {"value": float(v), "se": float(s), "unit": u} for k, (v, s, u) in self.values.items()}
         return {"values": rows, "tosses": self.tosses, "scatter": float(self.scatter)}
 
 
 def flight_arcs(poses: Poses, used: np.ndarray) -> Measured:
-    """Gravity (3), drag and the centre of mass from the parabolas of the tracked point, by linear least squares.
+    """Return gravity (3), drag and the centre of mass from the parabolas of the tracked point, by linear least squares.
 
     x_t + Lambda c = a + b t + g t^2/2 - d v t^2/2: every arc has its own a and b; g, d [1/s] and c, the centre of mass
     from the tracked point in body axes [m], are common. poses : tracked, in the frame of the throw; used : (B,) frames.
@@ -69,7 +69,7 @@ def flight_arcs(poses: Poses, used: np.ndarray) -> Measured:
 def robust(
     A: np.ndarray, y: np.ndarray, groups: np.ndarray, lost: int = 0
 ) -> tuple[np.ndarray, np.ndarray, float, np.ndarray]:
-    """Least squares with gross errors left out: values, standard errors, scatter, which rows were kept.
+    """Fit by least squares with gross errors left out: values, standard errors, scatter, which rows were kept.
 
     groups : number of the toss of each row; the errors of one toss hang together, so that the standard errors are those
         of whole tosses (sandwich estimator).  lost : degrees of freedom that were taken out of the rows before.
@@ -111,7 +111,7 @@ class Impacts:
 
 
 def first_impacts(poses: Poses, P: np.ndarray, inertia: np.ndarray, g: np.ndarray, clearance: float) -> Impacts:
-    """The first impacts with one corner only and enough flight before and after; P (n, 3) from the poses' origin.
+    """Return first impacts with one corner only and enough flight before and after; P (n, 3) from the poses' origin.
 
     A contact may lie between two frames: then no frame is near the plate.
     """
@@ -162,7 +162,8 @@ def first_impacts(poses: Poses, P: np.ndarray, inertia: np.ndarray, g: np.ndarra
 
 
 def crossing(a: Starts, b: Starts, later: np.ndarray, g: np.ndarray) -> np.ndarray:
-    """(B,) time at which the parabola before a contact, from zero, meets the one after it, from `later` (B,) [s].
+    """Return (B,) time at which the parabola before a contact, from zero, meets the one after it, from `later` (B,)
+    [s].
 
     That is the mean time of the impulse, weighted by the force, however the contact pushes and however long.
     """
@@ -188,7 +189,8 @@ def _segment(poses: Poses, index: np.ndarray, start: np.ndarray, count: np.ndarr
 
 
 def impulse_balance(k: Impacts) -> Measured:
-    """Principal inertias over the mass (3) [m2] from L+ J W+ - L- J W- = m r x (v+ - v-), r the corner's lever."""
+    """Return principal inertias over the mass (3) [m2] from L+ J W+ - L- J W- = m r x (v+ - v-), r the corner's
+    lever."""
     A = k.L_after * k.W_after[:, None] - k.L_before * k.W_before[:, None]
     y = np.cross(k.r, k.v_after - k.v_before)
     p, se, scatter, keep = robust(A.reshape(-1, 3), y.ravel(), np.repeat(np.arange(len(y)), 3))
@@ -198,7 +200,8 @@ def impulse_balance(k: Impacts) -> Measured:
 
 
 def corner_shape(k: Impacts, rest: float) -> Measured:
-    """Roughly, radius of a box's corners [m] and half the time of contact [s], from the drawn corner at the impulse.
+    """Return roughly, radius of a box's corners [m] and half the time of contact [s], from the drawn corner at the
+    impulse.
 
     A sphere of radius rho that touches the three faces from inside ends rho (s - 1) above the sharp corner, s the sum
     of the slopes |L_zx| + |L_zy| + |L_zz|: 1.7 on a tip, 1 on a face. The parabola before the contact, drawn on to the
@@ -216,7 +219,8 @@ def corner_shape(k: Impacts, rest: float) -> Measured:
 
 
 def corner_ratios(k: Impacts) -> Measured:
-    """Tangential over normal impulse where the corner keeps sliding, and restitution of the corner's normal speed.
+    """Return tangential over normal impulse where the corner keeps sliding, and restitution of the corner's normal
+    speed.
 
     The restitution is that of the drawn corner: the median, and, where they differ, that of a corner of a face and that
     of a tip, linear in P_2 of the angle between the vertical and the corner's diagonal (0 and 1 on a cube).
@@ -245,7 +249,7 @@ def corner_ratios(k: Impacts) -> Measured:
 
 
 def energy_change(k: Impacts, inertia_over_mass: np.ndarray) -> np.ndarray:
-    """(B,) kinetic energy after over before, less one, with principal inertias over the mass (3) [m2]."""
+    """Return (B,) kinetic energy after over before, less one, with principal inertias over the mass (3) [m2]."""
     before = np.sum(k.v_before**2, axis=1) + np.sum(inertia_over_mass * k.W_before**2, axis=1)
     after = np.sum(k.v_after**2, axis=1) + np.sum(inertia_over_mass * k.W_after**2, axis=1)
     return after / before - 1

@@ -17,7 +17,7 @@ NEAR, CLEAR = 4, 3
 
 
 def stated_energy(toss: Toss, centre: np.ndarray, inertia_over_mass: np.ndarray, g: float) -> np.ndarray:
-    """(N,) energy over the mass [m2/s2] of every frame with the velocities that the table states.
+    """Return (N,) energy over the mass [m2/s2] of every frame with the velocities that the table states.
 
     centre (3,) of mass from the tracked point, body axes [m]; inertia_over_mass (3,) principal [m2]; g [m/s2].
     """
@@ -30,7 +30,8 @@ def stated_energy(toss: Toss, centre: np.ndarray, inertia_over_mass: np.ndarray,
 def rises(
     tosses: Sequence[Toss], first: np.ndarray, centre: np.ndarray, inertia_over_mass: np.ndarray, g: float
 ) -> dict[str, float]:
-    """How many tosses gain energy at their first impact, at frame `first` (B,): two ways to look, empty without rates.
+    """Return how many tosses gain energy at their first impact, at frame `first` (B,): two ways to look, empty without
+    rates.
 
     from_frame_to_frame : by two neighbouring frames near it, `largest` the most;  largest_in_flight : the same in the
     frames before, where nothing acts: what the table's own noise makes;  around : from `CLEAR` frames before to as many

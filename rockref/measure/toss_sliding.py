@@ -23,7 +23,8 @@ LEAST = 5
 
 
 def flat_pieces(poses: Poses, P: np.ndarray) -> np.ndarray:
-    """(n, 3): number of the toss, speed [m/s] and deceleration along the motion [m/s2] of pieces of flat sliding."""
+    """Return (n, 3): number of the toss, speed [m/s] and deceleration along the motion [m/s2] of pieces of flat
+    sliding."""
     heights = poses.x[..., 2:3] + poses.Lambda[..., 2, :] @ P.T
     flat = np.sort(heights, axis=-1)[..., min(3, len(P) - 1)] < FLAT
     t = (np.arange(PIECE) - PIECE // 2) * poses.t[1]
@@ -40,7 +41,8 @@ def flat_pieces(poses: Poses, P: np.ndarray) -> np.ndarray:
 
 
 def sliding_friction(poses: Poses, P: np.ndarray, g: float) -> Measured:
-    """Coefficient of friction of a flat face by speed: medians of deceleration over g, with their standard errors."""
+    """Return coefficient of friction of a flat face by speed: medians of deceleration over g, with their standard
+    errors."""
     pieces = flat_pieces(poses, P)
     values = {}
     for low, high in pairwise(SPEEDS):
@@ -54,7 +56,7 @@ def sliding_friction(poses: Poses, P: np.ndarray, g: float) -> Measured:
 
 
 def rest_height(poses: Poses, P: np.ndarray) -> float:
-    """Median height of the four lowest drawn corners in the last frame [m]: of bodies that came to lie flat."""
+    """Return median height of the four lowest drawn corners in the last frame [m]: of bodies that came to lie flat."""
     last = np.arange(len(poses.x)), poses.frames - 1
     heights = np.sort(poses.x[last][:, 2:3] + poses.Lambda[last][:, 2, :] @ P.T, axis=-1)[:, :4]
     flat = np.ptp(heights, axis=1) < FLAT

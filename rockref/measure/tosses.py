@@ -71,7 +71,7 @@ class Toss:
 
     @property
     def frames(self) -> int:
-        """Number of frames."""
+        """Return number of frames."""
         return len(self.t)
 
 
@@ -92,18 +92,19 @@ class Tosses:
     sha256: str = ""
 
     def used(self, use: str) -> tuple[Toss, ...]:
-        """The tosses marked ``fit`` or ``holdout``."""
+        """Return the tosses marked ``fit`` or ``holdout``."""
         return tuple(toss for toss in self.tosses if toss.use == use)
 
 
 def held_out(group: str) -> bool:
-    """The stated rule of splitting: a toss is held out by the SHA-256 of its group's number, copies with originals."""
+    """Return the stated rule of splitting: a toss is held out by the SHA-256 of its group's number, copies with
+    originals."""
     digest = hashlib.sha256(f"rockref-toss-{group}".encode()).hexdigest()
     return int(digest[:8], 16) % 100 < HELD_OUT_PERCENT
 
 
 def is_toss_folder(path: Path | str) -> bool:
-    """Whether a folder (or a table itself) holds tosses; never raises."""
+    """Return whether a folder (or a table itself) holds tosses; never raises."""
     path = Path(path)
     if path.name in TABLES and path.is_file():
         return True
@@ -221,7 +222,7 @@ def _from_table(table: Path) -> Tosses:
 
 
 def _numbers(text: str, table: Path) -> pd.DataFrame:
-    """The known columns of a table of tosses, float64; others are left unread.
+    """Return the known columns of a table of tosses, float64; others are left unread.
 
     Raises InputError: E-HEADER, E-COLUMN-MISSING, E-COLUMN-TWICE, E-SIZE, E-FIELDS, E-FILE, E-NUMBER.
     """
@@ -293,7 +294,7 @@ def _toss(id: str, group: str, use: str, t: np.ndarray, pose: np.ndarray, where:
 
 
 def tracking_lost(toss: Toss) -> int:
-    """The first frame to which the pose jumps farther than any block can move; 0 where it does not."""
+    """Return the first frame to which the pose jumps farther than any block can move; 0 where it does not."""
     far = np.linalg.norm(np.diff(toss.x, axis=0), axis=1) > JUMP
     trace = np.einsum("nij,nij->n", toss.Lambda[1:], toss.Lambda[:-1])
     far |= trace < 1 + 2 * math.cos(TURN)
@@ -301,7 +302,8 @@ def tracking_lost(toss: Toss) -> int:
 
 
 def without_copies(tosses: list[Toss]) -> tuple[list[Toss], list[tuple[str, str]]]:
-    """Originals, and (copy, original) for the tosses that are turned copies of others by their group or their heights.
+    """Return originals, and (copy, original) for the tosses that are turned copies of others by their group or their
+    heights.
 
     A toss turned about the vertical has the same heights, frame for frame. Of a set the first one is the original.
     """

@@ -36,7 +36,7 @@ def addition_page(a: Addition) -> Page:
 
 
 def compared(a: Addition) -> Comparison:
-    """The model before and after, beside all runs from the release on."""
+    """Return the model before and after, beside all runs from the release on."""
     before = a.model.replace(effects=tuple(e for e in a.model.effects if e.id != a.effect))
     models = [without_notes(before if a.without is None else a.without), without_notes(a.model)]
     names = ["before", f"with {a.effect}"]

@@ -42,7 +42,7 @@ def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[
 
 
 def _made(tosses: Tosses, folder: Path, quick: bool, say: Callable[[str], None]) -> Path:
-    """The same in a folder that is there, of this process alone."""
+    """Return the same in a folder that is there, of this process alone."""
     say("stated values")
     before = compare(tosses).to_dict()
     only: dict[str, Any] = {"candidates": ("mass_eccentricity",), "stages": ((25, 2), (120, 2))} if quick else {}
@@ -67,7 +67,7 @@ def _made(tosses: Tosses, folder: Path, quick: bool, say: Callable[[str], None])
 
 
 def named_folder() -> Path:
-    """The folder of tosses that the environment names. Raises InputError E-FOLDER."""
+    """Return the folder of tosses that the environment names. Raises InputError E-FOLDER."""
     import os
 
     from rockref.model.errors import InputError

@@ -64,7 +64,7 @@ class Story:
 
 
 def the_block(story: Story) -> None:
-    """Section 1: the measured block and the models in motion, then the model of Table 3.1 alone."""
+    """Add section 1: the measured block and the models in motion, then the model of Table 3.1 alone."""
     page, c = story.page, story.comparison
     model = Model.table_3_1()
     response = simulate(model, duration=DURATION, output_rate=2000.0, engine=story.engine)
@@ -124,7 +124,7 @@ def model_curves(model: Model, response: Response):
 
 
 def the_misfit(story: Story) -> None:
-    """Section 2: where the baseline leaves the measured runs."""
+    """Add section 2: where the baseline leaves the measured runs."""
     page, c = story.page, story.comparison
     page.add_section("Where the model fails")
     found = tuple(f for f in findings(c) if f.model in (None, c.names[0]))
@@ -143,7 +143,7 @@ def telling(experiment: Experiment, found: tuple[Finding, ...]) -> list[str]:
 
 
 def the_missing_effect(story: Story) -> None:
-    """Section 3: the verdict, and what it rests on."""
+    """Add section 3: the verdict, and what it rests on."""
     d = story.journey.diagnosis
     record = plain(d.to_dict())
     story.lines.append(f"{d.experiment.name}: {d.sentence}")
@@ -158,7 +158,7 @@ def the_missing_effect(story: Story) -> None:
 
 
 def the_error(story: Story) -> None:
-    """Section 4: the error before and after, on fit and held-out runs."""
+    """Add section 4: the error before and after, on fit and held-out runs."""
     a = story.journey.addition
     if a is None:
         return
@@ -168,7 +168,7 @@ def the_error(story: Story) -> None:
 
 
 def the_held_out_run(story: Story) -> None:
-    """Section 5: a run that no fit has seen, before and after; and where the numbers come from."""
+    """Add section 5: a run that no fit has seen, before and after; and where the numbers come from."""
     page, c = story.page, story.comparison
     held = c.of("holdout")
     page.add_section("A run that no fit has seen")

@@ -34,7 +34,7 @@ def write_diagnosis(d: Diagnosis, folder: Path, comparison: Comparison | None = 
 
 
 def compared(d: Diagnosis) -> Comparison:
-    """The fitted baseline and the model that was found, beside all runs from the release on."""
+    """Return the fitted baseline and the model that was found, beside all runs from the release on."""
     names, models = [BASELINE], [fitted_baseline(d)]
     if d.effects and d.model is not None:
         names.append(found_name(d))
@@ -43,12 +43,12 @@ def compared(d: Diagnosis) -> Comparison:
 
 
 def without_notes(model: Model) -> Model:
-    """The model without the notes of a fit about one release."""
+    """Return the model without the notes of a fit about one release."""
     return model.replace(origin={k: v for k, v in model.origin.items() if k not in OF_ONE_RELEASE})
 
 
 def found_name(d: Diagnosis) -> str:
-    """What the model that was found is called in figures."""
+    """Return what the model that was found is called in figures."""
     return diagnosis_text.with_words(plain(d.to_dict()))
 
 
@@ -98,7 +98,7 @@ TRIED = (
 
 
 def verdict_words(record: dict[str, Any]) -> list[str]:
-    """The verdict, what this kind of verdict means, and the proof on held-out runs."""
+    """Return the verdict, what this kind of verdict means, and the proof on held-out runs."""
     words = [diagnosis_text.sentence_of(record), diagnosis_text.MEANINGS.get(record["verdict"], "")]
     if record["verdict"] == "something_else":
         words.append(diagnosis_text.looks_like(record))

@@ -89,7 +89,7 @@ def how(found: defects.Defects) -> list[str]:
 
 
 def levels_table(found: defects.Defects) -> Table:
-    """Counts of both blocks and the paired differences, level by level."""
+    """Return counts of both blocks and the paired differences, level by level."""
     rows = [
         [
             f"{a.pga:.2f}", f"{a.pga / GRAVITY:.3f}", str(a.signals), f"{a.fell[0]}, {a.fell[1]}",

@@ -15,7 +15,7 @@ COMMANDS = {1: ("M", 1), 2: ("L", 1), 3: ("Q", 2), 4: ("C", 3), 79: ("Z", 1)}
 
 
 def equation_svg(tex: str) -> str:
-    """SVG of an equation in the colour of the text; empty where matplotlib's mathtext cannot read it.
+    """Return SVG of an equation in the colour of the text; empty where matplotlib's mathtext cannot read it.
 
     The TeX is in it as its label, for readers who do not see.
     """
@@ -39,7 +39,7 @@ def equation_svg(tex: str) -> str:
 
 
 def outline(points: np.ndarray, codes: np.ndarray) -> str:
-    """The path of an SVG from vertices (N, 2) and matplotlib's code of each."""
+    """Return the path of an SVG from vertices (N, 2) and matplotlib's code of each."""
     words, i = [], 0
     while i < len(codes):
         letter, count = COMMANDS[int(codes[i])]

@@ -13,7 +13,7 @@ from rockref.report.page import Page, Table
 
 
 def levels(name: str, values: Sequence[float], dash: tuple[int, ...]) -> Line:
-    """Short level lines at the places 0, 1, ...; a place without a number has none."""
+    """Return short level lines at the places 0, 1, ...; a place without a number has none."""
     known = [(k, v) for k, v in enumerate(values) if np.isfinite(v)]
     x = np.array([c for k, _ in known for c in (k - 0.38, k + 0.38, k + 0.38)])
     y = np.array([c for _, v in known for c in (v, v, np.nan)])

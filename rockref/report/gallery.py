@@ -9,7 +9,7 @@ import inspect
 import math
 import sys
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +39,8 @@ WHERE_POSES_ARE_READ = "measured poses, where they become poses of the body over
 TOSSES = "What else shows in measured tosses?"
 #: The effect that makes eight points of four: it is shown on, and needs, the four-point model.
 ON_FOUR_POINTS = "foot_defects"
+#: Small pictures in a row of the page's overview.
+ABREAST = 4
 #: Characters in a line of a picture's title; decided: what fits above it in letters of eight points.
 TITLE = 110
 #: Pictures last until a little after the second main impact [s], while one can still follow both curves.
@@ -46,12 +48,12 @@ DURATION = 1.5
 
 
 def acts_at(kind: type[Effect]) -> list[str]:
-    """Names of the hooks that the effect overrides, in the order of the step."""
+    """Return names of the hooks that the effect overrides, in the order of the step."""
     return [name for name in HOOKS if getattr(kind, name) is not getattr(Effect, name)]
 
 
 def card(kind: type[Effect]) -> dict[str, Any]:
-    """What an effect says of itself, in plain text and numbers."""
+    """Return what an effect says of itself, in plain text and numbers."""
     parameters = {
         name: {
             "meaning": q.meaning,
@@ -82,7 +84,7 @@ def card(kind: type[Effect]) -> dict[str, Any]:
 
 
 def sign_in_words(kind: type[Effect], name: str) -> str:
-    """On which side of its absent value a parameter is physical."""
+    """Return on which side of its absent value a parameter is physical."""
     q = kind.quantities[name]
     finite = q.absent is not None and math.isfinite(q.absent)
     if q.sign == "+":
@@ -98,14 +100,15 @@ def sign_in_words(kind: type[Effect], name: str) -> str:
 
 
 def allowed(q: Quantity) -> str:
-    """What is not refused, in words: the hard limits."""
+    """Return what is not refused, in words: the hard limits."""
     least = "above 0" if q.least == POSITIVE else f"at least {q.least:g}" if math.isfinite(q.least) else ""
     most = f"at most {q.most:g}" if math.isfinite(q.most) else ""
     return ", ".join(part for part in (least, most) if part) or "all finite numbers"
 
 
 def command(effect: Effect) -> str:
-    """What to type to use the effect: of what only tosses know a fit, else a simulation, with the model it needs."""
+    """Return what to type to use the effect: of what only tosses know a fit, else a simulation, with the model it
+    needs."""
     if effect.id in OF_TOSSES:
         return f"rockref fit FOLDER_OF_TOSSES --effect {effect.id}"
     model = "four_points " if effect.id == ON_FOUR_POINTS else ""
@@ -113,12 +116,12 @@ def command(effect: Effect) -> str:
 
 
 def number(value: float | None) -> float | str | None:
-    """A number as JSON can hold it."""
+    """Return a number as JSON can hold it."""
     return "inf" if value is not None and math.isinf(value) else value
 
 
 def words(effect: Effect) -> str:
-    """The effect as it is written on the command line; what stands at its absent value needs no word."""
+    """Return the effect as it is written on the command line; what stands at its absent value needs no word."""
     shown = {name: value for name, value in effect.values().items() if value != effect.quantities[name].absent}
     values = ",".join(f"{name}={value:g}" for name, value in shown.items())
     return f"{effect.file or effect.id}:{values}" if values else effect.file or effect.id
@@ -127,7 +130,7 @@ def words(effect: Effect) -> str:
 def curves(
     effect: Effect, duration: float = DURATION, progress: Callable[[float], None] | None = None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Times (N,) [s], and crv (N, 3) [deg/s] without and with the effect, for the block of Table 3.1.
+    """Return times (N,) [s], and crv (N, 3) [deg/s] without and with the effect, for the block of Table 3.1.
 
     `foot_defects` is shown against the four-point model, to which it belongs. A clock that is slow shows more of the
     motion in the same time: it is simulated for that much longer.
@@ -141,7 +144,8 @@ def curves(
 
 
 def picture(effect: Effect, duration: float = DURATION, progress: Callable[[float], None] | None = None) -> Any:
-    """A figure: the three rates, without the effect in grey and with it in colour; beside them what it changes."""
+    """Return a figure: the three rates, without the effect in grey and with it in colour; beside them what it
+    changes."""
     t, without, with_it = curves(effect, duration, progress)
     figure = new_figure(9.6, 5.6)
     axes = figure.subplots(3, 2, sharex=True, width_ratios=(5, 3))
@@ -172,7 +176,7 @@ def write_picture(
 
 
 def page() -> str:
-    """The page of the documentation, in Markdown."""
+    """Return the page of the documentation, in Markdown."""
     parts = [
         "# Effects",
         "What may be added to the law. `rockref effects NAME` prints the same; `rockref simulate --effect WORDS` and",
@@ -185,6 +189,7 @@ def page() -> str:
         "and at which a search begins; *plausible* the range outside which a value is used with a remark; beyond its",
         "hard limits it is refused. *Acts at* names the methods of [an effect's class](../howto/own_effect.md).",
     ]
+    parts += ["", *thumbnails([kind.id for answers in QUESTIONS.values() for kind in answers[1:]])]
     for question, answers in QUESTIONS.items():
         parts += ["", f"## {TITLES[question]}", "", f"The law: {answers[0].sentence}", "", f"$${answers[0].equation}$$"]
         for kind in answers[1:]:
@@ -195,8 +200,15 @@ def page() -> str:
     return "\n".join(parts) + "\n"
 
 
+def thumbnails(ids: Sequence[str]) -> list[str]:
+    """Return the lines of a table of pictures, each a link to its effect, `ABREAST` in a row."""
+    cells = [f"[![{id}](effects/{id}.png)](#{id}) {id}" for id in ids] + [""] * (-len(ids) % ABREAST)
+    rows = ["| " + " | ".join(cells[k : k + ABREAST]) + " |" for k in range(0, len(cells), ABREAST)]
+    return ["| " * ABREAST + "|", "| --- " * ABREAST + "|", *rows]
+
+
 def section(kind: type[Effect]) -> list[str]:
-    """One effect of the page, as lines."""
+    """Return one effect of the page, as lines."""
     about = card(kind)
     lines = [f"### {kind.id}", "", kind.sentence, "", f"$${kind.equation}$$", "", about["form"], ""]
     lines += ["| parameter | meaning | unit | absent | typical | plausible | sign; hard limits |", "| --- " * 7 + "|"]
@@ -213,7 +225,7 @@ def section(kind: type[Effect]) -> list[str]:
 
 
 def value_text(value: float | str | None) -> str:
-    """A value of a parameter as it is shown: six digits; None is the top of the block."""
+    """Return a value of a parameter as it is shown: six digits; None is the top of the block."""
     return "the top" if value is None else value if isinstance(value, str) else f"{value:g}"
 
 

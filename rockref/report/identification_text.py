@@ -30,7 +30,7 @@ def print_identification(console: Console, result: dict[str, Any], full: bool = 
 
 
 def sentences(result: dict[str, Any]) -> list[str]:
-    """What was found, in words; the outcome last."""
+    """Return what was found, in words; the outcome last."""
     search, squares = result["search"], result["least_squares"]
     text = [f"{search['simulations']} simulations brought the cost to {search['cost']:.4g}."]
     unknown = [name for name, known in squares["determined"].items() if not known]
@@ -68,7 +68,7 @@ def parameter_lines(result: dict[str, Any]) -> list[str]:
 
 
 def parameters_table(result: dict[str, Any]) -> Table:
-    """Values with errors, beside Table 3.1."""
+    """Return values with errors, beside Table 3.1."""
     squares, rows = result["least_squares"], []
     for name, value in squares["values"].items():
         of_runs = [e for n, e in squares["errors"].items() if n.startswith(f"{name} of")]
@@ -82,7 +82,7 @@ def parameters_table(result: dict[str, Any]) -> Table:
 
 
 def terms_table(result: dict[str, Any]) -> Table:
-    """The terms of the cost at the end of the search, with their weights."""
+    """Return the terms of the cost at the end of the search, with their weights."""
     search = result["search"]
     runs = list(search["terms"])
     rows = [
@@ -94,7 +94,7 @@ def terms_table(result: dict[str, Any]) -> Table:
 
 
 def runs_table(result: dict[str, Any]) -> Table:
-    """Every run up to its second main impact."""
+    """Return every run up to its second main impact."""
     rows = [
         [
             r["run"],

@@ -113,7 +113,7 @@ def _made(
     say: Callable[[str], None],
     only: Sequence[str],
 ) -> Path:
-    """The same in a folder that is there, of this process alone."""
+    """Return the same in a folder that is there, of this process alone."""
     digests = load_experiment(experiment).digests if experiment else {}
     kept = Pieces(folder / "pieces", {"versions": versions()})
     art = _Art(folder / "figures")
@@ -149,7 +149,7 @@ class _Art:
 def _studies(
     folder: Path, experiment: Path | None, digests: dict[str, str], budget: Budget, work: Campaign, art: _Art
 ) -> dict[str, Callable[[Pieces], Any]]:
-    """What is made, by name, in the order of `PARTS`."""
+    """Return what is made, by name, in the order of `PARTS`."""
     model = Model.table_3_1()
 
     def identified() -> dict[str, Any]:
@@ -193,7 +193,7 @@ def _studies(
 
 
 def _response(model: Model, art: _Art) -> dict[str, Any]:
-    """Takes a second, so it is not kept."""
+    """Compute the response, which takes a second, so that it is not kept."""
     response = run(model.problem(LONG, output_rate=2000.0), engine="auto")
     J = float(np.asarray(response.problem.block.inertia)[0, 0])
     plane = housner(model.mass, model.width, model.height, J, model.g, model.parameters.theta_0, LONG, 500.0, 1e-3)
@@ -207,7 +207,7 @@ def _response(model: Model, art: _Art) -> dict[str, Any]:
 
 
 def _sensitivity(model: Model, budget: Budget, work: Campaign, art: _Art) -> dict[str, Any]:
-    """Takes some seconds, so it is not kept."""
+    """Compute the sensitivity, which takes some seconds, so that it is not kept."""
     duration, trials = budget.sensitivity
     found = study(model, 0, duration, budget.steps, trials, work.threads)
     art.keep(sensitivity_figures(found))

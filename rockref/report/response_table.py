@@ -40,7 +40,8 @@ def overturned_at(response: Response) -> float | None:
 
 
 def as_measured(response: Response) -> Response:
-    """The response with the rates that the gyroscope shows, with the sensor effects of its problem, in place of W."""
+    """Return the response with the rates that the gyroscope shows, with the sensor effects of its problem, in place of
+    W."""
     return replace(response, W=measured(response.problem.effects, response.t, response.W))
 
 
@@ -60,7 +61,7 @@ def write_response(response: Response, path: Path) -> dict[str, Any]:
 
 
 def packed(pieces: Iterable[bytes]) -> Iterator[bytes]:
-    """The pieces as a gzip stream; no name and no time inside: the same run gives the same file."""
+    """Yield the pieces as a gzip stream; no name and no time inside: the same run gives the same file."""
     packer = zlib.compressobj(6, wbits=GZIP)
     for piece in pieces:
         yield packer.compress(piece)
@@ -68,15 +69,15 @@ def packed(pieces: Iterable[bytes]) -> Iterator[bytes]:
 
 
 def seen_by(digest: Any, pieces: Iterable[bytes]) -> Iterator[bytes]:
-    """The pieces as they are, each of them added to the digest."""
+    """Yield the pieces as they are, each of them added to the digest."""
     for piece in pieces:
         digest.update(piece)
         yield piece
 
 
 def csv_pieces(columns: dict[str, np.ndarray]) -> Iterator[bytes]:
-    """The text of a table, columns (rows,) by name, in pieces of some rows: what pandas would write, byte for byte, in
-    a fifth of its memory. Switches are 0 and 1."""
+    """Yield the text of a table, columns (rows,) by name, in pieces of some rows: what pandas would write, byte for
+    byte, in a fifth of its memory. Switches are 0 and 1."""
     yield (",".join(columns) + "\n").encode("ascii")
     values = [a.astype(np.int8) if a.dtype == bool else a for a in columns.values()]
     for first in range(0, len(values[0]), ROWS_A_PIECE):

@@ -22,7 +22,7 @@ CURVES = 3
 
 
 def sensitivity_figures(study: Study) -> dict[str, Any]:
-    """The four figures by name of file, without its ending."""
+    """Return the four figures by name of file, without its ending."""
     titles = {
         "time_step": ("figure_3_5_time_step", "The same release with several time steps (as Fig. 3.5)"),
         "last_digits": ("figure_3_6_last_digits", "±0.5 of the last digit, release angle kept (as Fig. 3.6)"),
@@ -33,7 +33,7 @@ def sensitivity_figures(study: Study) -> dict[str, Any]:
 
 
 def family_figure(f: Family, title: str) -> Any:
-    """Three rates over the whole run on the left, between the first two main impacts on the right."""
+    """Return three rates over the whole run on the left, between the first two main impacts on the right."""
     figure = new_figure(10.0, 6.6)
     axes = figure.subplots(3, 2, sharex="col", width_ratios=[1.6, 1.0])
     chosen = _drawn(f)
@@ -63,7 +63,8 @@ def _drawn(f: Family) -> list[int]:
 
 
 def growth_figure(g: Growth) -> Any:
-    """Every small difference in the middle of each arc, over its first size; the straight line of the mean factor."""
+    """Return every small difference in the middle of each arc, over its first size; the straight line of the mean
+    factor."""
     figure = new_figure(7.0, 4.2)
     ax = figure.subplots(1, 1)
     arcs = np.arange(g.factors.shape[1])

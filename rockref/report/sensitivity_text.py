@@ -28,7 +28,7 @@ def print_sensitivity(console: Console, result: dict[str, Any]) -> None:
 
 
 def sentences(result: dict[str, Any]) -> list[str]:
-    """How predictable the block is, in words."""
+    """Return how predictable the block is, in words."""
     g = result["growth"]
     factor, spread = g["factor_per_impact"], g["spread_factor"]
     said = [
@@ -47,7 +47,7 @@ def sentences(result: dict[str, Any]) -> list[str]:
 
 
 def horizons_table(result: dict[str, Any]) -> Table:
-    """Until when responses agree."""
+    """Return the table of times until which responses agree."""
     rows = []
     for name, words in FAMILIES.items():
         f = result["families"][name]
@@ -61,12 +61,12 @@ def horizons_table(result: dict[str, Any]) -> Table:
 
 
 def percent(change: float | None, places: int) -> str:
-    """A change of the response as it is shown; None is infinite."""
+    """Return a change of the response as it is shown; None is infinite."""
     return "∞" if change is None else f"{100 * change:.{places}f} %"
 
 
 def digits_table(result: dict[str, Any]) -> Table:
-    """The significant digits of Table 3.1, as stated and by the definition."""
+    """Return the significant digits of Table 3.1, as stated and by the definition."""
     rows = [
         [
             d["name"],

@@ -21,7 +21,7 @@ def interval(found: dict[str, float], sign: str = "") -> str:
 
 
 def scores_table(record: dict[str, Any]) -> Table:
-    """Log loss, Brier score and accuracy of every prediction."""
+    """Return log loss, Brier score and accuracy of every prediction."""
     rows = [
         [
             p["name"],
@@ -38,7 +38,7 @@ def scores_table(record: dict[str, Any]) -> Table:
 
 
 def distances_table(record: dict[str, Any]) -> Table:
-    """How far the maxima of models lie from the measured ones."""
+    """Return how far the maxima of models lie from the measured ones."""
     rows = []
     for d in record["maxima"]:
         unit, scale = UNITS[d["unit"]]
@@ -62,7 +62,7 @@ def distances_table(record: dict[str, Any]) -> Table:
 
 
 def ceiling_line(record: dict[str, Any]) -> str:
-    """What repeats allow, in a sentence; empty where no test repeats another."""
+    """Return what repeats allow, in a sentence; empty where no test repeats another."""
     r = record["repeats"]
     if r is None:
         return ""
@@ -74,7 +74,7 @@ def ceiling_line(record: dict[str, Any]) -> str:
 
 
 def answers(record: dict[str, Any]) -> list[str]:
-    """The answer, a sentence a prediction beside the first, or a distribution where no outcomes are known."""
+    """Return the answer, a sentence a prediction beside the first, or a distribution where no outcomes are known."""
     found = []
     first, *others = record["predictions"] or [None]
     for p in others:

@@ -19,7 +19,7 @@ WHOLE, ABOUT_FIRST, FIRST_TWO, LATE = (0.0, 14.0), (0.46, 0.62), (0.45, 1.40), (
 
 
 def response_figure(response: Response, plane: HousnerResponse) -> Any:
-    """Rates over the whole run, contact indices below; Housner's model on the main axis (as Fig. 3.4a)."""
+    """Return rates over the whole run, contact indices below; Housner's model on the main axis (as Fig. 3.4a)."""
     figure = new_figure(10.0, 7.6)
     axes = figure.subplots(4, 1, sharex=True, height_ratios=[1.3, 1.0, 1.0, 1.0])
     _rates(axes[:3], response, plane, WHOLE)
@@ -31,7 +31,7 @@ def response_figure(response: Response, plane: HousnerResponse) -> Any:
 
 
 def zooms_figure(response: Response, plane: HousnerResponse) -> Any:
-    """Zooms: about the first main impact, between the first two, ninth to eleventh (as Fig. 3.4b to 3.4j)."""
+    """Return zooms: about the first main impact, between the first two, ninth to eleventh (as Fig. 3.4b to 3.4j)."""
     figure = new_figure(12.0, 7.4)
     stretches = (ABOUT_FIRST, FIRST_TWO, LATE)
     axes = figure.subplots(4, 3, sharex="col", height_ratios=[1, 1, 1, 0.9])
@@ -73,7 +73,8 @@ def _contacts(ax: Any, response: Response, stretch: tuple[float, float], labelle
 
 
 def twins_figure(rows: Sequence[dict[str, Any]]) -> Any:
-    """What came back, by parameter: error in units of the last digit, two standard errors as bars, a place a seed."""
+    """Return what came back, by parameter: error in units of the last digit, two standard errors as bars, a place a
+    seed."""
     figure = new_figure(10.0, 4.2)
     ax = figure.subplots(1, 1)
     names = list(rows[0]["parameters"])
@@ -95,7 +96,7 @@ def twins_figure(rows: Sequence[dict[str, Any]]) -> Any:
 
 
 def reduction_figure(result: dict[str, Any]) -> Any:
-    """The best chromosomes over the generations, a panel for each group of the source's reduction."""
+    """Return the best chromosomes over the generations, a panel for each group of the source's reduction."""
     figure = new_figure(11.0, 5.6)
     axes = figure.subplots(2, 3, sharex=True, sharey=True).ravel()
     way, names = np.array(result["ways"]), result["genes"]
@@ -116,7 +117,7 @@ def reduction_figure(result: dict[str, Any]) -> Any:
 
 
 def scenarios_figure(t: np.ndarray, wanted: np.ndarray, found: Sequence[tuple[str, np.ndarray, np.ndarray]]) -> Any:
-    """Transverse and longitudinal rate of some models, (name, t, crv), beside the reference, in deg/s."""
+    """Return transverse and longitudinal rate of some models, (name, t, crv), beside the reference, in deg/s."""
     figure = new_figure(11.0, 1.5 + 1.45 * len(found))
     axes = figure.subplots(len(found), 2, sharex=True, squeeze=False)
     for row, (name, at, crv) in enumerate(found):

@@ -11,7 +11,7 @@ from rockref.report.page import Page, Table
 
 
 def source_page(results: dict[str, Any], pictures: dict[str, bytes], provenance: dict[str, Any]) -> Page:
-    """The page of the results by study, those that there are, and the pictures (PNG) by name."""
+    """Return the page of the results by study, those that there are, and the pictures (PNG) by name."""
     page = Page("The source, reproduced", "The studies of the source made again with the law, beside what it states.")
     sections: dict[str, Callable[[Page, Any, dict[str, bytes]], None]] = {
         "response": _response,
@@ -39,7 +39,7 @@ def _response(page: Page, result: dict[str, Any], pictures: dict[str, bytes]) ->
 
 
 def facts_table(facts: Sequence[dict[str, Any]]) -> Table:
-    """Stated facts beside ours."""
+    """Return stated facts beside ours."""
     verdict = {True: "yes", False: "no", None: ""}
     rows = [[f["what"], f["stated"], f["ours"], verdict[f["agrees"]]] for f in facts]
     note = "A fact without a verdict is one for which the source gives no number, or of the experiment alone."
@@ -80,7 +80,7 @@ def _twins(page: Page, rows: Sequence[dict[str, Any]], pictures: dict[str, bytes
 
 
 def twins_table(rows: Sequence[dict[str, Any]]) -> Table:
-    """A row a seed: error in last digits by parameter; in brackets what the data do not determine."""
+    """Return a row a seed: error in last digits by parameter; in brackets what the data do not determine."""
     names = list(TABLE_3_1)
     body = []
     for row in rows:
@@ -113,7 +113,7 @@ def _reduction(page: Page, result: dict[str, Any], pictures: dict[str, bytes]) -
 
 
 def reduction_table(result: dict[str, Any]) -> Table:
-    """The groups of the source's reduction, and how far they came out."""
+    """Return the groups of the source's reduction, and how far they came out."""
     rows = [
         [
             g["group"],
@@ -146,7 +146,7 @@ def _scenarios(page: Page, rows: Sequence[dict[str, Any]], pictures: dict[str, b
 
 
 def scenarios_table(rows: Sequence[dict[str, Any]]) -> Table:
-    """The best error of each scenario, and whether it returns to the plane."""
+    """Return the best error of each scenario, and whether it returns to the plane."""
     body = [
         [
             row["name"],

@@ -31,7 +31,7 @@ def run_name(comparison: Comparison, k: int) -> str:
 
 
 def runs_table(c: Comparison) -> Table:
-    """What was measured, run by run."""
+    """Return what was measured, run by run."""
     rows = []
     for k, m in enumerate(c.measured):
         times = m.features.impacts.times
@@ -65,7 +65,7 @@ def runs_table(c: Comparison) -> Table:
 
 
 def errors_table(c: Comparison, model: int, use: str | None = None) -> Table:
-    """The error of one model by stretch and axis in three units: fit and holdout runs side by side, or those of one
+    """Return error of one model by stretch and axis in three units: fit and holdout runs side by side, or those of one
     use (narrow, for a terminal)."""
     uses = [one for one in ("fit", "holdout") if c.of(one) and use in (None, one)]
     names = STRETCH_WORDS if use is None else STRETCH_SHORT
@@ -136,7 +136,7 @@ def departures_table(c: Comparison, model: int) -> Table:
 
 
 def impacts_table(c: Comparison, model: int, k: int) -> Table:
-    """The main impacts of one run: times and losses."""
+    """Return the main impacts of one run: times and losses."""
     r: RunComparison = c.results[model][k]
     rows = [
         [
@@ -161,7 +161,7 @@ def impacts_table(c: Comparison, model: int, k: int) -> Table:
 
 
 def energy_table(c: Comparison) -> Table:
-    """Shares of energy lost, measured and modelled, means over runs."""
+    """Return shares of energy lost, measured and modelled, means over runs."""
     rows = []
     parts = (("cycle", "per cycle"), ("impact", "per main impact"), ("free", "in a free arc"))
     for part, words in parts:

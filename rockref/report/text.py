@@ -97,7 +97,7 @@ def print_list(console: Console, table: Table) -> None:
 
 
 def widths(table: Table, room: int | None) -> list[int]:
-    """The width of every column, in characters, of a table that has `room` (None: as much as it wants).
+    """Return the width of every column, in characters, of a table that has `room` (None: as much as it wants).
 
     At least such that no word is broken, even where that is more than the room; the first column, which names the
     row, in one line. What room is left goes to the narrowest column that wraps, cells first, then headings.

@@ -40,7 +40,7 @@ def write_toss_diagnosis(record: dict[str, Any], folder: Path) -> Path:
 
 
 def add_diagnosis(page: Page, record: dict[str, Any]) -> None:
-    """The sections of a diagnosis."""
+    """Add the sections of a diagnosis."""
     page.add_section(
         "The staircase",
         "All effects were fitted together, and what is not needed was taken away, the least needed first. Seen from "
@@ -73,7 +73,7 @@ def add_diagnosis(page: Page, record: dict[str, Any]) -> None:
 
 
 def add_stretches(page: Page, rows: list[dict[str, Any]]) -> None:
-    """Where the errors of some rows of comparisons grow: a picture of the last use among them, and every table."""
+    """Add where the errors of some rows of comparisons grow: a picture of the last use among them, and every table."""
     use = rows[-1]["use"]
     page.add_figure(
         stretches_picture([row for row in rows if row["use"] == use]),
@@ -86,7 +86,8 @@ def add_stretches(page: Page, rows: list[dict[str, Any]]) -> None:
 
 
 def stretches_picture(rows: list[dict[str, Any]]) -> bytes:
-    """PNG: bars by stretch of the growth of the errors and of the energy lost; one colour a model, measured in grey."""
+    """Return PNG: bars by stretch of the growth of the errors and of the energy lost; one colour a model, measured in
+    grey."""
     names = [s["stretch"] for s in rows[0]["stretches"]]
     bars: list[list[tuple[str, str, list[float]]]] = [[], [], []]
     for row, color in zip(rows, (SECOND, INK, "#5b8c5a", "#7a4e8a"), strict=False):
@@ -117,7 +118,7 @@ def stretches_picture(rows: list[dict[str, Any]]) -> bytes:
 
 
 def _panels(count: int, width: float, height: float) -> tuple[Any, Any]:
-    """A figure [inches] with panels side by side over one ordinate; no window system is asked for."""
+    """Return a figure [inches] with panels side by side over one ordinate; no window system is asked for."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), layout="constrained")
@@ -125,7 +126,7 @@ def _panels(count: int, width: float, height: float) -> tuple[Any, Any]:
 
 
 def staircase_picture(record: dict[str, Any]) -> bytes:
-    """PNG: mean position and rotation error on the held-out tosses, from both starts, over the added effects."""
+    """Return PNG: mean position and rotation error on the held-out tosses, from both starts, over the added effects."""
     steps = record["staircase"]
     names = ["stated values", "contact fitted"] + ["+ " + s["added"].replace("_", " ") for s in steps[1:]]
     rows = range(len(names))

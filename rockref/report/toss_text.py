@@ -30,7 +30,7 @@ CORNER = {
 
 
 def error_cells(summary: dict[str, Any]) -> tuple[str, ...]:
-    """Mean ± deviation, median and quartiles of position and rotation."""
+    """Return mean ± deviation, median and quartiles of position and rotation."""
     cells: list[str] = []
     for a in (summary["position_percent"], summary["rotation_deg"]):
         cells.append(f"{a['mean']:.1f} ± {a['sd']:.1f}")
@@ -39,7 +39,7 @@ def error_cells(summary: dict[str, Any]) -> tuple[str, ...]:
 
 
 def errors_table(record: dict[str, Any]) -> Table:
-    """The models of a comparison beside the published simulators."""
+    """Return the models of a comparison beside the published simulators."""
     rows = [
         (f"{r['model']}, {r['use']}", r["start"], str(r["tosses"]), *error_cells(r)) for r in record["rows"]
     ]  # fmt: skip
@@ -52,7 +52,7 @@ def errors_table(record: dict[str, Any]) -> Table:
 
 
 def stretches_table(row: dict[str, Any]) -> Table:
-    """Where the errors of one row grow."""
+    """Return where the errors of one row grow."""
     rows = tuple(
         (
             s["stretch"], str(s["tosses"]), f"{s['frames_percent']:.0f}",
@@ -75,13 +75,13 @@ def stretches_table(row: dict[str, Any]) -> Table:
 
 
 def with_error(value: float, se: float) -> str:
-    """A value with two digits of its standard error."""
+    """Return a value with two digits of its standard error."""
     digits = max(0, 1 - math.floor(math.log10(se))) if se > 0 else 3
     return f"{value:.{digits}f} ± {se:.{digits}f}"
 
 
 def measured_table(found: dict[str, Any]) -> Table:
-    """What the tosses say without a contact model."""
+    """Return what the tosses say without a contact model."""
     rows = []
     for key, v in found.get("flight_arcs", {}).get("values", {}).items():
         words, scale, unit = ARCS.get(key, (key, 1.0, v["unit"]))
@@ -118,13 +118,14 @@ def measured_table(found: dict[str, Any]) -> Table:
 
 
 def _brief(summary: dict[str, Any]) -> tuple[str, str]:
-    """Mean and median of position and rotation."""
+    """Return mean and median of position and rotation."""
     p, r = summary["position_percent"], summary["rotation_deg"]
     return f"{p['mean']:.1f} ({p['median']:.1f})", f"{r['mean']:.1f} ({r['median']:.1f})"
 
 
 def sliding_table(rows: list[dict[str, Any]]) -> Table:
-    """Friction of a face that slides flat by speed, from how the tosses slow down and from how those of models do."""
+    """Return friction of a face that slides flat by speed, from how the tosses slow down and from how those of models
+    do."""
     parts = [("measured", rows[0]["sliding"]["measured"]), *((r["model"], r["sliding"]["model"]) for r in rows)]
     speeds = list(dict.fromkeys(k for _, part in parts for k in part))
     cells = tuple(
@@ -136,7 +137,7 @@ def sliding_table(rows: list[dict[str, Any]]) -> Table:
 
 
 def staircase_table(record: dict[str, Any]) -> Table:
-    """Held-out errors after each added effect: mean and median of position and rotation from both starts."""
+    """Return held-out errors after each added effect: mean and median of position and rotation from both starts."""
     first = record["nominal_holdout"]
     rows = [("stated values", "", *_brief(first["flight"]), "", *_brief(first["raw"]))]
     for s in record["staircase"]:
@@ -164,7 +165,7 @@ def staircase_table(record: dict[str, Any]) -> Table:
 
 
 def agreement_table(record: dict[str, Any]) -> Table:
-    """Two ways to one quantity."""
+    """Return two ways to one quantity."""
     rows = []
     for a in record["agreement"]:
         # A thousandth of the unit is what a hand-sized block is measured in.
@@ -199,7 +200,7 @@ def print_toss_diagnosis(console: Console, record: dict[str, Any]) -> None:
 
 
 def gates_table(record: dict[str, Any]) -> Table:
-    """What the gates say."""
+    """Return what the gates say."""
     rows = tuple(
         (g["name"], f"{g['value']:.3g}", f"{g['limit']:g}", "passed" if g["passed"] else "not passed")
         for g in record["gates"]
@@ -208,7 +209,7 @@ def gates_table(record: dict[str, Any]) -> Table:
 
 
 def parameters_table(record: dict[str, Any]) -> Table:
-    """The numbers of a fit."""
+    """Return the numbers of a fit."""
     rows = tuple((k, f"{v['value']:.5g}", v["unit"]) for k, v in record["parameters"].items())
     return Table("Fitted", ("parameter", "value", "unit"), rows, "Fitted together to the tosses marked fit.")
 

@@ -74,7 +74,7 @@ class ShakenExperiment:
 
 
 def is_shaken_folder(path: Path | str) -> bool:
-    """Whether a folder holds an experiment of kind ``shaken``; never raises."""
+    """Return whether a folder holds an experiment of kind ``shaken``; never raises."""
     try:
         return read_toml(Path(path) / "experiment.toml")[0].get("kind") == SHAKEN
     except InputError:

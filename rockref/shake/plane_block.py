@@ -94,7 +94,7 @@ def rock_many(base: BaseMotion, blocks: np.ndarray, g: float = 9.81, linear: boo
 
 @cache
 def _loop() -> Any:
-    """The loop over blocks, compiled with what it calls where numba is installed."""
+    """Return the loop over blocks, compiled with what it calls where numba is installed."""
     try:
         import numba
     except ImportError:

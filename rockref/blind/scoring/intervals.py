@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from itertools import pairwise
 from typing import Any
 
-from scipy.stats import binomtest
+from rockref.shake.statistics.bands import wilson_interval
 
 #: Edges of the bins of stated probabilities; the last holds one.
 EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
@@ -14,10 +14,7 @@ EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
 
 def wilson(hits: int, n: int) -> tuple[float, float]:
     """Return the 95 % Wilson interval of a share of `hits` in `n` (0 to 1 if n is 0)."""
-    if n == 0:
-        return 0.0, 1.0
-    found = binomtest(hits, n).proportion_ci(confidence_level=0.95, method="wilson")
-    return float(found.low), float(found.high)
+    return wilson_interval(hits, n) if n else (0.0, 1.0)
 
 
 def reliability(marks: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -45,7 +45,7 @@ class _Rounded(float):
 
     @classmethod
     def made(cls, exact: Any) -> _Rounded:
-        """`exact` (a longdouble, or a float for single precision) rounded to one of its two neighbours."""
+        """Return `exact` (a longdouble, or a float for single precision) rounded to one of its two neighbours."""
         near = np.float32(exact) if cls.single else np.float64(exact)
         if near == exact or not np.isfinite(near):
             return cls(near)
@@ -95,7 +95,7 @@ class RandomRounding:
         self.pi = self.number(np.float32(math.pi) if single else math.pi)
 
     def number(self, value: Any) -> _Rounded:
-        """An input; in single precision rounded (at random) to it."""
+        """Return an input; in single precision rounded (at random) to it."""
         return self.kind.made(float(value))
 
     def _wide(self, function: Any, x: Any) -> _Rounded:
@@ -117,7 +117,7 @@ class RandomRounding:
 
 
 def converted(value: Any, number: Any) -> Any:
-    """Nested lists of `number` from arrays; flags, names and whole numbers of steps stay."""
+    """Return nested lists of `number` from arrays; flags, names and whole numbers of steps stay."""
     if isinstance(value, np.ndarray):
         return converted(value.tolist(), number)
     if isinstance(value, list):

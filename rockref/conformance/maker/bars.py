@@ -67,20 +67,20 @@ class Barred:
 
 
 def ulp(a: np.ndarray, dtype: Any = np.float64) -> np.ndarray:
-    """Distance to the next number of that precision, in float64."""
+    """Return distance to the next number of that precision, in float64."""
     a = np.abs(np.asarray(a, float)).astype(dtype)
     return np.spacing(np.where(np.isfinite(a), a, 0)).astype(float)
 
 
 def answer(case: Case, m: Any, inputs: dict[str, Any] | None = None) -> dict[str, Any]:
-    """The named results of a case in the arithmetic m."""
+    """Return the named results of a case in the arithmetic m."""
     q = {k: converted(v, m.number) for k, v in (case.inputs if inputs is None else inputs).items()}
     return {k: v for k, v in ANSWERS[case.piece](q, m).items() if k in case.fields}
 
 
 def moved(inputs: dict[str, Any], rng: random.Random) -> dict[str, Any]:
-    """All numbers moved by -1, 0 or +1 ulp at random; rotations by an ulp of 1 in every entry, as a pose kept as a
-    quaternion has its rounding; a coefficient of friction that is zero stays so."""
+    """Return all numbers moved by -1, 0 or +1 ulp at random; rotations by an ulp of 1 in every entry, as a pose kept as
+    a quaternion has its rounding; a coefficient of friction that is zero stays so."""
     keep = {"step", "duration", "output_rate", "t"}
     found = {
         k: v if k in keep else moved_pose(v, rng) if k == "Lambda" else moved_number(v, rng) for k, v in inputs.items()
@@ -89,7 +89,7 @@ def moved(inputs: dict[str, Any], rng: random.Random) -> dict[str, Any]:
 
 
 def moved_number(a: Any, rng: random.Random) -> Any:
-    """A number or an array moved by up to an ulp; flags and names stay."""
+    """Return a number or an array moved by up to an ulp; flags and names stay."""
     if isinstance(a, np.ndarray) and a.dtype != bool:
         shift = np.array([rng.choice((-1.0, 0.0, 1.0)) for _ in range(a.size)]).reshape(a.shape)
         return np.where(shift == 0, a, np.nextafter(a, np.where(shift > 0, np.inf, -np.inf)))
@@ -97,13 +97,13 @@ def moved_number(a: Any, rng: random.Random) -> Any:
 
 
 def moved_pose(Lambda: np.ndarray, rng: random.Random) -> np.ndarray:
-    """A rotation matrix moved by up to half an ulp of 1 in every entry."""
+    """Return a rotation matrix moved by up to half an ulp of 1 in every entry."""
     shift = np.array([rng.choice((-1.0, 0.0, 1.0)) for _ in range(Lambda.size)]).reshape(Lambda.shape)
     return Lambda + shift * 2.0**-53
 
 
 def reordered(case: Case, rng: random.Random) -> dict[str, Any]:
-    """The results with the contact points taken in a random order, in float64, put back in place."""
+    """Return the results with the contact points taken in a random order, in float64, put back in place."""
     per_point, results = PER_POINT[case.piece]
     n = len(case.inputs["P" if "P" in case.inputs else "r"])
     order = list(range(n))
@@ -116,7 +116,7 @@ def reordered(case: Case, rng: random.Random) -> dict[str, Any]:
 
 
 def by_the_law(case: Case, dtype: Any) -> dict[str, Any]:
-    """The results of the law's own text in float64 or float32."""
+    """Return the results of the law's own text in float64 or float32."""
     backend = RulesBackend(dtype=dtype)
     if case.piece in ("step", "simulate"):
         out = getattr(backend, case.piece)(problem_of(case.inputs))
@@ -128,14 +128,14 @@ def by_the_law(case: Case, dtype: Any) -> dict[str, Any]:
 
 
 def subtracted(member: Any, exactly: Any) -> np.ndarray:
-    """|member - exactly| as float64, the difference taken in fifty digits."""
+    """Return |member - exactly| as float64, the difference taken in fifty digits."""
     a, b = np.asarray(converted_floats(member), object), np.asarray(exactly, object)
     difference = [abs(FIFTY.number(p) - q) for p, q in zip(a.ravel(), b.ravel(), strict=True)]
     return np.array([float(d) for d in difference]).reshape(b.shape)
 
 
 def converted_floats(value: Any) -> Any:
-    """Nested lists of plain floats from arrays of any precision; fifty-digit numbers stay."""
+    """Return nested lists of plain floats from arrays of any precision; fifty-digit numbers stay."""
     if isinstance(value, np.ndarray | np.generic):
         return np.asarray(value, float).tolist()
     if isinstance(value, list | tuple):
@@ -144,21 +144,21 @@ def converted_floats(value: Any) -> Any:
 
 
 def is_flag(value: Any) -> bool:
-    """Whether a result is made of flags."""
+    """Return whether a result is made of flags."""
     while isinstance(value, list):
         value = value[0]
     return isinstance(value, bool | np.bool_)
 
 
 def same_flags(member: dict[str, Any], exactly: dict[str, Any]) -> bool:
-    """Whether all flags of a member are those of the answer."""
+    """Return whether all flags of a member are those of the answer."""
     return all(
         np.array_equal(np.asarray(member[k]), np.asarray(v)) for k, v in exactly.items() if is_flag(v) and k in member
     )
 
 
 def spread(members: list[dict[str, Any]], exactly: dict[str, Any]) -> dict[str, np.ndarray]:
-    """The largest deviation of the members from the answer, by result."""
+    """Return the largest deviation of the members from the answer, by result."""
     found = {}
     for key, value in exactly.items():
         if not is_flag(value):
@@ -168,7 +168,7 @@ def spread(members: list[dict[str, Any]], exactly: dict[str, Any]) -> dict[str, 
 
 
 def barred(case: Case, seed: int) -> dict[str, Barred]:
-    """The answer of a case with its bars, in the profiles float64 and float32.
+    """Return the answer of a case with its bars, in the profiles float64 and float32.
 
     Raises
     ------
@@ -206,5 +206,5 @@ def barred(case: Case, seed: int) -> dict[str, Barred]:
 
 
 def converted_floats_of(value: Any) -> Any:
-    """Nested lists of the floats nearest to fifty-digit numbers."""
+    """Return nested lists of the floats nearest to fifty-digit numbers."""
     return [converted_floats_of(v) for v in value] if isinstance(value, list) else float(value)

@@ -24,12 +24,12 @@ CANCELLED = 2.0**-20
 
 
 def some(numbers: Any) -> bool:
-    """Whether any number of nested lists is not zero."""
+    """Return whether any number of nested lists is not zero."""
     return any(map(some, numbers)) if isinstance(numbers, list) else numbers != 0
 
 
 def turn(Theta: list, m: Any) -> str:
-    """Size of a rotation increment Theta (3,) [rad], by the ways in which its exponential can be computed."""
+    """Return size of a rotation increment Theta (3,) [rad], by the ways in which its exponential can be computed."""
     angle = m.sqrt(exact.dot(Theta, Theta))
     if angle == 0:
         return "none"
@@ -38,12 +38,12 @@ def turn(Theta: list, m: Any) -> str:
 
 
 def leaning(Lambda: list) -> bool:
-    """Whether body axes differ from plate axes: Lambda (3, 3) is not the identity."""
+    """Return whether body axes differ from plate axes: Lambda (3, 3) is not the identity."""
     return some([[c - (i == j) for j, c in enumerate(row)] for i, row in enumerate(Lambda)])
 
 
 def derived(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """Cross-section; external feet above and below the internal plane; which feet damp and rub more."""
+    """Return cross-section; external feet above and below the internal plane; which feet damp and rub more."""
     ends = {name: ("external" if q[f"{k}_ext"] > q[f"{k}_int"] else "internal") for name, k in
             (("more damping", "beta"), ("more friction", "mu"))}  # fmt: skip
     raised = q["delta_long"]
@@ -56,7 +56,7 @@ def derived(q: dict[str, Any], m: Any) -> dict[str, Any]:
 
 
 def released(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """The feet that stand in the plate, and whether they are equally stiff."""
+    """Return the feet that stand in the plate, and whether they are equally stiff."""
     posture = release(q, m)
     places = [exact.kinematics(posture["x"], posture["Lambda"], 3 * [0], 3 * [0], P) for P in q["P"]]
     pivots = [i for i, k in enumerate(places) if k.xi > 0]
@@ -64,7 +64,7 @@ def released(q: dict[str, Any], m: Any) -> dict[str, Any]:
 
 
 def kinematics(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """Terms at work, feet in the plate, feet that approach it."""
+    """Return terms at work, feet in the plate, feet that approach it."""
     motions = [exact.kinematics(q["x"], q["Lambda"], q["v"], q["W"], P) for P in q["P"]]
     return {
         "leaning": leaning(q["Lambda"]),
@@ -76,7 +76,7 @@ def kinematics(q: dict[str, Any], m: Any) -> dict[str, Any]:
 
 
 def assemble(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """Feet that carry a force, axes along which forces act, whether the sum cancels, whether the body axes are
+    """Return feet that carry a force, axes along which forces act, whether the sum cancels, whether the body axes are
     turned."""
     columns = [list(column) for column in zip(*q["F"], strict=True)]
     largest = max(abs(f) for column in columns for f in column)
@@ -90,12 +90,12 @@ def assemble(q: dict[str, Any], m: Any) -> dict[str, Any]:
 
 
 def rotate(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """Size of the increment."""
+    """Return size of the increment."""
     return {"turn": turn(q["Theta"], m)}
 
 
 def integrate(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """Terms at work, size of the increment, kind of inertia."""
+    """Return terms at work, size of the increment, kind of inertia."""
     J = q["inertia"]
     half = exact.first_half(q["x"], q["v"], q["Lambda"], q["W"], q["a"], q["T"], q["h"], J, m)
     acts = [k for k in ("v", "a", "a_next", "W", "T", "T_next") if some(q[k])]
@@ -110,7 +110,7 @@ def integrate(q: dict[str, Any], m: Any) -> dict[str, Any]:
 
 
 def channel(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """Samples in which body axes are not plate axes, and the signs of the rates in each."""
+    """Return samples in which body axes are not plate axes, and the signs of the rates in each."""
     return {
         "leaning": [i for i, Lambda in enumerate(q["Lambda"]) if leaning(Lambda)],
         "signs": ["".join("+" if w > 0 else "-" if w < 0 else "0" for w in W) for W in q["W"]],
@@ -118,7 +118,7 @@ def channel(q: dict[str, Any], m: Any) -> dict[str, Any]:
 
 
 def simulate(q: dict[str, Any], m: Any) -> dict[str, Any]:
-    """What every foot does in every row: open -, sticking s, sliding S."""
+    """Return what every foot does in every row: open -, sticking s, sliding S."""
     return {"rows": patterns(q, m)}
 
 
@@ -128,6 +128,6 @@ BRANCHES = {"release": released} | {
 
 
 def branch(case: Case) -> dict[str, Any]:
-    """The branch of a question: the one that it brings, or what its inputs say."""
+    """Return the branch of a question: the one that it brings, or what its inputs say."""
     q = {k: converted(v, FIFTY.number) for k, v in case.inputs.items()}
     return case.branch or BRANCHES[case.piece](q, FIFTY)

@@ -28,13 +28,13 @@ TIP = np.array([0.8, 0.6]) * 2.0**-17 * 1.2 * 0.25
 
 
 def fly(fields: dict[str, str], flag: str, steps: int = 1, **changes: Any) -> Case:
-    """A run far above the plate, with long steps."""
+    """Make a run far above the plate, with long steps."""
     long: Any = {"step": 2.0**-10, "inertia": diagonal(0.5, 1.25, 2.0)}
     return ask(fields, flag, steps, HIGH, made=ICE | GONE, **(long | changes))
 
 
 def afloat() -> Iterator[tuple[float, Case]]:
-    """I3, S2, A1 before everything else: at rest, drifting, without loads, rows between steps."""
+    """Yield I3, S2, A1 before everything else: at rest, drifting, without loads, rows between steps."""
     oblique = rotation((0.3, -0.2, 0.5))
     yield 0.2, fly({"Lambda@1": "I3"}, "at rest: it does not turn", Lambda=oblique, **UNLOADED)
     yield 0.4, fly({"x_T@1": "S2"}, "drifting, the start brings that nothing pulls", v=DRIFT, **UNLOADED)
@@ -44,7 +44,7 @@ def afloat() -> Iterator[tuple[float, Case]]:
 
 
 def tops() -> Iterator[tuple[float, Case]]:
-    """I2, I5 with products of inertia."""
+    """Yield I2, I5 with products of inertia."""
     d = Draw(54)
     for place, fields, h in ((16.2, {"Lambda@1": "I2"}, 2.0**-6), (16.4, {"W@1": "I5"}, 2.0**-10)):
         spun: Any = {"W": d.vector(8), "Lambda": d.rotation(0.5), "step": h, "inertia": OBLIQUE}
@@ -52,7 +52,7 @@ def tops() -> Iterator[tuple[float, Case]]:
 
 
 def feet() -> Iterator[tuple[float, Case]]:
-    """N1, A2, S1 of feet on ice: shallow, hardly loaded, each of its own make, lifting while others press."""
+    """Yield N1, A2, S1 of feet on ice: shallow, hardly loaded, each of its own make, lifting while others press."""
     yield 22.2, ask({"F_N@0": "N1"}, "a micrometre deep, compressing", 1, standing(2.0**-20), made=ICE, v=-0.125 * Z)
     yield 22.4, ask({"F_N@0": "N1"}, "loaded by less than a newton", 1, standing(2.0**-26), made=ICE)
     own = ICE | {"K_N": 6e7 * SHARES, "C_N": 16384.0 * SHARES}
@@ -64,8 +64,8 @@ def feet() -> Iterator[tuple[float, Case]]:
 
 
 def strangers() -> Iterator[tuple[float, Case]]:
-    """T1, T6 where no two feet remember the same, before all others that look at feet with anchors; A1 of a block that
-    is not the source's, and of one that leans; an even push; what begins to slide, and what almost does; an anchor
+    """Yield T1, T6 where no two feet remember the same, before all others that look at feet with anchors; A1 of a block
+    that is not the source's, and of one that leans; an even push; what begins to slide, and what almost does; an anchor
     that outlives a moment without a load."""
     # All eight are held: a foot without a trial force would speak of T3.
     own = held(Draw(55).vectors(1e-5, 8, 2)) | {"anchored": np.ones(8, bool)}
@@ -88,7 +88,7 @@ def strangers() -> Iterator[tuple[float, Case]]:
 
 
 def friction() -> Iterator[tuple[float, Case]]:
-    """T1, T6, T3 where no two feet have the same constants."""
+    """Yield T1, T6, T3 where no two feet have the same constants."""
     own = GLUE | {"K_T": 5e7 * SHARES, "C_T": 16384.0 * SHARES}
     pulled: Any = {"v": [0.0625, -0.03125, 0.0], **held(np.array([2.0**-18, -(2.0**-17)]) * np.ones((8, 1)))}
     yield 49.5, ask({"F_T@0": "T1"}, "every foot of its own make", 1, standing(), made=own, **pulled)
@@ -102,7 +102,7 @@ def friction() -> Iterator[tuple[float, Case]]:
 
 
 def alone() -> Iterator[Case]:
-    """All of them."""
+    """Yield all of them."""
     for group in (afloat, tops, feet, friction, strangers):
         for place, case in group():
             yield replace(case, place=place)

@@ -20,7 +20,7 @@ from rockref.conformance.maker.drawing import Draw, diagonal, rotation, turned
 
 
 def turning() -> Iterator[tuple[float, Case]]:
-    """I3 where Euler's equations have no part, then I2 where they are all that is left.
+    """Yield I3 where Euler's equations have no part, then I2 where they are all that is left.
 
     A step so short that the square of it rounds away shows the side and the sense of the increment; a ball, upright,
     shows the exponential. A steady spin of a leaning block adds the axes in which the gyroscopic moment is made.
@@ -35,7 +35,7 @@ def turning() -> Iterator[tuple[float, Case]]:
 
 
 def places() -> Iterator[tuple[float, Case]]:
-    """K1 by which feet touch, before any force is looked at; T2 of a foot that is hardly stretched on ice."""
+    """Yield K1 by which feet touch, before any force is looked at; T2 of a foot that is hardly stretched on ice."""
     lean = rotation((0.0008, 0.0005, 0.4))
     # They slide, so that who exchanges the flags of touching and sliding shows the same.
     slippery: Any = {"made": {"mu": 0.0, "mu_0": 0.0}, "v": [0.0625, -0.03125, 0.0]}
@@ -45,7 +45,7 @@ def places() -> Iterator[tuple[float, Case]]:
 
 
 def second_evaluation() -> Iterator[tuple[float, Case]]:
-    """A3 and S1 of the forces after a step, where the start brings none, and where one foot alone is dragged."""
+    """Yield A3 and S1 of the forces after a step, where the start brings none, and where one foot alone is dragged."""
     roll, springs = rotation((0.0006, 0.0004, 1.0)), ICE | {"C_N": 0.0}
     spun: Any = {"W": [0.0, 0.0, 4.0], **UNLOADED}
     yield (
@@ -64,7 +64,8 @@ def second_evaluation() -> Iterator[tuple[float, Case]]:
 
 
 def memory() -> Iterator[tuple[float, Case]]:
-    """T5 and T6 in the next row: every anchor its own, a new one after the smallest hop, a foot that sticks again."""
+    """Yield T5 and T6 in the next row: every anchor its own, a new one after the smallest hop, a foot that sticks
+    again."""
     own = held(Draw(71).vectors(1e-5, 8, 2))
     yield 64.4, ask({"F_T@1": "T5"}, "every anchor stays its own", 2, standing(), made=GLUE, **own)
     # It slid; it sticks; as the spring is stretched on, the static coefficient holds it.
@@ -77,7 +78,8 @@ def memory() -> Iterator[tuple[float, Case]]:
 
 
 def long_steps() -> Iterator[tuple[float, Case]]:
-    """A1 without a weight; A2, T1, T2 for who shows no forces: after a long step the next row shows more digits."""
+    """Yield A1 without a weight; A2, T1, T2 for who shows no forces: after a long step the next row shows more
+    digits."""
     # The longest step, a power of two, that stiff feet bear; 2 mm deep, as forces show by depth and (h omega)^2.
     d, long, deep = Draw(72, 53), 2.0**-14, 2.0**-9
     yield 4.55, fly({"x@1": "A1"}, "drifting without a weight", v=DRIFT, g=WEIGHTLESS)
@@ -94,7 +96,7 @@ def long_steps() -> Iterator[tuple[float, Case]]:
 
 
 def apart() -> Iterator[Case]:
-    """All of them."""
+    """Yield all of them."""
     for group in (turning, places, second_evaluation, memory, long_steps):
         for place, case in group():
             yield replace(case, place=place)

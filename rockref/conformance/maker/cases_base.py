@@ -39,14 +39,16 @@ SCENES = (
 
 
 def record(seed: int, start: float) -> BaseMotion:
-    """Three different components in all their bits, seven samples, the last not zero, no time a multiple of a step."""
+    """Return three different components in all their bits, seven samples, the last not zero, no time a multiple of a
+    step."""
     d = random.Random(seed)
     a = np.array([[d.uniform(-9, 9), d.uniform(-5, 5), d.uniform(-3, 3)] for _ in range(7)])
     return BaseMotion(start + (0.00011931 if start == 0 else -0.00024617), 0.00010437, a)
 
 
 def inputs(scene: tuple[Any, ...], seed: int) -> dict[str, Any]:
-    """The inputs of a run: Table 3.1 with a centre of mass out of the middle, in a pose near the plate or far above."""
+    """Return the inputs of a run: Table 3.1 with a centre of mass out of the middle, in a pose near the plate or far
+    above."""
     _, gap, vector, W, start = scene
     q = table_3_1()
     q["P"] = q["P"] + np.array([0.0071, -0.0113, 0.0])
@@ -57,7 +59,7 @@ def inputs(scene: tuple[Any, ...], seed: int) -> dict[str, Any]:
 
 
 def by_rational_numbers(base: BaseMotion, t: float, problem: Problem, Lambda: Any) -> tuple[Any, Any]:
-    """The load of B1, from a record that is read by rational numbers: the second route."""
+    """Return the load of B1, from a record that is read by rational numbers: the second route."""
     place = (Fraction(t) - Fraction(base.t_0)) / Fraction(base.dt)
     k = place.numerator // place.denominator
     a = [Fraction(0)] * 3
@@ -72,7 +74,7 @@ def by_rational_numbers(base: BaseMotion, t: float, problem: Problem, Lambda: An
 
 
 def moved(q: dict[str, Any], rng: random.Random) -> dict[str, Any]:
-    """The inputs with every number moved by an ulp at most, those of the record too."""
+    """Return the inputs with every number moved by an ulp at most, those of the record too."""
     a = q["base"]["a"]
     shift = np.array([rng.choice((-1, 0, 1)) for _ in range(a.size)]).reshape(a.shape)
     rest = runs.allowed(runs.moved({k: v for k, v in q.items() if k != "base"}, rng))
@@ -80,7 +82,7 @@ def moved(q: dict[str, Any], rng: random.Random) -> dict[str, Any]:
 
 
 def made(number: int, scene: tuple[Any, ...]) -> dict[str, Any]:
-    """A vector; raises ValueError where the routes differ, or nothing shows."""
+    """Return a vector; raises ValueError where the routes differ, or nothing shows."""
     q = inputs(scene, 100 + number)
     problem, rng = problem_of(q), random.Random(200 + number)
     right = run(problem, engine="numpy", dtype=np.longdouble)
@@ -110,7 +112,7 @@ def made(number: int, scene: tuple[Any, ...]) -> dict[str, Any]:
 
 
 def document() -> dict[str, Any]:
-    """The file LB.json. Raises ValueError where a mistake of the list shows in no vector."""
+    """Return the file LB.json. Raises ValueError where a mistake of the list shows in no vector."""
     vectors = [made(i, scene) for i, scene in enumerate(SCENES, 1)]
     unseen = {m.id for m in OF_BASE} - {id_ for v in vectors for id_ in v["resolving"]}
     if unseen:

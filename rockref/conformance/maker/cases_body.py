@@ -16,7 +16,7 @@ J_TOP = diagonal(0.5, 1.25, 2.0)
 
 
 def assembly() -> Iterator[Case]:
-    """A1 to A3: no force, one force, eight; upright and leaning; forces that nearly cancel."""
+    """Yield A1 to A3: no force, one force, eight; upright and leaning; forces that nearly cancel."""
     d = Draw(30)
     P = table_3_1()["P"]
     force, moment = {"force": ("A1", "A1")}, {"force": ("A1", "A1"), "moment": ("A2", "A2"), "T": ("A2", "A3")}
@@ -57,7 +57,7 @@ SIZES = (
 
 
 def exponentials() -> Iterator[Case]:
-    """I3, the exponential: zero, tiny, about the switch between series, moderate, near a half turn."""
+    """Yield I3, the exponential: zero, tiny, about the switch between series, moderate, near a half turn."""
     d = Draw(31)
     fields = {"Lambda": ("I3", "I3")}
 
@@ -71,7 +71,7 @@ def exponentials() -> Iterator[Case]:
 
 
 def steps() -> Iterator[Case]:
-    """I1 to I5 with prescribed loads: each rule by itself, then the torque-free top and steady spins."""
+    """Yield I1 to I5 with prescribed loads: each rule by itself, then the torque-free top and steady spins."""
     d = Draw(32)
     zero, one = np.zeros(3), np.eye(3)
 
@@ -160,6 +160,6 @@ def steps() -> Iterator[Case]:
 
 
 def no_rotation() -> Iterator[Case]:
-    """I3 of the vector that is exactly zero: nothing is moved, and nothing is divided by nothing."""
+    """Yield I3 of the vector that is exactly zero: nothing is moved, and nothing is divided by nothing."""
     fields = {"Lambda": ("I3", "I3")}
     yield Case("I3", "L3", "rotate", {"Theta": np.zeros(3)}, fields, ("zero",), on_surface=True)

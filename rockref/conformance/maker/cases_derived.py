@@ -22,13 +22,13 @@ FIELDS = {
 
 
 def parameters(width: float, depth: float, height: float, **changes: float) -> dict:
-    """Inputs of `derived`."""
+    """Return inputs of `derived`."""
     q = {"mass": MASS, "width": width, "depth": depth, "height": height, **TABLE}
     return q | {"delta_long": np.array(DELTA_LONG), "delta_diag": DELTA_DIAG} | changes
 
 
 def derived() -> Iterator[Case]:
-    """G1, G2, P1 to P3: each rule has its vectors, on Table 3.1 and on blocks whose three sides differ."""
+    """Yield G1, G2, P1 to P3: each rule has its vectors, on Table 3.1 and on blocks whose three sides differ."""
     d = Draw(10)
     questions = [parameters(0.1, 0.1, 0.688), parameters(0.125, 0.0625, 0.75), parameters(0.25, 0.5, 0.625, mass=80.0)]
     for _ in range(2):
@@ -43,18 +43,18 @@ def derived() -> Iterator[Case]:
 
 
 def released(q: dict, theta: float, flag: str) -> Case:
-    """R1 of a block on its points by Table 3.1, changed, at that tilt [rad]."""
+    """Apply R1 of a block on its points by Table 3.1, changed, at that tilt [rad]."""
     inputs = {k: q[k] for k in ("mass", "P", "K_N")} | {"g": q.get("g", G), "theta_0": theta}
     return Case("R1", "L0", "release", inputs, {"x": ("R1", "R1"), "Lambda": ("R1", "R1")}, (flag,))
 
 
 def stiffened(q: dict) -> dict:
-    """The same with stiffnesses of which hardly two are alike."""
+    """Return the same with stiffnesses of which hardly two are alike."""
     return q | {"K_N": q["K_N"] * np.array([1, 1.5, 1, 1.25, 0.75, 1, 1, 2])}
 
 
 def release() -> Iterator[Case]:
-    """R1: both pivots bear half the weight, on even and uneven feet and stiffnesses."""
+    """Yield R1: both pivots bear half the weight, on even and uneven feet and stiffnesses."""
     base = table_3_1()
     yield released(base, THETA_0, "table 3.1")
     yield released(table_3_1(delta_long=(0.0, 2e-4, 1e-4, 0.0)), 0.09375, "uneven feet")
@@ -62,18 +62,19 @@ def release() -> Iterator[Case]:
 
 
 def inner_pivots() -> Iterator[Case]:
-    """R1 where external feet are so high that the block leans on internal ones: on one, on two."""
+    """Yield R1 where external feet are so high that the block leans on internal ones: on one, on two."""
     yield released(table_3_1(delta_long=(0.0, 8e-4, 1e-4, 0.0)), 0.09375, "an internal pivot")
     yield released(stiffened(table_3_1(delta_long=(9e-4, 8e-4, 0.0, 0.0))), 0.09375, "two internal pivots")
 
 
 def elsewhere() -> Iterator[Case]:
-    """R1 of another mass, under another gravity: what is not looked at when the source's numbers stand in the code."""
+    """Yield R1 of another mass, under another gravity: what is not looked at when the source's numbers stand in the
+    code."""
     yield released(table_3_1() | {"mass": 37.5, "g": 3.75}, THETA_0, "another mass and gravity")
 
 
 def channel() -> Iterator[Case]:
-    """M1: histories of five samples, the block upright and well tilted."""
+    """Yield M1: histories of five samples, the block upright and well tilted."""
     d = Draw(17)
     for angle, size in ((0.0, 1.0), (0.2, 1.0), (0.2, 1e-3), (1.0, 20.0), (3.0, 0.5)):
         inputs = {"W": d.vectors(size, 5), "Lambda": np.stack([d.rotation(angle) for _ in range(5)])}

@@ -78,7 +78,7 @@ T = np.arange(200) / 2000.0
 
 
 def record() -> np.ndarray:
-    """Rates (N, 3) [deg/s] with a jump, as an impact makes it."""
+    """Return rates (N, 3) [deg/s] with a jump, as an impact makes it."""
     d = random.Random(90)
     waves = [
         sum(d.uniform(-10, 10) * np.sin(d.uniform(20, 300) * T + d.uniform(0, 6)) for _ in range(3)) for _ in "XYZ"
@@ -87,29 +87,30 @@ def record() -> np.ndarray:
 
 
 def inputs_at(scene: str, instant: float) -> dict[str, Any]:
-    """The inputs of a short run at an instant of a scene."""
+    """Return the inputs of a short run at an instant of a scene."""
     window = next(w for w in WINDOWS if (w.scene, w.instant) == (scene, instant))
     return window_inputs(window) | {"duration": DURATION, "output_rate": WINDOW_RATE}
 
 
 def four_falling() -> dict[str, Any]:
-    """The inputs of a short run of the block on four corners, 16 um above the plate and falling on it."""
+    """Return the inputs of a short run of the block on four corners, 16 um above the plate and falling on it."""
     return falling(corners_only(table_3_1()))
 
 
 def falling(q: dict[str, Any]) -> dict[str, Any]:
-    """The inputs of a short run of a block that comes down flat, sliding and turning."""
+    """Return the inputs of a short run of a block that comes down flat, sliding and turning."""
     q = standing(q, 2.0**-16, v=FALLING, W=TURNING)
     return q | {"step": 1e-5, "duration": DURATION, "output_rate": WINDOW_RATE}
 
 
 def less(effect: Any) -> dict[str, Any]:
-    """The effect with each of its parameters smaller by `SHARE`, by name; without those that are zero or not given."""
+    """Return the effect with each of its parameters smaller by `SHARE`, by name; without those that are zero or not
+    given."""
     return {k: replace(effect, **{k: v * (1 - SHARE)}) for k, v in effect.values().items() if v}
 
 
 def of_run(effect: Any, q: dict[str, Any]) -> tuple[dict[str, Any], float, dict[str, Any]]:
-    """Expected rows with bars, by how many bars the run without the effect is off, and the branch."""
+    """Return expected rows with bars, by how many bars the run without the effect is off, and the branch."""
 
     def rows(q_: dict[str, Any], dtype: Any = None, by: Any = effect) -> Any:
         problem = problem_of(q_)
@@ -134,12 +135,12 @@ def of_run(effect: Any, q: dict[str, Any]) -> tuple[dict[str, Any], float, dict[
 
 
 def at_work(off: dict[str, float]) -> list[str]:
-    """The parameters that move a vector, by how many bars each does."""
+    """Return the parameters that move a vector, by how many bars each does."""
     return [k for k, moved in off.items() if moved >= LEAST]
 
 
 def of_sensor(effect: Any, crv: np.ndarray) -> tuple[dict[str, Any], float, dict[str, Any]]:
-    """Expected record with bars, by how many bars the rates themselves are off, and the branch."""
+    """Return expected record with bars, by how many bars the rates themselves are off, and the branch."""
 
     def shown(by: Any) -> np.ndarray:
         return np.degrees(measured((by,), T, np.radians(crv)))
@@ -161,7 +162,7 @@ Made = tuple[str, dict[str, Any], dict[str, Any], float, dict[str, Any], str]
 
 
 def made(effect: Any) -> Made:
-    """Question and answer for an effect, at the first place that resolves it well."""
+    """Return question and answer for an effect, at the first place that resolves it well."""
     if effect.question == "sensor":
         crv = record()
         return "sensor", {"t": T, "crv_deg_s": crv}, *of_sensor(effect, crv), "record"
@@ -178,7 +179,7 @@ def made(effect: Any) -> Made:
 
 
 def made_further(kind: Any, changes: dict[str, float]) -> tuple[Any, Made]:
-    """A further vector of an effect: with what is typically none, or with all feet coming down."""
+    """Return a further vector of an effect: with what is typically none, or with all feet coming down."""
     effect = replace(kind.typical(), **changes)
     if kind.id not in OF_ALL_FEET:
         return effect, made(effect)
@@ -187,7 +188,7 @@ def made_further(kind: Any, changes: dict[str, float]) -> tuple[Any, Made]:
 
 
 def entry(number: int, effect: Any, answer: Made, sets: dict[str, Any]) -> dict[str, Any] | None:
-    """The vector of an effect; None where nothing that is asked resolves it."""
+    """Return the vector of an effect; None where nothing that is asked resolves it."""
     piece, inputs, expect, off, branch, where = answer
     if off < LEAST:
         return None
@@ -200,7 +201,7 @@ def entry(number: int, effect: Any, answer: Made, sets: dict[str, Any]) -> dict[
 
 
 def effects() -> Iterator[tuple[Any, Callable[[], tuple[Any, Made]]]]:
-    """Every kind of effect, and how its vector is made: the typical ones, then the further vectors."""
+    """Yield every kind of effect, and how its vector is made: the typical ones, then the further vectors."""
     for kind in IN_STEP_ORDER:
         yield kind, partial(lambda kind: (kind.typical(), made(kind.typical())), kind)
     further = [(kind, FURTHER[kind.id]) for kind in IN_STEP_ORDER if kind.id in FURTHER]
@@ -210,13 +211,13 @@ def effects() -> Iterator[tuple[Any, Callable[[], tuple[Any, Made]]]]:
 
 
 def idle(entries: list[dict[str, Any]]) -> list[str]:
-    """Parameters that are at work in no vector."""
+    """Return parameters that are at work in no vector."""
     asked = {f"{e['effect']} {name}" for e in entries for name in e["parameters"]}
     return sorted(asked - {f"{e['effect']} {name}" for e in entries for name in e["branch"]["at work"]})
 
 
 def document(say: Callable[[str], None]) -> bytes:
-    """The file LE.json."""
+    """Return the file LE.json."""
     scenes()
     entries: list[dict[str, Any]] = []
     sets: dict[str, Any] = {}

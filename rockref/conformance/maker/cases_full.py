@@ -18,7 +18,7 @@ ALL = ("all bits",)
 
 
 def contact() -> Iterator[Case]:
-    """N1, T5, T1, T6, T3 of one foot."""
+    """Yield N1, T5, T1, T6, T3 of one foot."""
     d = Draw(60, 53)
     for _ in range(3):
         q = {"u_t": d.vector(1e-5, 2), "s": d.vector(1e-5, 2), "v_slide": d.vector(0.05, 2)}
@@ -46,7 +46,7 @@ def contact() -> Iterator[Case]:
 
 
 def where() -> Iterator[Case]:
-    """K1 of a block that leans and turns."""
+    """Yield K1 of a block that leans and turns."""
     d = Draw(61, 53)
     fields = {k: ("K1", "K1") for k in ("r", "u", "xi", "xi_rate", "v_slide")}
     for _ in range(2):
@@ -55,7 +55,7 @@ def where() -> Iterator[Case]:
 
 
 def points() -> Iterator[Case]:
-    """All of L1."""
+    """Yield all of L1."""
     yield from contact()
     yield from where()
     d = Draw(68, 53)
@@ -65,7 +65,8 @@ def points() -> Iterator[Case]:
 
 
 def hardly_loaded() -> Iterator[Case]:
-    """N1 of feet that carry from a newton down to a tenth of a micronewton: a tolerance of a code's own shows there."""
+    """Yield N1 of feet that carry from a newton down to a tenth of a micronewton: a tolerance of a code's own shows
+    there."""
     d = Draw(69, 53)
     for xi in (8e-9, 1e-10, 1e-12, 2e-15):
         at = xi * d.between(0.8, 1.2)
@@ -75,7 +76,7 @@ def hardly_loaded() -> Iterator[Case]:
 
 
 def assembly() -> Iterator[Case]:
-    """A1 to A3: eight forces; one foot down, the block leaning."""
+    """Yield A1 to A3: eight forces; one foot down, the block leaning."""
     d = Draw(62, 53)
     P = table_3_1()["P"]
     force, moment, T = {"force": ("A1", "A1")}, {"moment": ("A2", "A2")}, {"T": ("A3", "A3")}
@@ -97,7 +98,7 @@ def assembly() -> Iterator[Case]:
 
 
 def steps() -> Iterator[Case]:
-    """I1 to I5, S1 under prescribed loads, and the exponential."""
+    """Yield I1 to I5, S1 under prescribed loads, and the exponential."""
     d = Draw(63, 53)
     yield Case("I3", "L3", "rotate", {"Theta": d.vector(0.5)}, {"Lambda": ("I3", "I3")}, ("moderate", *ALL))
     rules = {"x": "I1", "Theta": "I2", "Lambda": "I3", "v_predicted": "S1", "W_predicted": "S1", "v": "I4", "W": "I5"}

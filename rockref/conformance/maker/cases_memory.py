@@ -21,12 +21,12 @@ PAIR = {"mu": 0.25, "mu_0": 0.5}
 
 
 def on_one_foot(Lambda: np.ndarray, depth: float) -> np.ndarray:
-    """Where the block stands (3,) [m] whose lowest foot is so deep [m] in the plate."""
+    """Return where the block stands (3,) [m] whose lowest foot is so deep [m] in the plate."""
     return np.array([*ASIDE, -float(np.min(turned(Lambda, P)[:, 2])) - depth])
 
 
 def of_all_bits() -> Iterator[tuple[float, Case]]:
-    """I1, I3, N1, T1, K1, A1, A2 where the numbers have all their bits."""
+    """Yield I1, I3, N1, T1, K1, A1, A2 where the numbers have all their bits."""
     d = Draw(64, 53)
     q: Any = {"v": d.vector(1), "W": d.vector(3), "Lambda": d.rotation(0.5)}
     yield 8.2, fly({"x@1": "I1"}, "falling, all bits", **q)
@@ -43,7 +43,7 @@ def of_all_bits() -> Iterator[tuple[float, Case]]:
 
 
 def on_a_single_foot() -> Iterator[tuple[float, Case]]:
-    """K1, A2, A3 where one foot alone is down, of a block that leans and turns."""
+    """Yield K1, A2, A3 where one foot alone is down, of a block that leans and turns."""
     for place, Theta in ((29.4, (0.02, 0.03, 0.4)), (29.6, (-0.03, 0.015, -0.7))):
         lean = rotation(Theta)
         x, W = on_one_foot(lean, 2.0**-13), [0.25, -0.5, 1.0]
@@ -55,7 +55,7 @@ def on_a_single_foot() -> Iterator[tuple[float, Case]]:
 
 
 def in_the_plate() -> Iterator[tuple[float, Case]]:
-    """N1 of deep feet; T3 where there is no friction; A2 of feet that slide with stretched springs."""
+    """Yield N1 of deep feet; T3 where there is no friction; A2 of feet that slide with stretched springs."""
     yield 22.5, ask({"F_N@0": "N1"}, "a millimetre deep", 1, standing(2.0**-10), made=ICE)
     far = held(np.array([[2.0**-15, 2.0**-16]] * 8))
     yield 29.7, ask({"F_T@0": "T3"}, "no friction, anchors far away", 1, standing(), made=ICE, stand=False, **far)
@@ -68,7 +68,7 @@ def in_the_plate() -> Iterator[tuple[float, Case]]:
 
 
 def feet_that_slid() -> Iterator[tuple[float, Case]]:
-    """T6, T5 of feet that touch for the first time, and of feet that slid, opened, and touch again."""
+    """Yield T6, T5 of feet that touch for the first time, and of feet that slid, opened, and touch again."""
     # The damper alone pulls a new foot, by one and a half times mu F_N.
     F_N = 2.0**-17 * 6e7
     v = -1.5 * 0.25 * F_N / float(table_3_1(delta_long=EVEN)["C_T"][4]) * np.array([0.8, 0.6, 0.0])
@@ -78,7 +78,7 @@ def feet_that_slid() -> Iterator[tuple[float, Case]]:
 
 
 def start_with_its_own() -> Iterator[tuple[float, Case]]:
-    """S2: the start brings a, T and F that are not those of its pose."""
+    """Yield S2: the start brings a, T and F that are not those of its pose."""
     own: Any = {"a": np.array([3.0, -2.0, 1.5]), "T": np.array([4.0, -3.0, 2.0]), "F": np.full((8, 3), 8.0)}
     yield 4.3, fly({"F@0": "S2"}, "the forces that the start brings", stand=False, **own)
     yield (
@@ -90,7 +90,7 @@ def start_with_its_own() -> Iterator[tuple[float, Case]]:
 
 
 def told_apart() -> Iterator[tuple[float, Case]]:
-    """I1, N1, T5, A2, T6: what comes before others that show the same mistake under another name."""
+    """Yield I1, N1, T5, A2, T6: what comes before others that show the same mistake under another name."""
     drift: Any = {"v": Draw(66, 53).vector(1), "g": WEIGHTLESS}
     yield 4.6, fly({"x@1": "I1"}, "drifting, all bits", **drift)
     yield 22.55, ask({"F_N@0": "N1"}, "a millimetre deep, in fast rebound", 1, standing(2.0**-10), made=ICE, v=0.5 * Z)
@@ -104,7 +104,7 @@ def told_apart() -> Iterator[tuple[float, Case]]:
 
 
 def memory() -> Iterator[Case]:
-    """All of them."""
+    """Yield all of them."""
     groups = (of_all_bits, on_a_single_foot, in_the_plate, feet_that_slid, start_with_its_own, told_apart)
     for group in groups:
         for place, case in group():

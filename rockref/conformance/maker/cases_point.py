@@ -30,7 +30,7 @@ SLIDE = {"F_T": ("T3", "T3"), "sliding": ("T2", "T2"), "s": ("T4", "T4")}
 def ask(
     rule: str, fields: dict[str, tuple[str, str]], flags: tuple[str, ...], on_surface=False, **changes: Any
 ) -> Case:
-    """A question about one point that has compressed the plate by 10 micrometres, with changes."""
+    """Return a question about one point that has compressed the plate by 10 micrometres, with changes."""
     q: dict[str, Any] = {"xi": 2.0**-17, "xi_rate": 0.0, "u_t": ZERO, "v_slide": ZERO, "s": ZERO}
     q |= {"anchored": True, "sliding": False, **FOOT, **changes}
     case = Case(rule, "L1", "contact_law", q, fields, flags, on_surface)
@@ -45,7 +45,7 @@ def ask(
 
 
 def normal() -> Iterator[Case]:
-    """N1: loading, rest, partial rebound, rebound with would-be tension; N2: above the plate."""
+    """Yield N1: loading, rest, partial rebound, rebound with would-be tension; N2: above the plate."""
     d = Draw(20)
     fields = {"F_N": N1, "touching": T5}
     for _ in range(8):
@@ -77,7 +77,7 @@ def normal() -> Iterator[Case]:
 
 
 def anchors() -> Iterator[Case]:
-    """T5: an anchor that is kept, one that is set anew, one that dies."""
+    """Yield T5: an anchor that is kept, one that is set anew, one that dies."""
     d = Draw(21)
     kept = {"s": ("T5", "T4"), "trace.s_trial": T5, "touching": T5, "sliding": ("T2", "T2")}
     for i in range(6):
@@ -96,7 +96,7 @@ def anchors() -> Iterator[Case]:
 
 
 def trial() -> Iterator[Case]:
-    """T1: spring alone, damper alone, both, in many directions; glued."""
+    """Yield T1: spring alone, damper alone, both, in many directions; glued."""
     d = Draw(22)
     e_x, e_y = np.array([1.0, 0.0]), np.array([0.0, 1.0])
     for axis in (e_x, -e_x, e_y, -e_y):
@@ -111,7 +111,7 @@ def trial() -> Iterator[Case]:
 
 
 def towards(direction: float, ratio: float, F_N: float, mu: float) -> np.ndarray:
-    """The stretch s - u at which the trial force has `ratio` times the size of the cone, in that direction [rad]."""
+    """Return stretch s - u at which the trial force has `ratio` times the size of the cone, in that direction [rad]."""
     size = ratio * mu * F_N / FOOT["K_T"]
     return size * np.array([math.cos(direction), math.sin(direction)])
 
@@ -124,7 +124,7 @@ RATIOS = (
 
 
 def cone() -> Iterator[Case]:
-    """T2: inside, just inside, just outside, outside; on the cone; at its tip; too small to be squared."""
+    """Yield T2: inside, just inside, just outside, outside; on the cone; at its tip; too small to be squared."""
     d = Draw(23)
     decided = {"sliding": ("T2", "T2"), "trace.threshold": ("T6", "T6")}
     for ratio, where in RATIOS:
@@ -170,7 +170,7 @@ def cone() -> Iterator[Case]:
 
 
 def two_coefficients() -> Iterator[Case]:
-    """T6: mu_0 above mu, between the two cones and on either side, for points that stuck and points that slid."""
+    """Yield T6: mu_0 above mu, between the two cones and on either side, for points that stuck and points that slid."""
     d = Draw(24)
     made = {"mu_0": 0.5, "mu": 0.25}
     for ratio, sliding in ((1.5, False), (1.5, True), (1.05, False), (1.05, True), (1.95, False), (1.95, True)):
@@ -196,7 +196,8 @@ def two_coefficients() -> Iterator[Case]:
 
 
 def sliding() -> Iterator[Case]:
-    """T3 and T4: the force that remains, and the anchor that follows; with and without damper; in many directions."""
+    """Yield T3 and T4: the force that remains, and the anchor that follows; with and without damper; in many
+    directions."""
     d = Draw(25)
     for i in range(14):
         xi = d.decade(1e-6, 1e-4)
@@ -215,7 +216,7 @@ def sliding() -> Iterator[Case]:
 
 
 def where() -> Iterator[Case]:
-    """K1: at rest, moving, turning about each axis, leaning, all at once; two points each."""
+    """Yield K1: at rest, moving, turning about each axis, leaning, all at once; two points each."""
     d = Draw(26)
     fields = {k: ("K1", "K1") for k in ("r", "u", "xi", "xi_rate", "v_slide")}
     P = np.array([[0.046875, 0.03125, -0.34375], [-0.046875, 0.0625, -0.34375]])
@@ -238,6 +239,6 @@ def where() -> Iterator[Case]:
 
 
 def all_points() -> Iterator[Case]:
-    """Every question of L1."""
+    """Yield every question of L1."""
     for group in (where, normal, anchors, trial, cone, two_coefficients, sliding):
         yield from group()

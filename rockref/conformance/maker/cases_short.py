@@ -46,7 +46,7 @@ def ask(
     stand: bool = True,
     **changes: Any,
 ) -> Case:
-    """A run of so many steps from a state; `made` replaces properties, `changes` the memory and the step.
+    """Return a run of so many steps from a state; `made` replaces properties, `changes` the memory and the step.
 
     stand : whether the next row stands in for forces that are not shown; `every` among the changes: steps a row
     """
@@ -62,7 +62,7 @@ def ask(
 
 
 def stand_ins(fields: dict[str, str], steps: int) -> dict[str, str]:
-    """What is looked at where forces are not given: the row after them shows what they did."""
+    """Return what is looked at where forces are not given: the row after them shows what they did."""
     found: dict[str, str] = {}
     for name in fields:
         base, _, row = name.partition("@")
@@ -72,18 +72,19 @@ def stand_ins(fields: dict[str, str], steps: int) -> dict[str, str]:
 
 
 def standing(depth: float = IN) -> np.ndarray:
-    """Upright beside the origin, the internal feet `depth` in the plate, the external ones clear of it."""
+    """Place the block upright beside the origin, the internal feet `depth` in the plate, the external ones clear of
+    it."""
     return np.array([*ASIDE, UP - depth])
 
 
 def held(u: np.ndarray) -> Any:
-    """Anchors so far from the feet of the upright block, per foot."""
+    """Return anchors so far from the feet of the upright block, per foot."""
     P = table_3_1(delta_long=EVEN)["P"]
     return {"s": P[:, :2] + ASIDE + u, "anchored": np.array([False] * 4 + [True] * 4)}
 
 
 def flight() -> Iterator[Case]:
-    """S2, I1 to I5 without feet, far above the plate, with long steps; the weight."""
+    """Yield S2, I1 to I5 without feet, far above the plate, with long steps; the weight."""
     d = Draw(51)
     high = np.array([0.5, -0.25, 8.0])
     long: Any = {"step": 2.0**-10, "inertia": diagonal(0.5, 1.25, 2.0)}
@@ -111,7 +112,7 @@ def flight() -> Iterator[Case]:
 
 
 def normal() -> Iterator[Case]:
-    """N2, N1, K1: what the first row shows of feet on ice."""
+    """Yield N2, N1, K1: what the first row shows of feet on ice."""
 
     def see(rule: str, flag: str, x: np.ndarray, Lambda: Any = None, stand: bool = True, **changes: Any) -> Case:
         return ask({"F_N@0": rule}, flag, 1, x, Lambda, made=ICE, stand=stand, **changes)
@@ -135,7 +136,7 @@ def normal() -> Iterator[Case]:
 
 
 def friction() -> Iterator[Case]:
-    """T5, T1 to T3, T6: what the first row shows of friction."""
+    """Yield T5, T1 to T3, T6: what the first row shows of friction."""
     d = Draw(50)
     here = held(np.zeros((8, 2)))
     lifted: Any = {"made": ICE, "v": 0.5 * Z}
@@ -167,7 +168,7 @@ def friction() -> Iterator[Case]:
 
 
 def pushed() -> Iterator[Case]:
-    """A1 to A3, S1, I4, I5, and K1 once more: forces and moments of the feet on ice, seen in the next row."""
+    """Yield A1 to A3, S1, I4, I5, and K1 once more: forces and moments of the feet on ice, seen in the next row."""
     d = Draw(52)
     lean, roll = rotation((0.0008, 0.0, 0.0)), rotation((0.0006, 0.0004, 1.0))
     deep = standing(2.0**-12)
@@ -191,7 +192,7 @@ def pushed() -> Iterator[Case]:
 
 
 def dragged() -> Iterator[Case]:
-    """A1 to A3 once more: what friction does to the block."""
+    """Yield A1 to A3 once more: what friction does to the block."""
     deep, sideways = standing(2.0**-12), held(np.full((8, 2), 2.0**-16))
     roll = rotation((0.0006, 0.0004, 1.0))
     yield ask({"x@1": "A1"}, "dragged sideways", 1, deep, made=GLUE, **sideways)
@@ -200,7 +201,7 @@ def dragged() -> Iterator[Case]:
 
 
 def anchors() -> Iterator[Case]:
-    """T1, T5, T3, T4: what later rows show of anchors that stay, are given up, and move."""
+    """Yield T1, T5, T3, T4: what later rows show of anchors that stay, are given up, and move."""
     d = Draw(53)
     here = held(np.zeros((8, 2)))
     yield ask({"F_T@1": "T1"}, "a step later", 2, standing(), made=GLUE, v=[0.125, -0.0625, 0], **here)
@@ -221,6 +222,6 @@ def anchors() -> Iterator[Case]:
 
 
 def all_short() -> Iterator[Case]:
-    """Every question of L5s."""
+    """Yield every question of L5s."""
     for group in (flight, normal, pushed, friction, dragged, anchors):
         yield from group()

@@ -43,13 +43,13 @@ STATE = ("x", "v", "Lambda", "W", "s", "anchored", "sliding")
 
 
 def states(scene: Scene) -> Any:
-    """The scene with a row for every step."""
+    """Return the scene with a row for every step."""
     problem = problem_of(scene.inputs)
     return run(replace(problem, output_rate=1 / scene.step), engine="auto")
 
 
 def at_row(scene: Scene, response: Any, row: int) -> dict[str, Any]:
-    """Inputs of a step from that row, with a and T as its point forces make them."""
+    """Return inputs of a step from that row, with a and T as its point forces make them."""
     q = scene.q | {k: np.array(getattr(response, k)[row]) for k in STATE}
     q["Lambda"] = orthonormal(q["Lambda"])
     F = np.array(response.F[row])
@@ -65,7 +65,8 @@ def at_row(scene: Scene, response: Any, row: int) -> dict[str, Any]:
 
 
 def margin(q: dict[str, Any]) -> float:
-    """Relative distance of the step from its nearest switching surface: contact, tension cut, cone, over all points."""
+    """Return relative distance of the step from its nearest switching surface: contact, tension cut, cone, over all
+    points."""
     numbers = {k: converted(v, float) for k, v in q.items()}
     body, state = body_of(numbers), start_of(numbers)
     m = Doubles
@@ -85,7 +86,7 @@ def margin(q: dict[str, Any]) -> float:
 
 
 def patterns(response: Any) -> dict[bytes, np.ndarray]:
-    """Every pattern of contact and sliding, and the rows from which a step leads to it."""
+    """Return every pattern of contact and sliding, and the rows from which a step leads to it."""
     code = response.anchored.astype(np.uint8) + (response.anchored & response.sliding)
     found: dict[bytes, list[int]] = {}
     for row, pattern in enumerate(code[1:]):
@@ -94,20 +95,21 @@ def patterns(response: Any) -> dict[bytes, np.ndarray]:
 
 
 def steps() -> Iterator[Case]:
-    """One question per pattern, from the scene where it comes first."""
+    """Yield one question per pattern, from the scene where it comes first."""
     seen: set[bytes] = set()
     for name in LOOKED_AT:
         yield from of_scene(scenes()[name], seen)
 
 
 def elsewhere() -> Iterator[Case]:
-    """Questions of another block under another gravity: a code that has the source's numbers in its step is seen."""
+    """Yield questions of another block under another gravity: a code that has the source's numbers in its step is
+    seen."""
     block = table_3_1() | {"mass": 60.0, "g": 3.75}
     yield from of_scene(Scene("elsewhere", "60 kg, 3.75 m/s2", released(block), 0.05, whole=False), set())
 
 
 def of_scene(scene: Scene, seen: set[bytes]) -> Iterator[Case]:
-    """One question per pattern of a scene that is not among the `seen` ones, to which they are added."""
+    """Yield one question per pattern of a scene that is not among the `seen` ones, to which they are added."""
     name, response = scene.id, states(scene)
     for pattern, rows in patterns(response).items():
         if pattern not in seen:

@@ -18,7 +18,7 @@ DELTA_LONG, DELTA_DIAG, THETA_0 = (0.010e-3, 0.040e-3, 0.092e-3, 0.058e-3), 6.0e
 
 
 def short(value: float, bits: int = 16) -> float:
-    """The nearest number with so few bits of mantissa: exact in float32 too, and short to write."""
+    """Return the nearest number with so few bits of mantissa: exact in float32 too, and short to write."""
     if value == 0 or not math.isfinite(value):
         return value
     mantissa, exponent = math.frexp(value)
@@ -32,34 +32,34 @@ class Draw:
         self.random, self.bits = random.Random(seed), bits
 
     def between(self, low: float, high: float) -> float:
-        """Uniform between two numbers."""
+        """Draw uniformly between two numbers."""
         return short(low + (high - low) * self.random.random(), self.bits)
 
     def decade(self, low: float, high: float) -> float:
-        """Uniform in the logarithm."""
+        """Draw uniformly in the logarithm."""
         return short(math.exp(math.log(low) + (math.log(high) - math.log(low)) * self.random.random()), self.bits)
 
     def vector(self, size: float, n: int = 3) -> np.ndarray:
-        """Components between -size and size."""
+        """Draw components between -size and size."""
         return np.array([self.between(-size, size) for _ in range(n)])
 
     def vectors(self, size: float, rows: int, n: int = 3) -> np.ndarray:
-        """So many of them."""
+        """Draw so many vectors."""
         return np.stack([self.vector(size, n) for _ in range(rows)])
 
     def rotation(self, angle: float) -> np.ndarray:
-        """A rotation matrix about a random axis by up to `angle` [rad]."""
+        """Return a rotation matrix about a random axis by up to `angle` [rad]."""
         return rotation(self.vector(angle))
 
 
 def rotation(Theta: Any) -> np.ndarray:
-    """exp(Theta^) rounded once to float64: an input that does not depend on anybody's sine."""
+    """Return exp(Theta^) rounded once to float64: an input that does not depend on anybody's sine."""
     m = Digits()
     return np.array(exact.exponential([m.number(float(t)) for t in Theta], m), float)
 
 
 def orthonormal(Lambda: np.ndarray) -> np.ndarray:
-    """The rotation nearest to a matrix that has drifted from one by rounding, rounded once: who keeps the pose as a
+    """Return rotation nearest to a matrix that has drifted from one by rounding, rounded once: who keeps the pose as a
     quaternion gets the same. Newton's iteration in fifty digits; the drift, 1e-14 at most, is squared each time."""
     m = Digits()
     L = [[m.number(float(c)) for c in row] for row in Lambda]
@@ -70,22 +70,23 @@ def orthonormal(Lambda: np.ndarray) -> np.ndarray:
 
 
 def turned(Lambda: np.ndarray, P: np.ndarray) -> np.ndarray:
-    """Lambda p for every row of P, summed left to right: NumPy's own product has other bits on other machines."""
+    """Return Lambda p for every row of P, summed left to right: NumPy's own product has other bits on other
+    machines."""
     return np.array([exact.apply(Lambda.tolist(), p) for p in P.tolist()])
 
 
 def normalised(a: np.ndarray) -> np.ndarray:
-    """A vector of length one."""
+    """Return a vector of length one."""
     return a / math.sqrt(exact.dot(a.tolist(), a.tolist()))
 
 
 def diagonal(*values: float) -> np.ndarray:
-    """A diagonal matrix."""
+    """Return a diagonal matrix."""
     return np.diag(np.array(values))
 
 
 def table_3_1(mu: float | None = None, mu_0: float | None = None, delta_long: Any = DELTA_LONG) -> dict[str, Any]:
-    """The block on its eight points by Table 3.1, as flat inputs in float64; with another friction where given."""
+    """Return block on its eight points by Table 3.1, as flat inputs in float64; with another friction where given."""
     J = exact.cuboid_inertia(MASS, WIDTH, DEPTH, HEIGHT)
     P = exact.contact_points(WIDTH, DEPTH, HEIGHT, list(delta_long), DELTA_DIAG, Doubles)
     made = exact.properties(MASS, **TABLE, m=Doubles)

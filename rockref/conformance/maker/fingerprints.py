@@ -9,6 +9,6 @@ from rockref.conformance.zoo.mistakes import MISTAKES
 
 
 def file() -> bytes:
-    """Gzipped CSV: a row per mistake, id and numbers."""
+    """Return gzipped CSV: a row per mistake, id and numbers."""
     lines = [",".join([m.id, *map(str, code(fingerprint(m.backend())).tolist())]) for m in MISTAKES]
     return gzip.compress(("\n".join(lines) + "\n").encode(), 9, mtime=0)

@@ -26,12 +26,12 @@ class WithoutForces:
         self.backend = backend
 
     def simulate(self, problem: Problem) -> dict[str, Any]:
-        """A run."""
+        """Return a run."""
         return as_mapping(self.backend.simulate(problem), "simulate") | {"F": None}
 
 
 def moves(vector: Vector, rules: set[str]) -> dict[str, float]:
-    """By how many bars each mistake of some rules moves the vector; only those that do move it."""
+    """Return by how many bars each mistake of some rules moves the vector; only those that do move it."""
     found, of_schemes = {}, vector.layer == "LS"
     for mistake in [m for m in MISTAKES if m.rule in rules]:
         backend = WithoutForces(mistake.of_another_scheme()) if of_schemes else mistake.backend()
@@ -43,7 +43,7 @@ def moves(vector: Vector, rules: set[str]) -> dict[str, float]:
 
 
 def hunted(vector: Vector) -> Vector | None:
-    """The vector with the mistakes that it hunts; None where it may not be admitted.
+    """Return the vector with the mistakes that it hunts; None where it may not be admitted.
 
     It hunts the mistakes of the rules that it shows, if they move it by a hundred bars and by more than a negligible
     difference; there must be one. A vector of a single piece (L0 to L3, L7) is also refused where such a mistake moves

@@ -21,7 +21,7 @@ FOLDER = Path(__file__).resolve().parents[1] / "vectors" / "v1"
 
 
 def sha256(data: bytes) -> str:
-    """Digest of a file's bytes."""
+    """Return digest of a file's bytes."""
     return hashlib.sha256(data).hexdigest()
 
 
@@ -33,7 +33,7 @@ def put(name: str, data: bytes) -> None:
 
 
 def resolving_power(documents: dict[str, Any]) -> dict[str, Any]:
-    """By rule: vectors, mistakes hunted, and the smallest deviation [bars] that a hunted mistake makes."""
+    """Return by rule: vectors, mistakes hunted, and the smallest deviation [bars] that a hunted mistake makes."""
     table: dict[str, dict[str, Any]] = {}
     for document in documents.values():
         for entry in document["vectors"]:
@@ -45,12 +45,12 @@ def resolving_power(documents: dict[str, Any]) -> dict[str, Any]:
 
 
 def small_hunt(entry: dict[str, Any]) -> float:
-    """The smallest deviation of an entry's mistakes."""
+    """Return the smallest deviation of an entry's mistakes."""
     return min(entry["resolving"].values())
 
 
 def environment() -> dict[str, str]:
-    """What the vectors were made with."""
+    """Return what the vectors were made with."""
     bits = np.finfo(np.longdouble).nmant + 1
     packages = {name: version(name) for name in ("rockref", "numpy", "mpmath")}
     return {
@@ -62,7 +62,7 @@ def environment() -> dict[str, str]:
 
 
 def manifest(documents: dict[str, Any], runs: list[str], windows: list[str]) -> dict[str, Any]:
-    """Schema, versions, counts, resolving power, digests of all other files."""
+    """Return schema, versions, counts, resolving power, digests of all other files."""
     files = sorted(p for p in FOLDER.rglob("*") if p.is_file() and p.name != "MANIFEST.json")
     names = [p.relative_to(FOLDER).as_posix() for p in files]
     return {
@@ -81,13 +81,13 @@ def manifest(documents: dict[str, Any], runs: list[str], windows: list[str]) -> 
 
 
 def differing(before: dict[str, str]) -> list[str]:
-    """Files whose bytes are not those of before, by digest."""
+    """Return files whose bytes are not those of before, by digest."""
     after = digests()
     return sorted(name for name in before.keys() | after.keys() if before.get(name) != after.get(name))
 
 
 def digests() -> dict[str, str]:
-    """Digest of every file of the vectors."""
+    """Return digest of every file of the vectors."""
     return {p.relative_to(FOLDER).as_posix(): sha256(p.read_bytes()) for p in FOLDER.rglob("*") if p.is_file()}
 
 
@@ -119,5 +119,5 @@ def make(parts: tuple[str, ...] = ("small", "effects", "base", "runs", "fingerpr
 
 
 def say(line: str) -> None:
-    """A line of progress."""
+    """Print a line of progress."""
     print(line, file=sys.stderr, flush=True)

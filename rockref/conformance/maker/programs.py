@@ -29,13 +29,13 @@ BUILDS: dict[str, list[str]] = {
 
 @lru_cache
 def folder() -> tempfile.TemporaryDirectory[str]:
-    """Where the programs are built; gone when Python ends."""
+    """Return where the programs are built; gone when Python ends."""
     return tempfile.TemporaryDirectory(prefix="rockref-")
 
 
 @lru_cache
 def built(name: str) -> Path:
-    """One of `BUILDS`, or one of `ways.WAYS` or `ways.SCHEMES` in double precision, compiled."""
+    """Return one of `BUILDS`, or one of `ways.WAYS` or `ways.SCHEMES` in double precision, compiled."""
     path = Path(folder().name) / name
     subprocess.run([*COMMON, *(BUILDS[name] if name in BUILDS else [str(written(name))]), "-o", str(path), "-lm"],
                    check=True)  # fmt: skip
@@ -43,7 +43,7 @@ def built(name: str) -> Path:
 
 
 def written(name: str) -> Path:
-    """The source of another way to write the law, or of another integrator."""
+    """Return the source of another way to write the law, or of another integrator."""
     text = SOURCE.read_text()
     path = Path(folder().name) / f"{name}.c"
     path.write_text(ways.changed(text, ways.WAYS[name]) if name in ways.WAYS else ways.with_scheme(text, name))
@@ -51,12 +51,12 @@ def written(name: str) -> Path:
 
 
 def program(name: str, seed: int = 0) -> Executable:
-    """A running program; the seed is for "rounding"."""
+    """Return a running program; the seed is for "rounding"."""
     return Executable(["env", f"SEED={seed}", str(built(name))], long=7200.0)
 
 
 def answer(name: str, problems: list[Any], seed: int = 0) -> list[dict[str, Any]]:
-    """The runs of a program."""
+    """Return the runs of a program."""
     running = program(name, seed)
     try:
         return [running.simulate(p) for p in problems]

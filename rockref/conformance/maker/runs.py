@@ -44,7 +44,7 @@ class Rows:
 
 
 def by_exact(q: dict[str, Any]) -> Rows:
-    """The rows by `exact` in longdouble: a third of a millisecond a step."""
+    """Return the rows by `exact` in longdouble: a third of a millisecond a step."""
     m = LongDoubles
     numbers = {k: converted(v, m.number) for k, v in q.items() if k not in ("step", "duration", "output_rate", "names")}
     wanted = [int(i) for i in output_steps(problem_of(q))]
@@ -55,13 +55,13 @@ def by_exact(q: dict[str, Any]) -> Rows:
 
 
 def as_rows(out: Any) -> Rows:
-    """The rows of an answer."""
+    """Return the rows of an answer."""
     out = out if isinstance(out, dict) else vars(out)
     return Rows(*(np.asarray(out[k]) for k in ("t", *SHOWN)))
 
 
 def in_longdouble(q: dict[str, Any]) -> Rows:
-    """The rows by the C text of the law in longdouble, rounded to float64."""
+    """Return the rows by the C text of the law in longdouble, rounded to float64."""
     return as_rows(programs.answer("long", [problem_of(q)])[0])
 
 
@@ -75,7 +75,7 @@ def held_to_exact(q: dict[str, Any], truth: Rows, width: dict[str, np.ndarray], 
 
 
 def rearranged(q: dict[str, Any], rng: random.Random) -> dict[str, Any]:
-    """All inputs moved by an ulp, the points in random order."""
+    """Return all inputs moved by an ulp, the points in random order."""
     order = list(range(len(q["P"])))
     rng.shuffle(order)
     keys = set(PER_POINT) | {"s", "anchored", "sliding"}
@@ -83,7 +83,7 @@ def rearranged(q: dict[str, Any], rng: random.Random) -> dict[str, Any]:
 
 
 def allowed(q: dict[str, Any]) -> dict[str, Any]:
-    """The inputs with mu_0 at least mu and a symmetric inertia, where moving them has changed that."""
+    """Return the inputs with mu_0 at least mu and a symmetric inertia, where moving them has changed that."""
     upper = np.triu(q["inertia"])
     return q | {"mu_0": np.maximum(q["mu_0"], q["mu"]), "inertia": upper + np.triu(upper, 1).T}
 
@@ -101,7 +101,7 @@ def way_members(q: dict[str, Any]) -> list[Any]:
 
 
 def scheme_members(q: dict[str, Any]) -> list[Any]:
-    """Runs by other integrators at the stated step."""
+    """Return runs by other integrators at the stated step."""
     return [as_rows(programs.answer(name, [problem_of(q)])[0]) for name in ways.SCHEMES]
 
 
@@ -125,7 +125,7 @@ def single_members(q: dict[str, Any], seed: int) -> list[Any]:
 
 
 def deviation(found: list[Any], truth: Rows, key: str) -> np.ndarray:
-    """Largest deviation so far of W, x or Lambda, over the members and the components, (N,)."""
+    """Return largest deviation so far of W, x or Lambda, over the members and the components, (N,)."""
     right = getattr(truth, key)
     with np.errstate(all="ignore"):
         apart = [np.abs(np.asarray(getattr(m, key), np.longdouble) - right).reshape(len(right), -1) for m in found]
@@ -134,13 +134,13 @@ def deviation(found: list[Any], truth: Rows, key: str) -> np.ndarray:
 
 
 def bars(found: list[Any], truth: Rows, factor: float = FACTOR, dtype: Any = np.float64) -> dict[str, np.ndarray]:
-    """bar_W, bar_x, bar_Lambda of every row."""
+    """Return bar_W, bar_x, bar_Lambda of every row."""
     size = {k: np.abs(getattr(truth, k)).reshape(len(truth.t), -1).max(axis=1).astype(float) for k in SHOWN}
     return {k: factor * deviation(found, truth, k) + ulp(size[k], dtype) for k in SHOWN}
 
 
 def horizon(width: dict[str, np.ndarray], truth: Rows, share: float) -> float:
-    """The last instant [s] at which no bar exceeds `share` of its signal (largest rate, way, and 1 for Lambda)."""
+    """Return last instant [s] at which no bar exceeds `share` of its signal (largest rate, way, and 1 for Lambda)."""
     signal = {
         "W": float(np.max(np.abs(truth.W))),
         "x": float(np.max(np.abs(truth.x - truth.x[0]))),
@@ -155,7 +155,7 @@ def horizon(width: dict[str, np.ndarray], truth: Rows, share: float) -> float:
 
 
 def impact_bars(found: list[Any], truth: Rows, end: float, factor: float = FACTOR) -> list[dict[str, float]]:
-    """Main impacts up to `end` [s] with their bars [s]; the linear interpolation belongs to their definition."""
+    """Return main impacts up to `end` [s] with their bars [s]; the linear interpolation belongs to their definition."""
     right = [i for i in upright(truth.t, truth.Lambda) if i <= end]
     others = [upright(truth.t, m.Lambda) for m in found]
     result = []
@@ -166,5 +166,5 @@ def impact_bars(found: list[Any], truth: Rows, end: float, factor: float = FACTO
 
 
 def converged(problem: Problem, step: float) -> Any:
-    """The law's scheme with a step so small that it does not matter, rows as in the problem."""
+    """Return the law's scheme with a step so small that it does not matter, rows as in the problem."""
     return run(replace(problem, step=step), engine="auto")

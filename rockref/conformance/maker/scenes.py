@@ -31,17 +31,17 @@ class Scene:
 
     @property
     def inputs(self) -> dict[str, Any]:
-        """Flat inputs of the run."""
+        """Return flat inputs of the run."""
         return self.q | {"step": self.step, "duration": self.duration, "output_rate": self.rate}
 
     @property
     def converged(self) -> bool:
-        """Whether the converged solution is given too ("same physics, other scheme"); once per physics."""
+        """Return whether the converged solution is given too ("same physics, other scheme"); once per physics."""
         return not self.id.startswith("step_")
 
 
 def at_rest(q: dict[str, Any], x: Any, Lambda: Any, v: Any = (0, 0, 0), W: Any = (0, 0, 0)) -> dict[str, Any]:
-    """The inputs with a start state without contact history."""
+    """Return the inputs with a start state without contact history."""
     n = len(q["P"])
     pose = {
         "x": np.array(x, float),
@@ -55,7 +55,7 @@ def at_rest(q: dict[str, Any], x: Any, Lambda: Any, v: Any = (0, 0, 0), W: Any =
 
 
 def released(q: dict[str, Any], theta_0: float = THETA_0, W: Any = (0, 0, 0)) -> dict[str, Any]:
-    """The inputs with the release posture."""
+    """Return the inputs with the release posture."""
     m = Digits()
     numbers = {k: converted(q[k], m.number) for k in ("mass", "g", "P", "K_N")}
     x, Lambda = exact_run.release(**numbers, theta_0=m.number(theta_0), m=m)
@@ -63,32 +63,32 @@ def released(q: dict[str, Any], theta_0: float = THETA_0, W: Any = (0, 0, 0)) ->
 
 
 def standing(q: dict[str, Any], gap: float, **state: Any) -> dict[str, Any]:
-    """The inputs with the block upright, its internal points `gap` above the plate."""
+    """Return the inputs with the block upright, its internal points `gap` above the plate."""
     return at_rest(q, (0, 0, HEIGHT / 2 + gap), np.eye(3), **state)
 
 
 def flying(q: dict[str, Any]) -> dict[str, Any]:
-    """The inputs of a body with three different moments of inertia that turns far above the plate."""
+    """Return the inputs of a body with three different moments of inertia that turns far above the plate."""
     q = q | {"inertia": np.diag([0.5, 1.25, 2.0])}
     return at_rest(q, (0.5, -0.25, 8.0), rotation((0.3, -0.2, 0.5)), v=(1.0, -0.5, 0.25), W=(3.1, 4.7, -2.3))
 
 
 def without(q: dict[str, Any], *corners: int) -> dict[str, Any]:
-    """The inputs without the two points of some corners (1..4)."""
+    """Return the inputs without the two points of some corners (1..4)."""
     keep = [i for i in range(8) if i % 4 + 1 not in corners]
     names = [f"{i % 4 + 1}{'ext' if i < 4 else 'int'}" for i in keep]
     return {k: v[keep] if k in PER_POINT else v for k, v in q.items()} | {"names": names}
 
 
 def corners_only(q: dict[str, Any]) -> dict[str, Any]:
-    """The four-point model: the external points in the plane of the base."""
+    """Return the four-point model: the external points in the plane of the base."""
     P = q["P"][:4].copy()
     P[:, 2] = -HEIGHT / 2
     return {k: v[:4] if k in PER_POINT else v for k, v in q.items()} | {"P": P}
 
 
 def leaning_out_of_plane(q: dict[str, Any], roll: float) -> dict[str, Any]:
-    """Released with a further roll about Y, as an oblique wire gives it: one corner carries all the weight."""
+    """Release with a further roll about Y, as an oblique wire gives it: one corner carries all the weight."""
     tilt, roll_ = rotation((-THETA_0, 0, 0)).tolist(), rotation((0, roll, 0)).tolist()
     Lambda = exact.product(tilt, roll_)
     heights = [exact.dot(Lambda[2], p) for p in q["P"].tolist()]
@@ -97,7 +97,7 @@ def leaning_out_of_plane(q: dict[str, Any], roll: float) -> dict[str, Any]:
 
 @lru_cache
 def scenes() -> dict[str, Scene]:
-    """All runs, by id."""
+    """Return all runs, by id."""
     base = table_3_1()
     low, pair = table_3_1(mu=0.05), table_3_1(mu=0.15, mu_0=0.25)
     even, slippery = table_3_1(delta_long=EVEN), table_3_1(mu=0.05, delta_long=EVEN)

@@ -39,13 +39,13 @@ def window_id(window: Window) -> str:
 
 
 def names() -> tuple[list[str], list[str]]:
-    """Names of the trajectories and of the windows."""
+    """Return names of the trajectories and of the windows."""
     return [s.id for s in scenes().values() if s.whole], [window_id(w) for w in WINDOWS + LATER_WINDOWS]
 
 
 def met(q: dict[str, Any]) -> dict[str, Any]:
-    """What happens in a run of the float64 law: the branch, what every foot does in each row; and the events, step by
-    step, [t, point, what it does]: touches, lifts, slides, sticks."""
+    """Return what happens in a run of the float64 law: the branch, what every foot does in each row; and the events,
+    step by step, [t, point, what it does]: touches, lifts, slides, sticks."""
     problem = problem_of(q)
     r = run(replace(problem, output_rate=1 / problem.step), engine="auto")
     code = r.anchored.astype(int) + (r.anchored & r.sliding)
@@ -59,7 +59,7 @@ def met(q: dict[str, Any]) -> dict[str, Any]:
 
 
 def table(columns: dict[str, np.ndarray]) -> bytes:
-    """Columns as gzipped CSV; the same bytes for the same numbers."""
+    """Return columns as gzipped CSV; the same bytes for the same numbers."""
     header, flat = [], []
     for name, values in columns.items():
         values = values.reshape(len(values), -1)
@@ -71,7 +71,7 @@ def table(columns: dict[str, np.ndarray]) -> bytes:
 
 
 def shortest(value: float) -> str:
-    """The shortest decimal that reads back to the same double; nothing where there is no number."""
+    """Return the shortest decimal that reads back to the same double; nothing where there is no number."""
     return "" if not np.isfinite(value) else repr(value).removesuffix(".0")
 
 
@@ -88,21 +88,21 @@ class Item:
 
 
 def items() -> list[Item]:
-    """All windows and trajectories."""
+    """Return all windows and trajectories."""
     things: list[Window | Scene] = [*WINDOWS, *scenes().values(), *LATER_WINDOWS]
     found = [(w, 1000 * (i + 1)) for i, w in enumerate(things)]
     return [item_of(thing, seed) for thing, seed in found if isinstance(thing, Window) or thing.whole]
 
 
 def item_of(thing: Window | Scene, seed: int) -> Item:
-    """A run to be made, of a window or a scene."""
+    """Return a run to be made, of a window or a scene."""
     if isinstance(thing, Window):
         return Item(window_id(thing), f"{thing.scene}: {thing.shows}", "window", window_inputs(thing), seed)
     return Item(thing.id, thing.title, "trajectory", thing.inputs, seed, thing.converged)
 
 
 def barred(item: Item) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Columns and facts of one run."""
+    """Return columns and facts of one run."""
     truth = runs.in_longdouble(item.q)
     members = (
         runs.double_members(item.q, item.seed) + runs.rounding_members(item.q, item.seed) + runs.way_members(item.q)
@@ -129,7 +129,7 @@ def barred(item: Item) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
 
 
 def converged(item: Item, law: Any, truth: Rows) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """The converged solution, and how far five schemes at the stated step are from it."""
+    """Return the converged solution, and how far five schemes at the stated step are from it."""
     fine, less = (runs.converged(problem_of(item.q), step) for step in (FINE, LESS_FINE))
     right = Rows(truth.t, fine.W, fine.x, fine.Lambda)
     schemes = [law, *runs.scheme_members(item.q)]
@@ -146,12 +146,12 @@ def converged(item: Item, law: Any, truth: Rows) -> tuple[dict[str, np.ndarray],
 
 
 def rounded(a: np.ndarray) -> np.ndarray:
-    """Twelve digits: far below the bar of a converged solution."""
+    """Round to twelve digits: far below the bar of a converged solution."""
     return np.vectorize(lambda v: float(f"{v:.12g}"))(np.asarray(a, float))
 
 
 def window_inputs(window: Window) -> dict[str, Any]:
-    """Inputs of a window: the state of the float64 law at its instant, without the last force evaluation."""
+    """Return inputs of a window: the state of the float64 law at its instant, without the last force evaluation."""
     scene = scenes()[window.scene]
     q = scene.q | {"step": scene.step, "duration": WINDOW_DURATION, "output_rate": WINDOW_RATE}
     if window.instant == 0:
@@ -164,14 +164,14 @@ def window_inputs(window: Window) -> dict[str, Any]:
 
 
 def document(name: str, title: str, kind: str, q: dict[str, Any], meta: dict[str, Any]) -> bytes:
-    """The JSON beside the rows."""
+    """Return the JSON beside the rows."""
     problem = {k: stored(v) for k, v in q.items()}
     head = {"schema": SCHEMA, "id": name, "layer": "L5", "kind": kind, "title": title, "route": "longdouble"}
     return (json.dumps(head | meta | {"problem": problem}, ensure_ascii=False, separators=(",", ":")) + "\n").encode()
 
 
 def files(say: Callable[[str], None]) -> Iterator[tuple[str, bytes]]:
-    """All files of L5: name and bytes."""
+    """Yield all files of L5: name and bytes."""
     for item in items():
         columns, meta = barred(item)
         say(f"{item.name}: {meta['horizon_s']}, impacts {meta['impacts']}, {len(meta['events'])} events")

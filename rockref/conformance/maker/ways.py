@@ -118,7 +118,7 @@ VELOCITIES_BEFORE: Changes = (("evaluate(v_p, W_p);", "(void)v_p, (void)W_p, eva
 
 
 def changed(text: str, changes: Changes) -> str:
-    """The text with each change made at its one place. Raises ValueError where there is another number of places."""
+    """Return text with each change made at its one place. Raises ValueError where there is another number of places."""
     for old, new in changes:
         if text.count(old) != 1:
             raise ValueError(f"{text.count(old)} places of {old!r}")
@@ -127,7 +127,7 @@ def changed(text: str, changes: Changes) -> str:
 
 
 def with_scheme(text: str, name: str) -> str:
-    """The text with the step of another integrator."""
+    """Return the text with the step of another integrator."""
     step = SCHEMES[name]
     if step is None:
         return changed(text, VELOCITIES_BEFORE)

@@ -35,7 +35,7 @@ class Scene:
 
     @property
     def half(self) -> np.ndarray:
-        """Half the sides, (3,) [m]."""
+        """Return half the sides, (3,) [m]."""
         return np.array(self.size) / 2
 
     def replace(self, **changes: Any) -> Scene:

@@ -57,22 +57,22 @@ class Trial:
 
     @cached_property
     def rest(self) -> Rest:
-        """The settled block."""
+        """Return the settled block."""
         return self.settle(BLOCK)
 
     @property
     def softness(self) -> float:
-        """The sink of the block over b alpha, without unit."""
+        """Return the sink of the block over b alpha, without unit."""
         return abs(self.rest.sink) / (self.theory.b * self.theory.alpha)
 
     @property
     def is_soft(self) -> bool:
-        """Whether the contact is too soft to judge rocking."""
+        """Return whether the contact is too soft to judge rocking."""
         return self.softness > SOFT
 
     @property
     def is_held(self) -> bool:
-        """Whether the plate holds the block: the sink is below half the height."""
+        """Return whether the plate holds the block: the sink is below half the height."""
         return self.rest.sink < self.theory.h
 
     def tilted(self, theta: float, about_z: float = 0.0) -> Start:
@@ -99,7 +99,7 @@ class Trial:
 
     @cached_property
     def swing(self) -> Swing:
-        """Free rocking from half the slenderness: 2.5 s hold seven apexes."""
+        """Simulate free rocking from half the slenderness: 2.5 s hold seven apexes."""
         return self.released(0.5 * self.theory.alpha, 2.5)
 
 
@@ -111,7 +111,7 @@ class Swing(NamedTuple):
 
     @property
     def tilt(self) -> np.ndarray:
-        """The angle of the block's height from the vertical in the rocking plane, signed (T,) [rad].
+        """Return the angle of the block's height from the vertical in the rocking plane, signed (T,) [rad].
 
         The plane is that of the start.
         """

@@ -26,7 +26,7 @@ class Control:
     make: Any
 
     def backend(self) -> Any:
-        """A backend that does it."""
+        """Return a backend that does it."""
         return self.make()
 
 
@@ -48,7 +48,7 @@ def pairwise_force(F, mass, g):
 
 
 def by_quaternions(Lambda, E):
-    """Lambda exp(Theta^) as a product of unit quaternions, normalised."""
+    """Return Lambda exp(Theta^) as a product of unit quaternions, normalised."""
     p = quaternion(Lambda)
     # The quaternion of a small turn from its matrix less one: v = axis part of E / 4w.
     w = np.sqrt(1 + (E[..., 0, 0] + E[..., 1, 1] + E[..., 2, 2]) / 4)
@@ -62,7 +62,7 @@ def by_quaternions(Lambda, E):
 
 
 def orthonormalised(Lambda, E):
-    """The pose made orthogonal again in every step, by one Newton step towards it."""
+    """Return the pose made orthogonal again in every step, by one Newton step towards it."""
     L = Lambda + product(Lambda, E)
     return L * L.dtype.type(1.5) - product(L, product(L.swapaxes(-1, -2), L)) / 2
 
@@ -81,7 +81,7 @@ def by_hypot(F):
 
 
 def by_sine_and_cosine(Theta):
-    """Rodrigues' formula with the library's sine."""
+    """Return Rodrigues' formula with the library's sine."""
     q = np.sqrt(np.sum(Theta * Theta, axis=-1))
     safe = np.where(q > 0, q, 1)
     first = np.where(q > 0, np.sin(safe) / safe, 1)[..., None, None]
@@ -91,7 +91,7 @@ def by_sine_and_cosine(Theta):
 
 
 def fused(a, b, c):
-    """a b + c rounded once, as a processor with fused multiply-add gives it (through longdouble)."""
+    """Return a b + c rounded once, as a processor with fused multiply-add gives it (through longdouble)."""
     wide = np.longdouble
     return (np.asarray(a, wide) * np.asarray(b, wide) + np.asarray(c, wide)).astype(np.float64)
 
@@ -127,24 +127,24 @@ FUSED = {
 
 
 def divided_gyroscopic_term(T, W, JW, J_inverse):
-    """Euler's equations with the products in another order."""
+    """Return Euler's equations with the products in another order."""
     return angular_acceleration(T + cross(JW, W), 0 * W, JW, J_inverse)
 
 
 def by_squares(F):
-    """The length by the root of squares: zero below 1e-162."""
+    """Return the length by the root of squares: zero below 1e-162."""
     return np.sqrt(F[..., 0] * F[..., 0] + F[..., 1] * F[..., 1])
 
 
 def along_an_angle(F_trial, size, stick, mu_F_N):
-    """The sliding force by the angle of the trial force."""
+    """Return the sliding force by the angle of the trial force."""
     angle = np.arctan2(F_trial[..., 1], F_trial[..., 0])
     along = mu_F_N[..., None] * np.stack([np.cos(angle), np.sin(angle)], -1)
     return np.where(stick[..., None], F_trial, along)
 
 
 def drawn_anew(right):
-    """A sum over the feet in an order that is drawn anew each time."""
+    """Return a sum over the feet in an order that is drawn anew each time."""
 
     def summed(*given):
         feet = [i for i, a in enumerate(given) if np.ndim(a) >= 2]
@@ -155,7 +155,7 @@ def drawn_anew(right):
 
 
 def momentum_in_plate_axes(rules: Rules, problem: Problem, state: State, inertia: Inertia) -> State:
-    """The rates from Lambda J W, the momentum in plate axes."""
+    """Return the rates from Lambda J W, the momentum in plate axes."""
     after, h = pieces.step(rules, problem, state, inertia), state.x.dtype.type(problem.step)
     assert state.T is not None and after.T is not None
     moments = apply(state.Lambda, state.T) + apply(after.Lambda, after.T)
@@ -169,14 +169,14 @@ class Permuted(RulesBackend):
     order = np.array([5, 2, 7, 0, 3, 6, 1, 4])
 
     def simulate(self, problem: Problem) -> Any:
-        """A run."""
+        """Return a run."""
         if problem.points.n != len(self.order):
             return super().simulate(problem)
         rows, back = super().simulate(self._shuffled(problem)), np.argsort(self.order)
         return replace(rows, F=rows.F[:, back], anchored=rows.anchored[:, back])
 
     def simulate_many(self, problems: list[Problem]) -> list[Any]:
-        """Runs, one batch."""
+        """Return runs, one batch."""
         if problems[0].points.n != len(self.order):
             return super().simulate_many(problems)
         back = np.argsort(self.order)
@@ -195,7 +195,7 @@ class InCompany(RulesBackend):
     """Every run computed in a batch with another one beside it."""
 
     def simulate(self, problem: Problem) -> Any:
-        """A run."""
+        """Return a run."""
         other = replace(problem, start=replace(problem.start, v=problem.start.v + 0.125))
         return pieces.simulate(self.rules, stack([other, problem]), self.dtype).pick(1)
 

@@ -39,11 +39,11 @@ class Mistake:
     digits: bool = False
 
     def backend(self) -> Mistaken:
-        """A backend that makes this mistake and shows all its pieces."""
+        """Return a backend that makes this mistake and shows all its pieces."""
         return Mistaken(self, pieces.law())
 
     def of_another_scheme(self) -> Mistaken:
-        """A backend that makes this mistake and has another integrator."""
+        """Return a backend that makes this mistake and has another integrator."""
         return Mistaken(self, pieces.law().replace(step=kick_and_drift))
 
 
@@ -55,14 +55,14 @@ class Mistaken(RulesBackend):
         self.mistake = mistake
 
     def simulate(self, problem: Problem) -> Any:
-        """A run with the mistake in it."""
+        """Return a run with the mistake in it."""
         m = self.mistake
         read = m.read(problem) if m.read else problem
         rows = pieces.simulate(self.rules, read, self.dtype, m.late, m.recorded)
         return m.report(rows) if m.report else rows
 
     def simulate_many(self, problems: list[Problem]) -> list[Any]:
-        """Runs side by side."""
+        """Return runs side by side."""
         m = self.mistake
         read = stack([m.read(p) if m.read else p for p in problems])
         batch = pieces.simulate(self.rules, read, self.dtype, m.late, m.recorded)

@@ -42,7 +42,7 @@ class Shaken(Effect):
         object.__setattr__(self, "base", base)
 
     def is_absent(self) -> bool:
-        """It always acts."""
+        """Return False: the load always acts."""
         return False
 
     def body_wrench(self, problem: Any, c: Any, x: Any, Lambda: Any, v: Any, W: Any, m: Any) -> Any:
@@ -51,13 +51,13 @@ class Shaken(Effect):
 
 
 def planted(problem: Problem, load: Load) -> Problem:
-    """The problem with this load in the place of its base motion."""
+    """Return the problem with this load in the place of its base motion."""
     assert problem.base is not None
     return problem.replace(base=None, effects=(Shaken(load, problem.base),))
 
 
 def _of(acceleration: Callable[[BaseMotion, float], Any]) -> Load:
-    """A load at the centre of mass, from an acceleration of its own."""
+    """Return a load at the centre of mass, from an acceleration of its own."""
 
     def load(base: BaseMotion, t: float, problem: Problem, Lambda: Any) -> tuple[Any, Any]:
         F = -problem.block.mass[..., None] * acceleration(base, t)
@@ -67,7 +67,7 @@ def _of(acceleration: Callable[[BaseMotion, float], Any]) -> Load:
 
 
 def _changed(matrix: Any) -> Load:
-    """The right acceleration, times a matrix or a number."""
+    """Return the right acceleration, times a matrix or a number."""
     M = np.asarray(matrix, float) * (np.eye(3) if np.ndim(matrix) == 0 else 1.0)
     return _of(lambda base, t: np.sum(M * plate_acceleration(base, t), axis=-1))
 

@@ -40,7 +40,7 @@ def about_the_base(mass, width, depth, height):
 
 
 def inertia_read(change):
-    """A run that uses `change` of the principal moments and mass."""
+    """Return a run that uses `change` of the principal moments and mass."""
 
     def read(problem: Problem) -> Problem:
         J = problem.block.inertia
@@ -66,7 +66,7 @@ def level(width, depth, height, delta_long, delta_diag):
 
 
 def points_read(change):
-    """A run that uses `change` of the points (n, 3)."""
+    """Return a run that uses `change` of the points (n, 3)."""
 
     def read(problem: Problem) -> Problem:
         return replace(problem, points=replace(problem.points, P=change(problem.points.P.copy())))
@@ -95,7 +95,7 @@ def all_at_the_base(P):
 
 
 def properties_read(**changes):
-    """A run that uses changed properties: name -> function of the points."""
+    """Return a run that uses changed properties: name -> function of the points."""
 
     def read(problem: Problem) -> Problem:
         points = problem.points
@@ -115,7 +115,7 @@ def without_roll(block, points, theta_0):
 
 
 def on_the_corners(block, points, theta_0):
-    """The pivots are taken among the external points, wherever the internal ones are."""
+    """Plant a fault: the pivots are taken among the external points, wherever the internal ones are."""
     out_of_reach = points.P + np.where(np.arange(points.n) < 4, 0, 1)[:, None] * np.array([0, 0, 1], points.P.dtype)
     return release.release_posture(block, replace(points, P=out_of_reach), theta_0)
 
@@ -237,7 +237,7 @@ def new_moment_missing(JW, T, T_next, E, h):
 
 
 def channel(change):
-    """A plant and a report that let `change` rewrite W (N, 3), given Lambda (N, 3, 3)."""
+    """Return a plant and a report that let `change` rewrite W (N, 3), given Lambda (N, 3, 3)."""
 
     def plant(rules: Rules) -> Rules:
         return rules.replace(channel=lambda W, Lambda: rules.channel(change(W, Lambda), Lambda))

@@ -23,7 +23,7 @@ def half_step_velocities(v, a, W, A, h):
 
 
 def rate_by_differences(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """Penetration rate from two positions, not from the velocity."""
+    """Plant a fault: penetration rate from two positions, not from the velocity."""
     k = rules.kinematics(x, Lambda, v, W, problem.points.P)
     if state.a is not None:
         before = rules.kinematics(state.x, state.Lambda, v, W, problem.points.P)
@@ -33,7 +33,7 @@ def rate_by_differences(rules: Rules, problem: Problem, state: State, x, Lambda,
 
 
 def last_normal_force(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """The sliding force takes the normal force of the step before."""
+    """Plant a fault: the sliding force takes the normal force of the step before."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
     if state.F is None:
         return k, c
@@ -44,7 +44,7 @@ def last_normal_force(rules: Rules, problem: Problem, state: State, x, Lambda, v
 
 
 def slip_after_the_force(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """The trial force takes the places of the step before: the slip is added up after the force."""
+    """Plant a fault: the trial force takes the places of the step before: the slip is added up after the force."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
     if state.a is None:
         return k, c
@@ -56,7 +56,7 @@ def slip_after_the_force(rules: Rules, problem: Problem, state: State, x, Lambda
 
 
 def anchor_turns_with_the_block(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """The anchor is kept in body axes."""
+    """Plant a fault: the anchor is kept in body axes."""
     if state.a is None:
         return evaluate_contact(rules, problem, state, x, Lambda, v, W)
     arm = np.zeros(state.s.shape[:-1] + (3,), state.s.dtype)
@@ -68,36 +68,36 @@ def anchor_turns_with_the_block(rules: Rules, problem: Problem, state: State, x,
 
 
 def slid_for_touched(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """What is remembered as touching is sliding."""
+    """Plant a fault: what is remembered as touching is sliding."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
     return k, c._replace(touching=c.sliding)
 
 
 def anchor_of_the_foot_before(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """Every foot is handed the anchor of another one."""
+    """Plant a fault: every foot is handed the anchor of another one."""
     return evaluate_contact(rules, problem, replace(state, s=np.roll(state.s, 1, axis=-2)), x, Lambda, v, W)
 
 
 def one_slid_all_slid(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """Whether a foot was sliding is kept once for all feet."""
+    """Plant a fault: whether a foot was sliding is kept once for all feet."""
     slid = np.broadcast_to(np.any(state.sliding, axis=-1, keepdims=True), state.sliding.shape)
     return evaluate_contact(rules, problem, replace(state, sliding=slid), x, Lambda, v, W)
 
 
 def lever_from_the_origin(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """The lever arm is counted from the origin of the plate."""
+    """Plant a fault: the lever arm is counted from the origin of the plate."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
     return k._replace(r=k.u), c
 
 
 def lever_in_body_axes(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """The lever arm is not turned."""
+    """Plant a fault: the lever arm is not turned."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
     return k._replace(r=np.broadcast_to(problem.points.P, k.r.shape)), c
 
 
 def no_first_evaluation(rules: Rules, problem: Problem) -> State:
-    """The first step finds no forces."""
+    """Plant a fault: the first step finds no forces."""
     state = pieces.start(rules, problem)
     if problem.start.a is not None:
         return state

@@ -16,12 +16,12 @@ from rockref.model.rotation import cross, product
 
 
 def cut(a: np.ndarray) -> np.ndarray:
-    """Numbers cut to single precision."""
+    """Return numbers cut to single precision."""
     return np.asarray(a).astype(np.float32).astype(np.asarray(a).dtype)
 
 
 def cut_result(name: str) -> Callable[[Rules], Rules]:
-    """A plant that cuts what a rule gives to single precision."""
+    """Return a plant that cuts what a rule gives to single precision."""
 
     def plant(rules: Rules) -> Rules:
         right = getattr(rules, name)
@@ -31,7 +31,7 @@ def cut_result(name: str) -> Callable[[Rules], Rules]:
 
 
 def levers_cut(rules: Rules) -> Rules:
-    """Levers in single precision, and what is made of them."""
+    """Plant a fault: levers in single precision, and what is made of them."""
 
     def kinematics(x, Lambda, v, W, P):
         k = rules.kinematics(x, Lambda, v, W, P)
@@ -43,7 +43,7 @@ def levers_cut(rules: Rules) -> Rules:
 
 
 def rules_rate(Lambda, W):
-    """Rates in plate axes, one row for all feet."""
+    """Return rates in plate axes, one row for all feet."""
     return np.einsum("...ij,...j->...i", Lambda, W)[..., None, :]
 
 
@@ -61,13 +61,13 @@ def no_damper_at_first_touch(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchore
 
 
 def slid_is_anchored_anew(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
-    """A foot that slid is tied where it is; that it slid is known."""
+    """Plant a fault: a foot that slid is tied where it is; that it slid is known."""
     s = np.where((anchored & sliding)[..., None], u_t, s)
     return point_law(rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p)
 
 
 def opened_and_still_slid(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
-    """A foot that slid before it opened still counts as sliding when it touches."""
+    """Plant a fault: a foot that slid before it opened still counts as sliding when it touches."""
     c = point_law(rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p)
     return c._replace(sliding=np.where(c.touching, c.sliding, sliding))
 
@@ -77,13 +77,13 @@ def stiffer_when_deep(xi, xi_rate, K_N, C_N):
 
 
 def never_without_friction(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
-    """Coefficients below a hundredth are taken for one."""
+    """Plant a fault: coefficients below a hundredth are taken for one."""
     p = p._replace(mu_0=np.maximum(p.mu_0, 0.01), mu=np.maximum(p.mu, 0.01))
     return point_law(rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p)
 
 
 def friction_at_the_anchor(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """Friction turns the block from where the anchor is, not from where the foot is."""
+    """Plant a fault: friction turns the block from where the anchor is, not from where the foot is."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
     r = k.r.copy()
     r[..., :2] = np.where(c.touching[..., None], c.s - x[..., None, :2], r[..., :2])
@@ -91,7 +91,8 @@ def friction_at_the_anchor(rules: Rules, problem: Problem, state: State, x, Lamb
 
 
 def clock_added_up(problem: Problem) -> np.ndarray:
-    """Rows at the steps at which a clock in single precision, added up step by step, passes their instants."""
+    """Plant a fault: rows at the steps at which a clock in single precision, added up step by step, passes their
+    instants."""
     wanted = pieces.output_steps(problem)
     clock = np.cumsum(np.full(int(wanted[-1]) + 1, problem.step, np.float32), dtype=np.float32) - np.float32(
         problem.step
@@ -101,7 +102,7 @@ def clock_added_up(problem: Problem) -> np.ndarray:
 
 
 def evaluated_anew(rules: Rules, problem: Problem) -> State:
-    """The forces that a start brings are not taken."""
+    """Plant a fault: the forces that a start brings are not taken."""
     return pieces.start(rules, replace(problem, start=replace(problem.start, a=None, T=None, F=None)))
 
 

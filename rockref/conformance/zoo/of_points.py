@@ -12,7 +12,7 @@ from rockref.model.rotation import apply, apply_to_points, cross, transposed
 
 
 def _rates(change):
-    """A plant that lets `change` rewrite the motion k of the points."""
+    """Return a plant that lets `change` rewrite the motion k of the points."""
 
     def plant(rules: Rules) -> Rules:
         def kinematics(x, Lambda, v, W, P):
@@ -176,7 +176,7 @@ def always_dynamic(F_N, was_sliding, mu_0, mu):
 
 
 def threshold_by_the_spring(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
-    """The threshold takes K_N xi, the damper forgotten."""
+    """Plant a fault: the threshold takes K_N xi, the damper forgotten."""
 
     def threshold(F_N, was_sliding, mu_0, mu):
         return rules.threshold(np.where(xi >= 0, p.K_N * xi, 0 * F_N), was_sliding, mu_0, mu)

@@ -18,7 +18,7 @@ from rockref.model.rotation import apply, cross
 
 
 def gyroscopic_moment_in_plate_axes(rules: Rules, state: State, inertia: Any, h: Any) -> Any:
-    """The rates of the gyroscopic moment are those in plate axes, its momentum is that in body axes."""
+    """Plant a fault: the rates of the gyroscopic moment are those in plate axes, its momentum is that in body axes."""
 
     def acceleration(T, W, JW, J_inverse):
         return rules.acceleration(T - cross(apply(state.Lambda, W), JW), 0 * W, JW, J_inverse)
@@ -27,12 +27,12 @@ def gyroscopic_moment_in_plate_axes(rules: Rules, state: State, inertia: Any, h:
 
 
 def attitude_of_the_step_before(rules: Rules, state: State) -> Rules:
-    """The moment is turned into the body axes that the block had at the begin of the step."""
+    """Plant a fault: the moment is turned into the body axes that the block had at the begin of the step."""
     return rules.replace(body_moment=lambda Lambda, M: rules.body_moment(state.Lambda, M))
 
 
 def read_column_by_column(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """The points (n, 3), a list of rows, are taken for a list of columns."""
+    """Plant a fault: the points (n, 3), a list of rows, are taken for a list of columns."""
     P = problem.points.P
     turned = P.reshape(*P.shape[:-2], 3, P.shape[-2]).swapaxes(-1, -2)
     changed = replace(problem, points=replace(problem.points, P=turned))
@@ -40,13 +40,14 @@ def read_column_by_column(rules: Rules, problem: Problem, state: State, x, Lambd
 
 
 def one_array_of_anchors(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """All feet share the place of one anchor, in which the last foot writes last."""
+    """Plant a fault: all feet share the place of one anchor, in which the last foot writes last."""
     k, c = evaluate_contact(rules, problem, state, x, Lambda, v, W)
     return k, c._replace(s=np.broadcast_to(c.s[..., -1:, :], c.s.shape).copy())
 
 
 def sliding_velocity_before(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """The sliding velocity takes the velocities of the step before, the penetration rate the predicted ones."""
+    """Plant a fault: the sliding velocity takes the velocities of the step before, the penetration rate the predicted
+    ones."""
     k = rules.kinematics(x, Lambda, v, W, problem.points.P)
     k = k._replace(v_slide=rules.kinematics(x, Lambda, state.v, state.W, problem.points.P).v_slide)
     arguments = (k.xi, k.xi_rate, k.u[..., :2], k.v_slide, state.s, state.anchored, state.sliding)
@@ -63,7 +64,7 @@ def whole_numbers(size, limit):
 
 
 def slid_until_it_opens(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
-    """A foot that has slid is flagged as sliding until it opens."""
+    """Plant a fault: a foot that has slid is flagged as sliding until it opens."""
     c = point_law(rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p)
     return c._replace(sliding=c.sliding | (c.touching & anchored & sliding))
 
@@ -78,12 +79,12 @@ def no_force_below_a_millinewton(xi, xi_rate, K_N, C_N):
 
 
 def at_home(problem: Problem) -> Problem:
-    """The problem with the source's gravity."""
+    """Return the problem with the source's gravity."""
     return replace(problem, block=replace(problem.block, g=0 * problem.block.g + 9.81))
 
 
 def gravity_in_the_step(rules: Rules) -> Rules:
-    """The sums take the gravity that they are given; step and start hand them the source's."""
+    """Plant a fault: the sums take the gravity that they are given; step and start hand them the source's."""
 
     def step(rules: Rules, problem: Problem, state: State, inertia: Any) -> State:
         return pieces.step(rules, at_home(problem), state, inertia)

@@ -18,13 +18,13 @@ from rockref.model.rotation import apply, cross, hat, product
 
 
 def principal_axes_only(T, W, JW, J_inverse):
-    """Euler's equations with the diagonal of the inverse inertia."""
+    """Plant a fault: Euler's equations with the diagonal of the inverse inertia."""
     diagonal = J_inverse if J_inverse.ndim == T.ndim else np.diagonal(J_inverse, axis1=-2, axis2=-1)
     return times(diagonal, T - cross(W, JW))
 
 
 def no_case_for_rest(Theta):
-    """Rodrigues' formula without its case for no rotation."""
+    """Plant a fault: Rodrigues' formula without its case for no rotation."""
     with np.errstate(all="ignore"):
         angle = np.sqrt(np.sum(Theta * Theta, axis=-1))
         first, second = np.sin(angle) / angle, 2 * (np.sin(angle / 2) / angle) ** 2
@@ -33,26 +33,26 @@ def no_case_for_rest(Theta):
 
 
 def damper_ramped_up(xi, xi_rate, K_N, C_N):
-    """The damper grows over the first two micrometres, as some multi-body codes have it."""
+    """Plant a fault: the damper grows over the first two micrometres, as some multi-body codes have it."""
     return np.maximum(K_N * xi + C_N * np.clip(xi / 2e-6, 0, 1) * xi_rate, 0)
 
 
 def cut_on_the_sum(xi, xi_rate, K_N, C_N):
-    """Tension is cut where all feet together would pull."""
+    """Plant a fault: tension is cut where all feet together would pull."""
     force = K_N * xi + C_N * xi_rate
     total = np.sum(np.where(xi >= 0, force, 0), axis=-1, keepdims=True)
     return np.where(total < 0, 0, force)
 
 
 def small_forces_dropped(rules: Rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p: Made) -> Touch:
-    """A point force below one newton counts for nothing."""
+    """Plant a fault: a point force below one newton counts for nothing."""
     c = point_law(rules, xi, xi_rate, u_t, v_slide, s, anchored, sliding, p)
     kept = np.sqrt(c.F_N**2 + np.sum(c.F_T**2, axis=-1)) >= 1
     return c._replace(F_N=np.where(kept, c.F_N, 0), F_T=np.where(kept[..., None], c.F_T, 0))
 
 
 def friction_of_the_other_feet(rules: Rules, problem: Problem, state: State, x, Lambda, v, W) -> Any:
-    """The coefficients of the first half of the feet and of the second exchanged."""
+    """Plant a fault: the coefficients of the first half of the feet and of the second exchanged."""
     points = problem.points
     half = points.mu.shape[-1] // 2
     changed = replace(points, mu=np.roll(points.mu, half, -1), mu_0=np.roll(points.mu_0, half, -1))
@@ -60,7 +60,7 @@ def friction_of_the_other_feet(rules: Rules, problem: Problem, state: State, x, 
 
 
 def loaded(change: Callable[[Rules, State], Rules]) -> Callable[[Rules], Rules]:
-    """A plant that adds loads which depend on how the block moves at the begin of the step."""
+    """Return a plant that adds loads which depend on how the block moves at the begin of the step."""
 
     def step(rules: Rules, problem: Problem, state: State, inertia: Any) -> State:
         return pieces.step(change(rules, state), problem, state, inertia)
@@ -72,7 +72,7 @@ def loaded(change: Callable[[Rules, State], Rules]) -> Callable[[Rules], Rules]:
 
 
 def dragged(rules: Rules, state: State) -> Rules:
-    """Air that holds back in proportion to the velocity."""
+    """Plant a fault: air that holds back in proportion to the velocity."""
 
     def force(F, mass, g):
         return rules.force(F, mass, g) - 1e-3 * np.asarray(mass)[..., None] * state.v
@@ -81,7 +81,7 @@ def dragged(rules: Rules, state: State) -> Rules:
 
 
 def boring(rules: Rules, state: State) -> Rules:
-    """Feet that resist a spin about the height by a moment of their own."""
+    """Plant a fault: feet that resist a spin about the height by a moment of their own."""
     about = np.sign(apply(state.Lambda, state.W)[..., 2])
 
     def moment(r, F):
@@ -93,7 +93,7 @@ def boring(rules: Rules, state: State) -> Rules:
 
 
 def truncated(problem: Problem) -> np.ndarray:
-    """Rows at the last step before their instants, not at the nearest one."""
+    """Plant a fault: rows at the last step before their instants, not at the nearest one."""
     rows = len(pieces.output_steps(problem))
     return np.floor(np.arange(rows) / (problem.output_rate * problem.step) + 1e-6).astype(np.int64)
 

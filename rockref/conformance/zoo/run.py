@@ -23,13 +23,13 @@ LONG = "flight"
 
 
 def judge_run(backend: Any, name: str) -> RunCheck:
-    """One run of L5."""
+    """Judge one run of L5."""
     asked = trajectory(name)
     return judge_rows(asked, as_mapping(backend.simulate(asked.problem), "simulate"), "float64")
 
 
 def case_of_mistake(mistake: Any, black_box: bool) -> dict[str, Any]:
-    """One mistake: whether it is found, and what is named, by its pieces and (as a black box) by its runs."""
+    """Judge one mistake: whether it is found, and what is named, by its pieces and (as a black box) by its runs."""
     backend = mistake.backend()
     found = verdict(judge(backend, LAYERS))
     if found.passed or (found.check is not None and found.check.layer == "L4"):
@@ -65,7 +65,8 @@ class BlackBox:
 
 
 def seen_as_black_box(mistake: Any, backend: Any) -> dict[str, Any]:
-    """What the short runs point to, and the two nearest mistakes; and the two nearest if this one were not known."""
+    """Return what the short runs point to, and the two nearest mistakes; and the two nearest if this one were not
+    known."""
     box = BlackBox(backend)
     pointed = verdict(judge(box, ("L5s",))).rule
     marks = blackbox.fingerprint(box)
@@ -86,7 +87,7 @@ def seen_as_black_box(mistake: Any, backend: Any) -> dict[str, Any]:
 
 
 def judge_windows(backend: Any) -> list[RunCheck]:
-    """The windows of L5."""
+    """Judge the windows of L5."""
     asked, found = [trajectory(name) for name in window_names()], []
     for group in grouped([t.problem for t in asked]):
         answers = simulate(backend, [asked[i].problem for i in group])
@@ -97,7 +98,7 @@ def judge_windows(backend: Any) -> list[RunCheck]:
 
 
 def case_of_control(control: Any, runs: bool) -> dict[str, Any]:
-    """One control: whether it is let through, by its pieces and, with `runs`, by the windows."""
+    """Judge one control: whether it is let through, by its pieces and, with `runs`, by the windows."""
     backend = control.backend()
     found = verdict(judge(backend, (*LAYERS, "L5s")))
     worst = max((c.worst for c in found.findings.checks), default=0.0)
@@ -117,7 +118,7 @@ def case_of_control(control: Any, runs: bool) -> dict[str, Any]:
 
 
 def run_zoo(black_box: bool = True, progress: Callable[[str, float], None] | None = None) -> dict[str, Any]:
-    """The whole zoo; counts, and a case for every mistake and control. Without `black_box`, no runs: seconds, not
+    """Judge the whole zoo; counts, and a case for every mistake and control. Without `black_box`, no runs: seconds, not
     minutes."""
     cases = []
     total = len(MISTAKES) + len(CONTROLS)
@@ -133,14 +134,15 @@ WITH_PIECES, BLACK_BOX = 0.95, 0.80
 
 
 def falls_short(found: dict[str, Any]) -> bool:
-    """Whether a mistake is let through, a control rejected, or fewer mistakes named by their rules than is stated."""
+    """Return whether a mistake is let through, a control rejected, or fewer mistakes named by their rules than is
+    stated."""
     planted, box = found["planted"], found["attributed_black_box"]
     named = found["attributed"] >= WITH_PIECES * planted and (box is None or box >= BLACK_BOX * planted)
     return found["detected"] < planted or bool(found["controls_rejected"]) or not named
 
 
 def summary(cases: list[dict[str, Any]]) -> dict[str, Any]:
-    """Counts, and the cases."""
+    """Return counts, and the cases."""
     mistakes = [c for c in cases if c["kind"] == "mistake"]
     controls = [c for c in cases if c["kind"] == "control"]
     seen = [c for c in mistakes if c["black_box"]]
@@ -159,7 +161,7 @@ def summary(cases: list[dict[str, Any]]) -> dict[str, Any]:
 
 
 def row(case: dict[str, Any]) -> list[str]:
-    """A case as cells of a table: id, rule, what, where caught, bars, named, as a black box."""
+    """Return a case as cells of a table: id, rule, what, where caught, bars, named, as a black box."""
     if case["kind"] == "control":
         verdict_ = "REJECTED" if case["rejected"] else "passes"
         return [case["id"], "", case["says"], "", _bars(case["bars"]), verdict_, "", ""]
@@ -196,7 +198,7 @@ HEAD = [
 
 
 def in_words(found: dict[str, Any]) -> str:
-    """The zoo as lines."""
+    """Return the zoo as lines."""
     lines = ["  ".join(row(c)) for c in found["cases"]]
     n = found["planted"]
     lines.append(f"detected {found['detected']}/{n}, attributed {found['attributed']}/{n}")
@@ -210,7 +212,8 @@ def in_words(found: dict[str, Any]) -> str:
 
 
 def resolving_rows() -> list[list[str]]:
-    """By rule: vectors, mistakes hunted, and the smallest deviation that one of them makes, from the manifest."""
+    """Return by rule: vectors, mistakes hunted, and the smallest deviation that one of them makes, from the
+    manifest."""
     rows = [["rule", "vectors", "mistakes hunted", "smallest deviation [bars]"], ["---"] * 4]
     for rule, facts in manifest()["resolving_power"].items():
         rows.append([rule, str(facts["vectors"]), " ".join(facts["hunts"]), f"{facts['worst_bars']:.3g}"])
@@ -218,7 +221,7 @@ def resolving_rows() -> list[list[str]]:
 
 
 def page(found: dict[str, Any]) -> str:
-    """The zoo and the resolving power of the vectors as a page of the documentation."""
+    """Return the zoo and the resolving power of the vectors as a page of the documentation."""
     totals = in_words(found).splitlines()[len(found["cases"]) :]
     power = "\n".join("| " + " | ".join(r) + " |" for r in resolving_rows())
     return (
@@ -239,7 +242,7 @@ def page(found: dict[str, Any]) -> str:
 
 
 def of_a_moving_plate() -> str:
-    """The part of the page on mistakes with a plate that moves, from the vectors LB."""
+    """Return the part of the page on mistakes with a plate that moves, from the vectors LB."""
     rows = [["", "mistake with a plate that moves (B1)", "least deviation in LB [bars]"], ["---"] * 3]
     for mistake in OF_BASE:
         least = min(v.resolving[mistake.id] for v in shaken_vectors())
@@ -253,13 +256,13 @@ def of_a_moving_plate() -> str:
 
 
 def misnamed(found: dict[str, Any]) -> str:
-    """A line of the page: the mistakes that have the name of another rule where pieces are shown."""
+    """Return a line of the page: the mistakes that have the name of another rule where pieces are shown."""
     wrong = [c for c in found["cases"] if c["kind"] == "mistake" and not c["attributed"]]
     said = ", ".join(f"{c['id']} ({c['named']} in place of {c['rule']})" for c in wrong)
     return f"- named by another rule where pieces are shown: {said}\n" if wrong else ""
 
 
 def in_markdown(found: dict[str, Any]) -> str:
-    """The zoo as a table for the documentation."""
+    """Return the zoo as a table for the documentation."""
     rows = [HEAD, ["---"] * len(HEAD), *map(row, found["cases"])]
     return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in r) + " |" for r in rows) + "\n"

@@ -56,7 +56,7 @@ class MeasuredRun:
 
     @property
     def first_impact(self) -> float:
-        """Time of the first main impact, s; infinite if there is none."""
+        """Return time of the first main impact, s; infinite if there is none."""
         times = self.features.impacts.times
         return float(times[0]) if len(times) else float("inf")
 

@@ -39,7 +39,7 @@ PARTS = {"cycle": "per cycle", "impact": "per main impact", "free": "in free arc
 
 
 def energy(c: Comparison, model: int) -> list[Finding]:
-    """Loss per cycle, per main impact and per free arc, model against measured."""
+    """Return loss per cycle, per main impact and per free arc, model against measured."""
     parts = {}
     for part in PARTS:
         pairs = [(getattr(r.losses_model, part), getattr(r.losses_measured, part)) for r in c.results[model]]
@@ -53,7 +53,7 @@ def energy(c: Comparison, model: int) -> list[Finding]:
 
 
 def _energy_words(known: dict[str, _Change]) -> str:
-    """The sentence about the parts of the loss: those that differ, those that agree, those that cannot be told."""
+    """Return sentence about the parts of the loss: those that differ, those that agree, those that cannot be told."""
     off = [(_less(k), f"{PARTS[part]} ({k.shown})") for part, k in known.items() if not k.agrees]
     same = [f"{PARTS[part]} (to {100 * k.resolution:.0f} %)" for part, k in known.items() if k.agrees and k.told]
     hidden = [PARTS[part] for part, k in known.items() if k.agrees and not k.told]
@@ -84,17 +84,18 @@ class _Change:
 
     @property
     def tolerance(self) -> float:
-        """The smallest difference that would be called one, as a share of the energy."""
+        """Return the smallest difference that would be called one, as a share of the energy."""
         return max(AGREE_ERRORS * self.error, AGREE_SHARE * abs(self.measured), self.ledger)
 
     @property
     def resolution(self) -> float:
-        """The same as a share of the measured loss."""
+        """Return the same as a share of the measured loss."""
         return self.tolerance / abs(self.measured) if self.measured else float("inf")
 
     @property
     def agrees(self) -> bool:
-        """Whether no difference can be called one: none between two losses that are both below what the ledger sees."""
+        """Return whether no difference can be called one: none between two losses that are both below what the ledger
+        sees."""
         return max(self.model, self.measured) < self.ledger or abs(self.model - self.measured) <= self.tolerance
 
     @property
@@ -106,7 +107,7 @@ class _Change:
         return f"{self._percent(self.model)} instead of {self._percent(self.measured)} %"
 
     def _percent(self, share: float) -> str:
-        """A loss in per cent; none is negative, and what is smaller than the ledger sees is below that."""
+        """Return a loss in per cent; none is negative, and what is smaller than the ledger sees is below that."""
         if share < self.ledger:
             return f"below {100 * self.ledger:.1f}"
         return f"{100 * max(share, 0.0):.1f}"
@@ -129,7 +130,7 @@ def _less(change: _Change) -> str:
 
 
 def amplitude(c: Comparison, model: int) -> list[Finding]:
-    """By which factor a measured rate is larger than the modelled one, where both have the same course."""
+    """Return by which factor a measured rate is larger than the modelled one, where both have the same course."""
     factors = {}
     for axis in AXES:
         both = [
@@ -157,7 +158,7 @@ def amplitude(c: Comparison, model: int) -> list[Finding]:
 
 
 def leak(c: Comparison, model: int) -> list[Finding]:
-    """What the first swing shows on the axes on which nothing should move, in all runs alike."""
+    """Return what the first swing shows on the axes on which nothing should move, in all runs alike."""
     pairs = list(zip(c.measured, c.results[model], strict=True))
     slopes = np.array([m.features.leak.slopes - r.features.leak.slopes for m, r in pairs])
     offsets = np.array([m.features.leak.offsets - r.features.leak.offsets for m, r in pairs])
@@ -189,7 +190,7 @@ def _common(values: np.ndarray) -> float:
 
 
 def envelope(c: Comparison, model: int) -> list[Finding]:
-    """Width and period of the out-of-plane motion between the first two main impacts."""
+    """Return width and period of the out-of-plane motion between the first two main impacts."""
     texts, values = [], {}
     for axis in AXES[1:]:
         known = [e for r in c.results[model] for e in r.envelopes if e.axis == axis]
@@ -222,7 +223,7 @@ def _envelope_words(width: float, period: float | None) -> str:
 
 
 def error_size(c: Comparison, model: int) -> list[Finding]:
-    """Whether the runs kept back are met as well as the others."""
+    """Return whether the runs kept back are met as well as the others."""
     fit, kept = (c.rms(model, "between", use=use) for use in ("fit", "holdout"))
     if not (math.isfinite(fit) and math.isfinite(kept)):
         return []
@@ -243,7 +244,7 @@ def _motionless(c: Comparison, model: int) -> bool:
 
 
 def side_by_side(c: Comparison) -> list[Finding]:
-    """Which of the models is closest, stretch by stretch."""
+    """Return which of the models is closest, stretch by stretch."""
     found = []
     for stretch, words in STRETCH_WORDS.items():
         errors = [c.rms(model, stretch) for model in range(len(c.names))]

@@ -21,7 +21,7 @@ BETWEEN = "From the first to the second main impact"
 
 
 def overturned(c: Comparison, model: int) -> list[Finding]:
-    """Which runs of the model fall over."""
+    """Return which runs of the model fall over."""
     runs = [r.run for r in c.results[model] if r.overturned]
     if not runs:
         return []
@@ -29,7 +29,7 @@ def overturned(c: Comparison, model: int) -> list[Finding]:
 
 
 def leaves_band(c: Comparison, model: int) -> list[Finding]:
-    """When the model can first be told from another run."""
+    """Return when the model can first be told from another run."""
     results, total = c.results[model], len(c.measured)
     gone = [(r.leaves_band, r.run) for r in results if r.leaves_band is not None]
     yardstick = "noise and run-to-run spread" if any(m.repeats for m in c.measured) else "noise"
@@ -67,7 +67,7 @@ def _s(points: tuple) -> str:
 
 
 def first_impact(c: Comparison, model: int) -> list[Finding]:
-    """Whether the release explains the time of the first main impact."""
+    """Return whether the release explains the time of the first main impact."""
     errors = [r.impacts[0].error for r in c.results[model] if r.impacts and math.isfinite(r.impacts[0].error)]
     if not errors:
         return []
@@ -100,7 +100,7 @@ def _tilt_allows(c: Comparison) -> float | None:
 
 
 def to_second_impact(c: Comparison, model: int) -> list[Finding]:
-    """The time from the first to the second main impact, with the block as it is and turned."""
+    """Return the time from the first to the second main impact, with the block as it is and turned."""
     sides: dict[bool, list[float]] = {False: [], True: []}
     swings = []
     for m, r in zip(c.measured, c.results[model], strict=True):
@@ -139,7 +139,7 @@ def _spread_of_swing(c: Comparison) -> float | None:
 
 
 def before_impact(c: Comparison, model: int) -> list[Finding]:
-    """Whether the first swing, before any impact, is right already."""
+    """Return whether the first swing, before any impact, is right already."""
     noisy = {axis: _in_noise(c, model, "before", axis) for axis in AXES}
     known = {axis: value for axis, value in noisy.items() if value is not None}
     if not known:

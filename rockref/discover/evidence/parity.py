@@ -88,7 +88,7 @@ def slopes(listener: Listener, impacts: Sequence[Impacts], near: np.ndarray, r: 
 
 
 def parity(found: Slopes) -> dict[str, Any]:
-    """What share of the slopes each parity explains alone, and which one they have, if any.
+    """Return what share of the slopes each parity explains alone, and which one they have, if any.
 
     A moment that brakes is odd in the velocity; one that rights the block, as its weight does, odd in the side; one
     that always pulls to the same side even. The shares do not add up to one: there are few arcs.

@@ -27,7 +27,7 @@ PRIORS = {
 
 
 def spreads(chosen: Callable[[Prior], bool]) -> dict[tuple[str, str], float]:
-    """The spreads of the numbers whose priors are chosen, by effect and name."""
+    """Return the spreads of the numbers whose priors are chosen, by effect and name."""
     return {key: prior.spread for key, prior in PRIORS.items() if chosen(prior)}
 
 
@@ -44,7 +44,7 @@ STEP, STEP_OF_RUN = 0.05, 0.1
 
 
 def current(model: Model, kind: type[Effect]) -> Effect:
-    """The effect of this kind in a model, or a new one with its shape parameters typical and its switches absent."""
+    """Return effect of this kind in a model, or a new one with its shape parameters typical and its switches absent."""
     for effect in model.effects:
         if effect.id == kind.id:
             return effect
@@ -53,13 +53,13 @@ def current(model: Model, kind: type[Effect]) -> Effect:
 
 
 def with_effect(model: Model, effect: Effect) -> Model:
-    """The model with this effect in place of the one of the same kind."""
+    """Return the model with this effect in place of the one of the same kind."""
     kept = [e for e in model.effects if e.id != effect.id]
     return replace(model, effects=catalogue.in_step_order([*kept, effect]))
 
 
 def setter(kind: type[Effect], key: str) -> Callable[[Model, float], Model]:
-    """Sets one parameter of an effect in a model; an effect that is absent and stays so is not even made.
+    """Set one parameter of an effect in a model; an effect that is absent and stays so is not even made.
 
     An effect whose size every run has of its own is made by its shapes, which stand before the sizes.
     """
@@ -76,7 +76,7 @@ def setter(kind: type[Effect], key: str) -> Callable[[Model, float], Model]:
 
 
 def parameters_of(kind: type[Effect], runs: int, frequency: float | None = None) -> tuple[Parameter, ...]:
-    """The free parameters of an effect; z = 0 is its absence, z = 1 its typical size (shapes: typical at z = 0).
+    """Return the free parameters of an effect; z = 0 is its absence, z = 1 its typical size (shapes: typical at z = 0).
 
     frequency [Hz] : known beforehand, of an effect with a phase of its own in every run.
     """
@@ -89,7 +89,7 @@ def parameters_of(kind: type[Effect], runs: int, frequency: float | None = None)
 
 
 def parameter_of(kind: type[Effect], key: str) -> Parameter:
-    """One parameter of an effect as a number that a fit can move, on its own scale."""
+    """Return one parameter of an effect as a number that a fit can move, on its own scale."""
     p = prior_of(kind, key)
     return Parameter(
         f"{kind.id}.{key}", setter(kind, key), p.centre, p.spread, p.scale == "log", None, STEP, p.deviation,
@@ -98,7 +98,8 @@ def parameter_of(kind: type[Effect], key: str) -> Parameter:
 
 
 def parts_of_run(kind: type[Effect], run: int) -> tuple[Parameter, ...]:
-    """Cosine and sine part of what a run has of its own: a size and its phase; nothing where an effect has neither."""
+    """Return cosine and sine part of what a run has of its own: a size and its phase; nothing where an effect has
+    neither."""
     if not kind.of_run:
         return ()
     size, phase = kind.of_run
@@ -122,7 +123,7 @@ def parts_of_run(kind: type[Effect], run: int) -> tuple[Parameter, ...]:
 
 
 def kind_and_key(name: str) -> tuple[type[Effect] | None, str]:
-    """The effect and the quantity that a number, by its name in a fit ("effect.quantity"), belongs to."""
+    """Return the effect and the quantity that a number, by its name in a fit ("effect.quantity"), belongs to."""
     id, _, key = name.partition(".")
     kind = (catalogue.EFFECTS | catalogue.OWN).get(id)
     return (kind, key) if kind is not None and key in kind.quantities else (None, key)
@@ -132,7 +133,7 @@ P = TypeVar("P", Parameter, PriorParameter)
 
 
 def within_base(p: P, model: Model) -> P:
-    """A parameter of an effect that keeps it within what a model's base has room for."""
+    """Return a parameter of an effect that keeps it within what a model's base has room for."""
     kind, key = kind_and_key(p.name)
     if kind is None or kind.largest_on(key, model.width, model.depth) >= p.high:
         return p
@@ -140,20 +141,20 @@ def within_base(p: P, model: Model) -> P:
 
 
 def is_inverse(name: str) -> bool:
-    """Whether a parameter, by its name in a fit ("effect.quantity"), is found as its inverse."""
+    """Return whether a parameter, by its name in a fit ("effect.quantity"), is found as its inverse."""
     kind, key = kind_and_key(name)
     return kind is not None and prior_of(kind, key).scale == "inverse"
 
 
 def value_of(parameter: Parameter, z: float) -> float:
-    """The effect's own number at z (an inverse is turned back)."""
+    """Return the effect's own number at z (an inverse is turned back)."""
     kind, key = kind_and_key(parameter.name)
     value = parameter.value(z)
     return value if kind is None else from_scale(kind, key, value)
 
 
 def kinds(points: str, leave_out: Iterable[str] = (), own: Iterable[str] = ()) -> tuple[type[Effect], ...]:
-    """The candidates beside a model with these points, of those that need no others. own : a user's, by id."""
+    """Return the candidates beside a model with these points, of those that need no others. own : a user's, by id."""
     left = set(leave_out)
     candidates = (*catalogue.IN_STEP_ORDER, *map(catalogue.find, own))
     return tuple(k for k in candidates if k.id not in left and k.only_on in ("", points))

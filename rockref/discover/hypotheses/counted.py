@@ -31,23 +31,23 @@ class Parameter:
     unit: str = ""
 
     def value(self, z: float) -> float:
-        """The number at z."""
+        """Return the number at z."""
         v = self.centre * np.exp(self.spread * z) if self.log else self.centre + self.spread * z
         return float(min(max(v, self.low), self.high))
 
     @property
     def most(self) -> float:
-        """z at which the upper bound is reached; further up nothing changes, and a derivative sees nothing."""
+        """Return z at which the upper bound is reached; further up nothing changes, and a derivative sees nothing."""
         ratio = self.high / self.centre if self.log else self.high - self.centre
         return float((np.log(ratio) if self.log else ratio) / self.spread)
 
     @property
     def least(self) -> float:
-        """z at which the lower bound is reached; further down nothing changes."""
+        """Return z at which the lower bound is reached; further down nothing changes."""
         if self.log:
             return float(np.log(self.low / self.centre) / self.spread) if self.low > 0 else -np.inf
         return (self.low - self.centre) / self.spread
 
     def step_from(self, z: float) -> float:
-        """The step of the finite difference at z: downwards where the upper bound leaves no room above."""
+        """Return the step of the finite difference at z: downwards where the upper bound leaves no room above."""
         return self.step if z + self.step <= self.most else -self.step

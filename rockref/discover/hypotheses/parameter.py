@@ -43,13 +43,13 @@ class Parameter:
 
     @property
     def effect(self) -> str:
-        """The id of the effect that the number belongs to; empty for the law's own."""
+        """Return the id of the effect that the number belongs to; empty for the law's own."""
         head, dot, _ = self.name.partition(".")
         return head if dot else ""
 
     @property
     def kind(self) -> str:
-        """The name without the run: numbers of one kind stand in as many runs."""
+        """Return the name without the run: numbers of one kind stand in as many runs."""
         return self.name.partition("[")[0]
 
     def value(self, z: float) -> float:
@@ -80,12 +80,12 @@ class Parameter:
 
     @cached_property
     def most(self) -> float:
-        """z above which nothing changes."""
+        """Return z above which nothing changes."""
         return FARTHEST if "uniform" in self.scale else self.z_of(self.high) if np.isfinite(self.high) else np.inf
 
     @cached_property
     def least(self) -> float:
-        """z below which nothing changes."""
+        """Return z below which nothing changes."""
         if "uniform" in self.scale:
             return -FARTHEST
         if not np.isfinite(self.low) or (self.scale == "log" and self.low <= 0):

@@ -9,7 +9,8 @@ from rockref.engines.on_disk import on_disk
 
 @on_disk(nogil=True)
 def attitudes(Lambda_0, W, dt):
-    """Rotation at every sample, (N, 3, 3), by integrating the rates W (N, 3) [rad/s] from Lambda_0 at the first one.
+    """Return rotation at every sample, (N, 3, 3), by integrating the rates W (N, 3) [rad/s] from Lambda_0 at the first
+    one.
 
     Each interval turns by the mean of its end rates and the commutator term of fourth order.
     """

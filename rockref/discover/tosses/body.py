@@ -24,7 +24,7 @@ DIP = 3e-3
 
 
 def nominal_model(tosses: Tosses) -> Model:
-    """The plain law with stated values: a uniform box with a contact point at every corner.
+    """Return the plain law with stated values: a uniform box with a contact point at every corner.
 
     A restitution e of one corner fixes the damping ratio, beta = -ln e / sqrt(pi^2 + ln^2 e) (linear spring and
     damper); the stiffness follows from the dip, K = m_eff (1 m/s / dip)^2 with the effective mass of a corner of the
@@ -45,7 +45,7 @@ def nominal_model(tosses: Tosses) -> Model:
 
 
 def corners(width: float, depth: float, height: float, K: float, C: float, mu: float) -> ContactPoints:
-    """Eight equal contact points at the corners of a box about its centre."""
+    """Return eight equal contact points at the corners of a box about its centre."""
     signs = [(x, y, z) for z in (-1, 1) for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
     P = np.array(signs) * np.array([width, depth, height]) / 2
     same = np.ones(8)
@@ -56,7 +56,7 @@ def corners(width: float, depth: float, height: float, K: float, C: float, mu: f
 
 
 def effect_of(model: Model, kind: type[Effect]):
-    """The effect of this kind in a model, or one that is absent."""
+    """Return the effect of this kind in a model, or one that is absent."""
     for effect in model.effects:
         if type(effect) is kind:
             return effect
@@ -79,29 +79,29 @@ class Frames:
 
     @property
     def board_to_plate(self) -> np.ndarray:
-        """(B, 1, 3, 3) turns."""
+        """Return (B, 1, 3, 3) turns."""
         return (self.plate.T @ self.heading)[:, None]
 
     @property
     def lift(self) -> np.ndarray:
-        """Origin of the plate from that of the board, plate axes (3,) [m]."""
+        """Return origin of the plate from that of the board, plate axes (3,) [m]."""
         return self.plate.T @ np.array([0.0, 0.0, self.height])
 
     def to_body(self, x: np.ndarray, Lambda: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Tracked poses (B, F, ...) to those of the centre of mass over the plate."""
+        """Turn tracked poses (B, F, ...) into those of the centre of mass over the plate."""
         A = self.board_to_plate
         Lambda = A @ Lambda @ self.turn
         return (A @ x[..., None])[..., 0] - self.lift + Lambda @ self.centre, Lambda
 
     def to_tracked(self, x: np.ndarray, Lambda: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The way back."""
+        """Return the way back."""
         A = self.board_to_plate.swapaxes(-1, -2)
         lifted = x - Lambda @ self.centre + self.lift
         return (A @ lifted[..., None])[..., 0], A @ Lambda @ self.turn.T
 
 
 def throw_frame(poses: Poses) -> np.ndarray:
-    """(B, 3, 3) turns about e_z into the frame in which the block is thrown toward -x."""
+    """Return (B, 3, 3) turns about e_z into the frame in which the block is thrown toward -x."""
     last = np.minimum(THROW_FRAMES, poses.frames) - 1
     way = poses.x[np.arange(len(last)), last] - poses.x[:, 0]
     size = np.hypot(way[:, 0], way[:, 1])
@@ -112,7 +112,7 @@ def throw_frame(poses: Poses) -> np.ndarray:
 
 
 def frames_of(model: Model, heading: np.ndarray) -> Frames:
-    """The frames that a model's tracking effects and eccentricity make."""
+    """Return the frames that a model's tracking effects and eccentricity make."""
     tag, plate, mass = effect_of(model, TagFrame), effect_of(model, PlatePose), effect_of(model, MassEccentricity)
     slope = np.hypot(plate.slope_x, plate.slope_y)
     # The turn that takes e_z to the normal (-slope_x, -slope_y, 1), about e_z x normal.
@@ -128,5 +128,5 @@ def frames_of(model: Model, heading: np.ndarray) -> Frames:
 
 
 def in_the_step(model: Model) -> Model:
-    """The model without the effects of the tracking, which change no force."""
+    """Return the model without the effects of the tracking, which change no force."""
     return replace(model, effects=tuple(e for e in model.effects if e.question != "tracking"))

@@ -40,7 +40,7 @@ class Row:
     sliding: dict[str, dict[str, Any]]
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers."""
+        """Return plain numbers."""
         return {"model": self.model, "use": self.use, "start": self.start} | self.errors.summary() | {
             "stretches": self.stretches, "sliding": self.sliding,
         }  # fmt: skip
@@ -55,7 +55,7 @@ class TossComparison:
     measured: dict[str, Any]
 
     def to_dict(self) -> dict[str, Any]:
-        """What `rockref compare --json` prints for tosses."""
+        """Return what `rockref compare --json` prints for tosses."""
         t = self.tosses
         return {
             "experiment": t.name,
@@ -70,7 +70,7 @@ class TossComparison:
 
 
 def compare(tosses: Tosses, models: list[Model] | None = None, names: list[str] | None = None) -> TossComparison:
-    """Errors of models (default: the plain law with stated values) from both kinds of start, over all frames.
+    """Return errors of models (default: the plain law with stated values) from both kinds of start, over all frames.
 
     Raises
     ------
@@ -94,7 +94,7 @@ def compare(tosses: Tosses, models: list[Model] | None = None, names: list[str] 
 
 
 def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start: str) -> Row:
-    """The errors of one model."""
+    """Return the errors of one model."""
     found = predict(model, poses, start)
     e = errors(found, poses, width)
     # Where a toss is in its course is said of the measurement, by the same drawn corners for every model.
@@ -112,12 +112,12 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
 
 
 def nominal_corners(model: Model) -> np.ndarray:
-    """The contact points of the model without its effects, (n, 3) from the middle [m]."""
+    """Return the contact points of the model without its effects, (n, 3) from the middle [m]."""
     return np.array(plain_law(model).body()[1].P)
 
 
 def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str, Any]:
-    """Flight arcs, flat sliding; first impacts with the stated and with the measured centre of mass."""
+    """Return flight arcs, flat sliding; first impacts with the stated and with the measured centre of mass."""
     poses = side_by_side(chosen, tosses.rate)
     frames = frames_of(plain_law(model), throw_frame(poses))
     x, Lambda = frames.to_body(poses.x, poses.Lambda)
@@ -158,5 +158,5 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
 
 
 def plain_law(model: Model) -> Model:
-    """The model without its effects."""
+    """Return the model without its effects."""
     return model.replace(effects=())

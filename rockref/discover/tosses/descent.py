@@ -45,7 +45,7 @@ class Slopes:
     tosses: int
 
     def normal_equations(self, z: np.ndarray, steep: float) -> tuple[np.ndarray, np.ndarray]:
-        """Matrix and gradient of the reweighted squares, frames steeper than `steep` counting less."""
+        """Return matrix and gradient of the reweighted squares, frames steeper than `steep` counting less."""
         G = self.J.shape[-1]
         size = np.sqrt(np.sum(self.J**2, axis=(1, 2, 3)) / G)
         by = self.weight / (1 + (size[:, None] / steep) ** 2) / self.tosses
@@ -57,13 +57,13 @@ class Slopes:
 
 
 def summed(A: np.ndarray, B: np.ndarray) -> np.ndarray:
-    """A^T B of A (N, G) and B (N, K), (G, K): the same last bits on any number of threads."""
+    """Return A^T B of A (N, G) and B (N, K), (G, K): the same last bits on any number of threads."""
     a, b = (np.pad(m, ((0, -len(m) % AT_ONCE), (0, 0))).reshape(-1, AT_ONCE, m.shape[1]) for m in (A, B))
     return (a.swapaxes(1, 2) @ b).sum(axis=0)
 
 
 def limits(parameters: Sequence[Parameter]) -> tuple[np.ndarray, np.ndarray]:
-    """Lowest and highest z of each parameter: twice its prior, and what its quantity can be."""
+    """Return lowest and highest z of each parameter: twice its prior, and what its quantity can be."""
     far = np.array([2 * p.prior for p in parameters])
     low, high = -far.copy(), far.copy()
     for i, p in enumerate(parameters):
@@ -76,7 +76,7 @@ def limits(parameters: Sequence[Parameter]) -> tuple[np.ndarray, np.ndarray]:
 def derivatives(
     residual: Callable[[np.ndarray], np.ndarray], z: np.ndarray, r: np.ndarray, high: np.ndarray
 ) -> np.ndarray:
-    """(..., G) by differences, toward the inside at a limit."""
+    """Return (..., G) by differences, toward the inside at a limit."""
     columns = []
     for i in range(len(z)):
         moved = z.copy()
@@ -87,7 +87,7 @@ def derivatives(
 
 
 def step_of(H: np.ndarray, g: np.ndarray, damping: float, z: np.ndarray, low: np.ndarray, high: np.ndarray):
-    """A damped step (G,) that leaves a parameter at its limit alone if it would go beyond."""
+    """Return a damped step (G,) that leaves a parameter at its limit alone if it would go beyond."""
     free = ~(((z <= low) & (g > 0)) | ((z >= high) & (g < 0)))
     step = np.zeros(len(z))
     if free.any():
@@ -100,7 +100,7 @@ def step_of(H: np.ndarray, g: np.ndarray, damping: float, z: np.ndarray, low: np
 def best_way(
     slopes: Slopes, z: np.ndarray, value: Callable[[np.ndarray], float], now: float, low: np.ndarray, high: np.ndarray
 ) -> tuple[np.ndarray, float]:
-    """The best of all tried steps from z, made longer while that helps; z itself where none helps."""
+    """Return the best of all tried steps from z, made longer while that helps; z itself where none helps."""
     best, least = z, now
     for steep in STEEP:
         H, g = slopes.normal_equations(z, steep)
@@ -123,7 +123,7 @@ def best_way(
 def along_one(
     z: np.ndarray, value: Callable[[np.ndarray], float], now: float, low: np.ndarray, high: np.ndarray
 ) -> tuple[np.ndarray, float]:
-    """The best change of one parameter alone: the way out of a kink, where slopes of all together mislead."""
+    """Return the best change of one parameter alone: the way out of a kink, where slopes of all together mislead."""
     best, least = z, now
     for i in range(len(z)):
         for d in (-PROBE, PROBE):
@@ -136,7 +136,7 @@ def along_one(
 
 
 def guarded(value: Callable[[np.ndarray], float]) -> Callable[[np.ndarray], float]:
-    """`value`, infinite where the model cannot be simulated."""
+    """Return `value`, infinite where the model cannot be simulated."""
 
     def safe(z: np.ndarray) -> float:
         try:

@@ -54,11 +54,11 @@ class Step:
 
     @property
     def model(self) -> Model:
-        """The fitted model."""
+        """Return the fitted model."""
         return self.fit.model(self.z)
 
     def values(self) -> dict[str, dict[str, Any]]:
-        """Every number of the fit with its unit."""
+        """Return every number of the fit with its unit."""
         return values(self.fit.parameters, self.z)
 
 
@@ -82,12 +82,12 @@ class TossDiagnosis:
 
     @property
     def model(self) -> Model:
-        """The model of the last rung that the held-out tosses do not speak against."""
+        """Return the model of the last rung that the held-out tosses do not speak against."""
         good = [s for s in self.steps if s.verdict != "none"]
         return (good or self.steps)[-1].model
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers and words."""
+        """Return plain numbers and words."""
         return {
             "experiment": self.tosses.name,
             "kind": "toss",
@@ -108,7 +108,7 @@ class TossDiagnosis:
 
 
 def rung(s: Step) -> dict[str, Any]:
-    """One step as plain numbers."""
+    """Return one step as plain numbers."""
     return {
         "added": s.effect or "the law, its contact fitted",
         "verdict": s.verdict,
@@ -173,7 +173,7 @@ def diagnose(
 
 
 def rungs(stairs: list[Stair], law: Stair, say: Callable[[str], None]) -> list[Step]:
-    """The way down, seen from below: from the law to the model of which every effect is needed."""
+    """Return the way down, seen from below: from the law to the model of which every effect is needed."""
     costs = stairs[0].costs
     low = min((stairs[-1], law), key=lambda s: left_over(s.fit, s.z))
     steps = [Step("", low.fit, low.z)]
@@ -188,12 +188,12 @@ def rungs(stairs: list[Stair], law: Stair, say: Callable[[str], None]) -> list[S
 
 
 def left_over(fit: TossFit, z: np.ndarray) -> float:
-    """The error of a fit's own tosses, position [%] plus rotation [deg]."""
+    """Return the error of a fit's own tosses, position [%] plus rotation [deg]."""
     return total(errors(predict(fit.model(z), fit.poses), fit.poses, fit.width))
 
 
 def at_the_floor(last: Step, say: Callable[[str], None]) -> bool:
-    """Whether the fit tosses are predicted as well as their uncertain starts allow: nothing is left to learn."""
+    """Return whether the fit tosses are predicted as well as their uncertain starts allow: nothing is left to learn."""
     floor = floor_of(last.model, last.fit.poses, last.fit.width)
     left = left_over(last.fit, last.z)
     low = floor["position_percent"] + floor["rotation_deg"]
@@ -205,7 +205,7 @@ def at_the_floor(last: Step, say: Callable[[str], None]) -> bool:
 def conclude(
     tosses: Tosses, base: Model, steps: list[Step], poses: Poses, held: Poses, found: dict[str, Any], started: float
 ) -> TossDiagnosis:
-    """The held-out tosses, rung by rung, and the verdict."""
+    """Return the held-out tosses, rung by rung, and the verdict."""
     nominal = {start: errors(predict(base, held, start), held, tosses.width) for start in ("flight", "raw")}
     for i, step in enumerate(steps):
         step.holdout = {
@@ -234,8 +234,8 @@ def conclude(
 
 
 def word(step: Step) -> str:
-    """The verdict of one rung: named, class (the others could stand for it), indicated (held-out tosses do not tell),
-    none."""
+    """Return the verdict of one rung: named, class (the others could stand for it), indicated (held-out tosses do not
+    tell), none."""
     if not step.effect:
         return ""
     if step.proof["high"] < 0:
@@ -246,7 +246,7 @@ def word(step: Step) -> str:
 
 
 def words(steps: list[Step], proven: tuple[str, ...]) -> tuple[str, str]:
-    """The verdict and its sentence."""
+    """Return the verdict and its sentence."""
     if not proven:
         return "none", "No effect of the catalogue makes the held-out tosses better."
     named = " and then ".join(proven)
@@ -261,7 +261,7 @@ def words(steps: list[Step], proven: tuple[str, ...]) -> tuple[str, str]:
 
 
 def agreement(step: Step, found: dict[str, Any], base: Model) -> list[dict[str, Any]]:
-    """What the contact model's fit and the measurements without a contact model say of the same quantity."""
+    """Return what the contact model's fit and the measurements without a contact model say of the same quantity."""
     values = step.values()
     arcs = found.get("flight_arcs", {}).get("values", {})
     rows = []
@@ -300,5 +300,5 @@ def _row(what: str, unit: str, contact: float, other: float, se: float, how: str
 
 
 def sentences() -> dict[str, str]:
-    """The physics of every candidate in a sentence."""
+    """Return the physics of every candidate in a sentence."""
     return {id: catalogue.find(id).sentence for id in CANDIDATES}

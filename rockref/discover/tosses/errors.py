@@ -29,7 +29,8 @@ class Errors:
     rotation_at: np.ndarray
 
     def summary(self) -> dict[str, Any]:
-        """Means, standard deviations, medians and quartiles; position in percent of the width, rotation in degrees."""
+        """Return means, standard deviations, medians and quartiles; position in percent of the width, rotation in
+        degrees."""
         return {
             "position_percent": _summary(100 * self.position),
             "rotation_deg": _summary(self.rotation),
@@ -46,13 +47,13 @@ def _summary(a: np.ndarray) -> dict[str, float]:
 
 
 def angle(A: np.ndarray, B: np.ndarray) -> np.ndarray:
-    """Geodesic angle between rotations, (..., 3, 3) -> (...) [rad], without loss near zero."""
+    """Return geodesic angle between rotations, (..., 3, 3) -> (...) [rad], without loss near zero."""
     # |A - B|_F = 2 sqrt(2) sin(angle/2)
     return 2 * np.arcsin(np.minimum(np.sqrt(np.sum((A - B) ** 2, axis=(-1, -2)) / 8), 1.0))
 
 
 def errors(prediction: Prediction, poses: Poses, width: float) -> Errors:
-    """The errors of predicted tosses; width [m] is the unit of the position."""
+    """Return the errors of predicted tosses; width [m] is the unit of the position."""
     position = np.linalg.norm(prediction.x - poses.x, axis=-1) / width
     rotation = np.degrees(angle(prediction.Lambda, poses.Lambda))
     position = np.minimum(np.where(np.isfinite(position), position, LOST[0]), LOST[0] * 10)

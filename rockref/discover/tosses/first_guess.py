@@ -19,7 +19,8 @@ ALONG = {"rounded_corners": ("K_N", "K_T")}
 
 
 def first_guesses(found: dict[str, Any], base: Model) -> dict[str, float]:
-    """Value by parameter's name, from `rockref.discover.tosses.compare.measured`; empty where nothing was measured."""
+    """Return value by parameter's name, from `rockref.discover.tosses.compare.measured`; empty where nothing was
+    measured."""
     guesses: dict[str, float] = {}
     arcs = found.get("flight_arcs", {}).get("values", {})
     part = found.get("measured_centre")
@@ -52,7 +53,7 @@ def first_guesses(found: dict[str, Any], base: Model) -> dict[str, float]:
 def guessed(
     z: np.ndarray, parameters: tuple[Parameter, ...], effect: str, guesses: dict[str, float]
 ) -> np.ndarray | None:
-    """z with the guesses for an effect and what goes along with it; None where there are none."""
+    """Return z with the guesses for an effect and what goes along with it; None where there are none."""
     own = {k for k in guesses if k.startswith(effect + ".")}
     if not own:
         return None

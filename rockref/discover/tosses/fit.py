@@ -33,7 +33,7 @@ BLUR = 1.0
 
 
 def cut(poses: Poses, frames: int) -> Poses:
-    """The first frames of every toss."""
+    """Return the first frames of every toss."""
     n = min(frames, len(poses.t))
     return poses._replace(
         t=poses.t[:n], x=poses.x[:, :n], Lambda=poses.Lambda[:, :n], frames=np.minimum(poses.frames, n)
@@ -56,16 +56,16 @@ class TossFit:
         self.prior = np.array([p.prior for p in self.parameters])
 
     def model(self, z: np.ndarray) -> Model:
-        """The model at z."""
+        """Return the model at z."""
         return apply(self.base, self.parameters, z)
 
     def residual(self, z: np.ndarray, poses: Poses, moved: np.ndarray | None = None) -> np.ndarray:
-        """(B, F, 6): position in percent of the width and turn in degrees, zero behind the end of a toss."""
+        """Return (B, F, 6): position in percent of the width and turn in degrees, zero behind the end of a toss."""
         found = predict(self.model(z), poses, self.start, STEPS, moved)
         return residual(found, poses, self.width)
 
     def run(self, z: np.ndarray, iterations: int = 8, horizons: tuple[int, ...] = HORIZONS) -> tuple[np.ndarray, float]:
-        """The best z and its objective: mean over tosses and frames of position [%] plus rotation [deg], and prior.
+        """Return best z and its objective: mean over tosses and frames of position [%] plus rotation [deg], and prior.
 
         Frames are weighted by the blur of the start at the z with which a horizon begins.
         """
@@ -90,22 +90,22 @@ class TossFit:
     def descend(
         self, z: np.ndarray, poses: Poses, weight: np.ndarray, slopes: descent.Slopes
     ) -> tuple[np.ndarray, float]:
-        """One step: the best of those that the slopes offer, and its objective."""
+        """Return one step: the best of those that the slopes offer, and its objective."""
         value = descent.guarded(lambda trial: self.objective(trial, self.residual(trial, poses), weight))
         return descent.best_way(slopes, z, value, value(z), *descent.limits(self.parameters))
 
     def objective(self, z: np.ndarray, r: np.ndarray, weight: np.ndarray) -> float:
-        """What is minimised; the prior counts as one toss's frame of noise would."""
+        """Return what the fit minimises; the prior counts as one toss's frame of noise would."""
         size = np.sqrt(_sizes(r) ** 2 + FLOOR**2)
         size = CEILING * (1 - np.exp(-size / CEILING))
         return float(np.mean(np.sum(weight[..., None] * size, axis=(1, 2)))) + self.penalty(z, len(r))
 
     def penalty(self, z: np.ndarray, tosses: int) -> float:
-        """The prior's part."""
+        """Return the prior's part."""
         return float(np.sum((z / self.prior) ** 2)) / (2 * tosses)
 
     def slopes(self, z: np.ndarray, poses: Poses, weight: np.ndarray) -> descent.Slopes:
-        """Derivatives at z; position and turn of a frame count by the inverse of their size."""
+        """Return derivatives at z; position and turn of a frame count by the inverse of their size."""
         r = self.residual(z, poses)
         high = descent.limits(self.parameters)[1]
         J = descent.derivatives(lambda moved: self.residual(moved, poses), z, r, high)
@@ -116,14 +116,15 @@ class TossFit:
         return descent.Slopes(r[seen].reshape(-1, 2, 3), J, by[seen], self.prior, len(r))
 
     def frame_weights(self, z: np.ndarray, poses: Poses) -> np.ndarray:
-        """(B, F) weights that sum to one a toss if nothing is blurred: less where the start's uncertainty decides."""
+        """Return (B, F) weights that sum to one a toss if nothing is blurred: less where the start's uncertainty
+        decides."""
         blur = start_blur(self.model(z), poses, self.width, self.start)
         even = poses.measured / poses.frames[:, None]
         return even / np.sqrt(1 + (blur / BLUR) ** 2)
 
 
 def residual(found: Prediction, poses: Poses, width: float) -> np.ndarray:
-    """(B, F, 6): position in percent of the width, turn in degrees; a lost prediction counts as far away."""
+    """Return (B, F, 6): position in percent of the width, turn in degrees; a lost prediction counts as far away."""
     dx = 100 * (found.x - poses.x) / width
     turn = np.degrees(logarithm(poses.Lambda.swapaxes(-1, -2) @ np.nan_to_num(found.Lambda)))
     r = np.concatenate([dx, turn], axis=-1) * poses.measured[..., None]
@@ -131,12 +132,13 @@ def residual(found: Prediction, poses: Poses, width: float) -> np.ndarray:
 
 
 def _sizes(r: np.ndarray) -> np.ndarray:
-    """(B, F, 2) lengths of the position and the turn parts."""
+    """Return (B, F, 2) lengths of the position and the turn parts."""
     return np.stack([np.linalg.norm(r[..., :3], axis=-1), np.linalg.norm(r[..., 3:], axis=-1)], axis=-1)
 
 
 def start_blur(model: Model, poses: Poses, width: float, start: str = "flight", draws: int = 3) -> np.ndarray:
-    """(B, F) how far predictions from starts drawn within their uncertainty lie apart: position [%] plus turn [deg].
+    """Return (B, F) how far predictions from starts drawn within their uncertainty lie apart: position [%] plus turn
+    [deg].
 
     The same draws in every call: antithetic pairs of a fixed sequence.
     """
@@ -153,6 +155,6 @@ def start_blur(model: Model, poses: Poses, width: float, start: str = "flight", 
 
 
 def drawn_starts(found: Prediction, rng: np.random.Generator) -> np.ndarray:
-    """(B, 12) one draw of every start's error: the flight's covariance and the systematic part."""
+    """Return (B, 12) one draw of every start's error: the flight's covariance and the systematic part."""
     C = found.starts.covariance + np.diag(SYSTEMATIC**2)
     return np.einsum("bij,bj->bi", np.linalg.cholesky(C), rng.normal(size=C.shape[:2]))

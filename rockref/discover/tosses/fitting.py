@@ -42,17 +42,17 @@ class FittedTosses:
 
     @property
     def model(self) -> Model:
-        """The model, with the word of where it came from."""
+        """Return the model, with the word of where it came from."""
         words = {"source": "fitted to tosses", "effects": ", ".join(self.fit.effects) or "none"}
         return self.fit.model(self.z).replace(origin=words)
 
     @property
     def passed(self) -> bool:
-        """Whether every gate was passed."""
+        """Return whether every gate was passed."""
         return all(gate["passed"] for gate in self.gates)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers."""
+        """Return plain numbers."""
         return {
             "kind": "toss", "effects": list(self.fit.effects), "objective": self.objective,
             "parameters": values(self.fit.parameters, self.z), "gates": self.gates,
@@ -71,7 +71,7 @@ class TossAddition:
     proof: dict[str, Any]
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers."""
+        """Return plain numbers."""
         rows = [
             {"use": use, "start": start, "before": a.summary(), "after": b.summary()}
             for (use, start), (a, b) in self.errors.items()
@@ -82,7 +82,7 @@ class TossAddition:
 
 
 def values(parameters: Sequence[Parameter], z: np.ndarray) -> dict[str, dict[str, Any]]:
-    """Every number of a fit with its unit."""
+    """Return every number of a fit with its unit."""
     return {p.name: {"value": p.value(float(zi)), "unit": p.unit} for p, zi in zip(parameters, z, strict=True)}
 
 
@@ -146,7 +146,7 @@ def add_to_tosses(
 
 
 def check_served(id: str) -> None:
-    """Raises InputError (E-EFFECT) for an effect that does not exist or is not asked of tosses."""
+    """Raise InputError (E-EFFECT) for an effect that does not exist or is not asked of tosses."""
     catalogue.named(id)
     if id not in CANDIDATES:
         raise InputError(
@@ -155,7 +155,7 @@ def check_served(id: str) -> None:
 
 
 def unfitted(model: Model) -> tuple[Model, dict[str, Any]]:
-    """The model without the effects that a fit of tosses moves, and these effects by id."""
+    """Return the model without the effects that a fit of tosses moves, and these effects by id."""
     own = {e.id: e for e in model.effects if e.id in CANDIDATES}
     if model.custom_points is None:
         raise InputError(
@@ -165,7 +165,7 @@ def unfitted(model: Model) -> tuple[Model, dict[str, Any]]:
 
 
 def at_values(parameters: Sequence[Parameter], own: dict[str, Any]) -> np.ndarray:
-    """z at which the effects have the values that they have in a model."""
+    """Return z at which the effects have the values that they have in a model."""
     z = np.zeros(len(parameters))
     for i, p in enumerate(parameters):
         id, _, key = p.name.partition(".")
@@ -175,7 +175,8 @@ def at_values(parameters: Sequence[Parameter], own: dict[str, Any]) -> np.ndarra
 
 
 def beginnings(z, parameters, names, own, guesses) -> list[np.ndarray]:
-    """Where a fit begins: at the model's values, and at what was measured of the effects that it does not have."""
+    """Return where a fit begins: at the model's values, and at what was measured of the effects that it does not
+    have."""
     other = z
     for id in names:
         if id not in own:
@@ -185,5 +186,5 @@ def beginnings(z, parameters, names, own, guesses) -> list[np.ndarray]:
 
 
 def by_start(model: Model, poses: Poses, width: float) -> dict[str, Errors]:
-    """The errors from both kinds of start."""
+    """Return the errors from both kinds of start."""
     return {start: errors(predict(model, poses, start), poses, width) for start in STARTS}

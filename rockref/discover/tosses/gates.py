@@ -18,7 +18,7 @@ RESAMPLES, INTERVAL = 10000, 0.90
 
 
 def total(e: Errors) -> float:
-    """Position [%] plus rotation [deg], mean over the tosses."""
+    """Return position [%] plus rotation [deg], mean over the tosses."""
     return float(np.mean(100 * e.position + e.rotation))
 
 
@@ -40,7 +40,7 @@ def paired(before: Errors, after: Errors, comparisons: int = 1) -> dict[str, Any
 
 
 def floor_of(model: Model, poses: Poses, width: float, draws: int = 4) -> dict[str, float]:
-    """The error that a true model would have: predictions from drawn starts against that from the start itself."""
+    """Return error that a true model would have: predictions from drawn starts against that from the start itself."""
     first = predict(model, poses)
     as_measured = poses._replace(x=first.x, Lambda=np.nan_to_num(first.Lambda))
     rng = np.random.default_rng(5)
@@ -58,7 +58,7 @@ def floor_of(model: Model, poses: Poses, width: float, draws: int = 4) -> dict[s
 
 
 def step_small(model: Model, poses: Poses, width: float) -> dict[str, Any]:
-    """The gate: whether twice as many steps change the held-out errors."""
+    """Return the gate: whether twice as many steps change the held-out errors."""
     usual = errors(predict(model, poses), poses, width)
     fine = errors(predict(model, poses, steps=2 * STEPS_A_FRAME), poses, width)
     # Decided: below one, percent and degrees together, the start's uncertainty is all that an error tells.
@@ -68,7 +68,7 @@ def step_small(model: Model, poses: Poses, width: float) -> dict[str, Any]:
 
 
 def off_bounds(fit: TossFit, z: np.ndarray) -> dict[str, Any]:
-    """The gate: whether every number ended inside what its prior and its quantity allow; value: how many did not.
+    """Return gate: whether every number ended inside what its prior and its quantity allow; value: how many did not.
 
     A number that ends where its effect is absent is no bound that was reached.
     """
@@ -79,7 +79,7 @@ def off_bounds(fit: TossFit, z: np.ndarray) -> dict[str, Any]:
 
 
 def uses_agree(fitted: Errors, held: Errors) -> dict[str, Any]:
-    """The gate: whether held-out tosses are predicted as well as those of the fit, in standard errors of the means.
+    """Return gate: whether held-out tosses are predicted as well as those of the fit, in standard errors of the means.
 
     A fit with more numbers than its tosses bear would be better on its own tosses alone.
     """

@@ -19,7 +19,8 @@ GAIN = 0.02
 
 
 def energies(x: np.ndarray, Lambda: np.ndarray, dt: float, model: Model) -> np.ndarray:
-    """(B, F) kinetic and potential energy [J] half a frame before every frame; the first one is that of the second.
+    """Return (B, F) kinetic and potential energy [J] half a frame before every frame; the first one is that of the
+    second.
 
     x (B, F, 3) of the centre of mass [m], Lambda (B, F, 3, 3), over the plate; dt between frames [s]. The difference of
     two frames is the velocity in their middle to second order; so is the mean of their heights.
@@ -34,7 +35,8 @@ def energies(x: np.ndarray, Lambda: np.ndarray, dt: float, model: Model) -> np.n
 
 
 def losses(E: np.ndarray, found: np.ndarray) -> np.ndarray:
-    """(B, number of stretches) energy lost in each stretch [J], NaN where a toss has none; found (B, F) their numbers.
+    """Return (B, number of stretches) energy lost in each stretch [J], NaN where a toss has none; found (B, F) their
+    numbers.
 
     The state before a stretch is that of the interval that ends before its first frame: a contact that begins between
     two frames is not in it.
@@ -50,7 +52,7 @@ def losses(E: np.ndarray, found: np.ndarray) -> np.ndarray:
 
 
 def ledger(model: Model, predicted: Prediction, poses: Poses, found: np.ndarray) -> dict[str, dict[str, float]]:
-    """Per stretch the mean share [%] of the energy that a toss loses altogether, measured and in the model.
+    """Return per stretch the mean share [%] of the energy that a toss loses altogether, measured and in the model.
 
     Both with the model's body and frames, and both in parts of what the measured toss loses. gains : tosses whose
     measured energy rises over the stretch by more than `GAIN` of it.

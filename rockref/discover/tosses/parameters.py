@@ -50,7 +50,7 @@ PRIOR = 3.0
 
 
 def set_law(key: str):
-    """Sets one number of all contact points; friction sets both coefficients."""
+    """Set one number of all contact points; friction sets both coefficients."""
 
     def set_value(model: Model, value: float) -> Model:
         q = model.custom_points
@@ -64,7 +64,7 @@ def set_law(key: str):
 
 
 def set_effect(kind: type[Effect], key: str):
-    """Sets one parameter of an effect; its shapes are those of `KEPT`."""
+    """Set one parameter of an effect; its shapes are those of `KEPT`."""
 
     def set_value(model: Model, value: float) -> Model:
         here = next((e for e in model.effects if e.id == kind.id), None)
@@ -76,7 +76,7 @@ def set_effect(kind: type[Effect], key: str):
 
 
 def law_parameters(model: Model) -> tuple[Parameter, ...]:
-    """The five numbers of the contact, about those of the model."""
+    """Return the five numbers of the contact, about those of the model."""
     q = model.custom_points
     assert q is not None
     return tuple(
@@ -89,7 +89,7 @@ def law_parameters(model: Model) -> tuple[Parameter, ...]:
 
 
 def effect_parameters(id: str) -> tuple[Parameter, ...]:
-    """The parameters of a candidate; z = 0 is its absence."""
+    """Return the parameters of a candidate; z = 0 is its absence."""
     kind = catalogue.find(id)
     found = []
     for key, spread in CANDIDATES[id].items():
@@ -105,12 +105,12 @@ def effect_parameters(id: str) -> tuple[Parameter, ...]:
 
 
 def parameters(model: Model, effects: tuple[str, ...]) -> tuple[Parameter, ...]:
-    """The law's numbers and those of the effects, in this order."""
+    """Return the law's numbers and those of the effects, in this order."""
     return law_parameters(model) + tuple(p for id in effects for p in effect_parameters(id))
 
 
 def apply(model: Model, found: tuple[Parameter, ...], z: np.ndarray) -> Model:
-    """The model with every parameter at its z."""
+    """Return the model with every parameter at its z."""
     for p, zi in zip(found, z, strict=True):
         model = p.set(model, p.value(float(zi)))
     return model

@@ -34,7 +34,7 @@ class Prediction:
 
 
 def gravity_of(model: Model, g: float) -> np.ndarray:
-    """Gravity in plate axes (3,) [m/s2], tilted as `plate_tilt` says."""
+    """Return gravity in plate axes (3,) [m/s2], tilted as `plate_tilt` says."""
     for effect in model.effects:
         if isinstance(effect, PlateTilt):
             return g * np.array([effect.x, effect.y, (effect.x**2 + effect.y**2) / 2 - 1])
@@ -42,7 +42,7 @@ def gravity_of(model: Model, g: float) -> np.ndarray:
 
 
 def starts_of(model: Model, poses: Poses, frames: Frames, kind: str = "flight") -> Starts:
-    """The states of the centre of mass at the first frame, plate axes: from the flight, or the raw first frame."""
+    """Return states of the centre of mass at the first frame, plate axes: from the flight, or the raw first frame."""
     block, _ = in_the_step(model).body()
     x, Lambda = frames.to_body(poses.x[:, : MOST + 1], poses.Lambda[:, : MOST + 1])
     own = poses._replace(x=x, Lambda=Lambda, t=poses.t[: MOST + 1], frames=np.minimum(poses.frames, MOST + 1))
@@ -54,7 +54,8 @@ def starts_of(model: Model, poses: Poses, frames: Frames, kind: str = "flight") 
 
 
 def flying(model: Model, poses: Poses) -> np.ndarray:
-    """How many frames every toss flies, by the corners of the plain body: effects must not choose what is read."""
+    """Return how many frames every toss flies, by the corners of the plain body: effects must not choose what is
+    read."""
     return flight_frames(poses, np.asarray(model.replace(effects=()).body()[1].P), CLEARANCE)
 
 
@@ -84,7 +85,7 @@ def predict(
 
 
 def simulated(model: Model, starts: Starts, poses: Poses, steps: int, engine: str) -> tuple[np.ndarray, np.ndarray]:
-    """Poses of the centre of mass over the plate at every frame."""
+    """Return poses of the centre of mass over the plate at every frame."""
     F = len(poses.t)
     rate = 1 / poses.t[1]
     n = in_the_step(model).body()[1].n

@@ -19,7 +19,8 @@ FLAT, STILL = 3.0e-3, 0.015
 
 
 def stretch_of(poses: Poses, P: np.ndarray) -> np.ndarray:
-    """(B, F) number of the stretch of every frame, -1 behind the end; poses over the plate, P (n, 3) body points [m].
+    """Return (B, F) number of the stretch of every frame, -1 behind the end; poses over the plate, P (n, 3) body points
+    [m].
 
     An impact lasts to the next one: it owns the flight that it causes. Sliding: a face lies flat and moves. The corners
     are taken from the measured rest: the height at which the block comes to lie is zero.
@@ -52,7 +53,7 @@ def stretch_of(poses: Poses, P: np.ndarray) -> np.ndarray:
 
 
 def by_stretch(found: np.ndarray, e: Errors) -> list[dict[str, Any]]:
-    """Per stretch: share of the frames, mean error, and its growth from the first to the last frame."""
+    """Return per stretch: share of the frames, mean error, and its growth from the first to the last frame."""
     rows = []
     for k, name in enumerate(STRETCHES):
         here = found == k

@@ -52,7 +52,7 @@ class Stair:
     confusion: dict[str, dict[str, float]] = field(default_factory=dict)
 
     def own(self, effect: str) -> np.ndarray:
-        """Which numbers are those of an effect."""
+        """Return which numbers are those of an effect."""
         return np.array([i for i, p in enumerate(self.fit.parameters) if p.name.startswith(effect + ".")])
 
 
@@ -62,7 +62,8 @@ def all_together(
     guesses: dict[str, float],
     stages: Sequence[tuple[int, int]] = STAGES,
 ) -> Stair:
-    """All candidates on top of a model, fitted together; they begin at what is measured without a contact model."""
+    """Return all candidates on top of a model, fitted together; they begin at what is measured without a contact
+    model."""
     fit = replace(last.fit, effects=(*last.fit.effects, *candidates))
     z = np.concatenate([last.z, np.zeros(len(fit.parameters) - len(last.z))])
     objective = np.inf
@@ -75,7 +76,7 @@ def all_together(
 
 
 def absent_left_out(stair: Stair, candidates: Sequence[str]) -> Stair:
-    """The same model without those candidates of which every number ended where its effect is absent."""
+    """Return the same model without those candidates of which every number ended where its effect is absent."""
     absent = [id for id in candidates if not stair.z[stair.own(id)].any()]
     kept = np.setdiff1d(np.arange(len(stair.z)), [i for id in absent for i in stair.own(id)])
     fit = replace(stair.fit, effects=tuple(id for id in stair.fit.effects if id not in absent))
@@ -83,7 +84,7 @@ def absent_left_out(stair: Stair, candidates: Sequence[str]) -> Stair:
 
 
 def way_down(full: Stair, keep: Sequence[str], say: Callable[[str], None]) -> list[Stair]:
-    """The models from the one of which every effect is needed to the one that has only the effects in `keep`.
+    """Return the models from the one of which every effect is needed to the one that has only the effects in `keep`.
 
     The least needed effect leaves first; what it is worth is its cost, less what luck gives to as many numbers. The
     costs and the confusion that the first model comes with are those of all the effects of `full`.
@@ -114,7 +115,7 @@ def way_down(full: Stair, keep: Sequence[str], say: Callable[[str], None]) -> li
 
 
 def alike(stair: Stair, slopes: descent.Slopes) -> dict[str, dict[str, float]]:
-    """Cosines of every two effects, linearised at a model that has them all, the law's own numbers fitted along.
+    """Return cosines of every two effects, linearised at a model that has them all, the law's own numbers fitted along.
 
     Near one: these tosses cannot tell the two apart. The same measure as `rockref.discover.verdict.detection` has.
     """
@@ -131,18 +132,18 @@ def alike(stair: Stair, slopes: descent.Slopes) -> dict[str, dict[str, float]]:
 
 
 def needed(stairs: Sequence[Stair]) -> int:
-    """Which model of a way down to take: the least objective where every number has paid for its luck."""
+    """Return which model of a way down to take: the least objective where every number has paid for its luck."""
     share = luck(stairs[0]) * stairs[0].objective
     return int(np.argmin([s.objective + share * len(s.z) for s in stairs]))
 
 
 def luck(stair: Stair) -> float:
-    """Share of the objective that one number more gains by luck: the fewer tosses, the more."""
+    """Return share of the objective that one number more gains by luck: the fewer tosses, the more."""
     return LUCK / len(stair.fit.poses.frames)
 
 
 def taken_away(stair: Stair, effect: str, slopes: descent.Slopes, poses: Poses, weight: np.ndarray) -> Stair:
-    """The model without an effect; the other numbers make up for it as far as the slopes tell."""
+    """Return the model without an effect; the other numbers make up for it as far as the slopes tell."""
     fit = replace(stair.fit, effects=tuple(id for id in stair.fit.effects if id != effect))
     gone = stair.own(effect)
     others = np.setdiff1d(np.arange(len(stair.z)), gone)
@@ -161,7 +162,7 @@ def taken_away(stair: Stair, effect: str, slopes: descent.Slopes, poses: Poses, 
 
 
 def settled(stair: Stair, poses: Poses, weight: np.ndarray) -> Stair:
-    """The model after some iterations more."""
+    """Return the model after some iterations more."""
     z, now = stair.z, stair.objective
     for _ in range(AFTER):
         z, then = stair.fit.descend(z, poses, weight, stair.fit.slopes(z, poses, weight))
@@ -172,7 +173,7 @@ def settled(stair: Stair, poses: Poses, weight: np.ndarray) -> Stair:
 
 
 def way_up(stairs: Sequence[Stair], poses: Poses, weight: np.ndarray) -> list[Stair]:
-    """The same models in the same order, none worse than one with fewer effects: such a one is fitted from there."""
+    """Return same models in the same order, none worse than one with fewer effects: such a one is fitted from there."""
     found = [stairs[-1]]
     for stair in stairs[-2::-1]:
         below = found[-1]
@@ -186,7 +187,7 @@ def way_up(stairs: Sequence[Stair], poses: Poses, weight: np.ndarray) -> list[St
 
 
 def _worth(stair: Stair, effect: str, slopes: descent.Slopes) -> float:
-    """What the slopes say that an effect lowers the objective."""
+    """Return what the slopes say that an effect lowers the objective."""
     H, _ = slopes.normal_equations(stair.z, STEEP[-1])
     gone = stair.own(effect)
     covariance = np.linalg.inv(H)[np.ix_(gone, gone)]

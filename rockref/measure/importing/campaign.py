@@ -84,7 +84,7 @@ class ImportedRun:
 
     @property
     def rows(self) -> np.ndarray:
-        """Which samples (N,) come after the release."""
+        """Return which samples (N,) come after the release."""
         return self.t >= -1e-9
 
 

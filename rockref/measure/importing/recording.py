@@ -37,7 +37,7 @@ class Recording:
 
     @property
     def whole(self) -> bool:
-        """Whether all rates are whole numbers, as the counts of a chip are."""
+        """Return whether all rates are whole numbers, as the counts of a chip are."""
         return bool(np.all(self.chip == np.rint(self.chip)))
 
 

@@ -27,7 +27,7 @@ _UNIT = re.compile(r"UNITS?\s+(?:OF|ARE|IN)\s+\(?\s*([A-Z][A-Z0-9/*^]*)", re.IGN
 
 
 def is_at2(lines: list[str]) -> bool:
-    """Whether the fourth line is that of an AT2 file (or of a velocity or displacement file)."""
+    """Return whether the fourth line is that of an AT2 file (or of a velocity or displacement file)."""
     return len(lines) > 4 and any(size.search(lines[3]) for size in _SIZES)
 
 
@@ -50,6 +50,6 @@ def read_at2(lines: list[str], path: str) -> list[Channel]:
 
 
 def _direction(line: str) -> Direction:
-    """The direction is the first word of the last field of the second line; some files have none."""
+    """Return the first word of the last field of the second line, the direction; some files have none."""
     words = line.rsplit(",", 1)[-1].split() if "," in line else []
     return direction_of(words[0]) if words else None

@@ -35,7 +35,7 @@ _UP, _DOWN = 400, 401
 
 
 def is_cosmos(lines: list[str]) -> bool:
-    """Whether the first line names the format and the headers follow."""
+    """Return whether the first line names the format and the headers follow."""
     return bool(lines and _FORMAT.search(lines[0])) and any(_INTEGERS.match(line) for line in lines[:40])
 
 
@@ -94,7 +94,7 @@ def _channel(
 
 
 def _rows(lines: list[str], first: int, most: int) -> list[str]:
-    """Lines of values: at most so many, and none of the mark at the end of the data."""
+    """Return lines of values: at most so many, and none of the mark at the end of the data."""
     rows = lines[first : first + most]
     end = next((i for i, row in enumerate(rows) if "end-of-data" in row.lower() or not row.strip()), len(rows))
     return rows[:end]

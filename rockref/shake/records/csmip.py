@@ -29,7 +29,7 @@ _A_LINE, _WIDTH = 8, 10
 
 
 def is_csmip(lines: list[str]) -> bool:
-    """Whether a block of acceleration begins somewhere."""
+    """Return whether a block of acceleration begins somewhere."""
     return any(_DATA.match(line) for line in lines)
 
 
@@ -53,6 +53,7 @@ def read_csmip(lines: list[str], path: str) -> list[Channel]:
 
 
 def _direction(header: list[str]) -> Direction:
-    """The word after `Chan n:` in the last header before the block: degrees, up, or a name of the building's axes."""
+    """Return the word after `Chan n:` in the last header before the block: degrees, up, or a name of the building's
+    axes."""
     words = [match[1] for line in header if (match := _CHANNEL.search(line))]
     return direction_of(words[-1]) if words else None

@@ -21,7 +21,7 @@ UNEVEN = 0.01
 
 
 def is_csv(lines: list[str]) -> bool:
-    """Whether the first line names a time or an acceleration among fields separated by commas."""
+    """Return whether the first line names a time or an acceleration among fields separated by commas."""
     return any(_NAME.fullmatch(field) for field in re.split(r"[,;\t]", lines[0].strip().replace('"', "")))
 
 

@@ -27,7 +27,7 @@ _DIGITS = re.compile(r"(\d{4})\D?(\d\d)\D?(\d\d)\D(\d\d)\D?(\d\d)\D?(\d\d)(\.\d+
 
 
 def is_esm(lines: list[str]) -> bool:
-    """Whether the header has the keys of this format."""
+    """Return whether the header has the keys of this format."""
     head = "\n".join(lines[:80])
     return "SAMPLING_INTERVAL_S:" in head and "NDATA:" in head
 
@@ -67,13 +67,14 @@ def _number(header: dict[str, tuple[str, int]], key: str, path: str) -> tuple[fl
 
 
 def _direction(header: dict[str, tuple[str, int]]) -> Direction:
-    """The last letter of the stream: E, N or Z; other letters name no direction."""
+    """Return the last letter of the stream: E, N or Z; other letters name no direction."""
     stream = header.get("STREAM", ("", 1))[0]
     return direction_of(stream[-1]) if stream[-1:] in ("E", "N", "Z") else None
 
 
 def _seconds(text: str) -> float | None:
-    """Seconds of a time in any of the spellings, 20190728_160905.700 or 2023/02/06 01:17:29.868; None if empty."""
+    """Return seconds of a time in any of the spellings, 20190728_160905.700 or 2023/02/06 01:17:29.868; None if
+    empty."""
     match = _DIGITS.match(text)
     if match is None:
         return None

@@ -100,7 +100,7 @@ def _places(channels: Sequence[Channel]) -> tuple[list[tuple[str, float]], list[
 
 
 def _turn(one: Channel, other: Channel) -> bool:
-    """Whether the other component lies 90 degrees to the left of the one. Raises InputError E-RECORD-AXES."""
+    """Return whether the other component lies 90 degrees to the left of the one. Raises InputError E-RECORD-AXES."""
     assert isinstance(one.direction, float) and isinstance(other.direction, float)
     angle = (one.direction - other.direction) % 360.0
     if min(abs(angle - 90.0), abs(angle - 270.0)) > SQUARE_DEG:

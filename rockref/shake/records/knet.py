@@ -13,7 +13,7 @@ QUIET = 5.0
 
 
 def is_knet(lines: list[str]) -> bool:
-    """Whether the header has the keys of this format."""
+    """Return whether the header has the keys of this format."""
     return any(line.startswith("Scale Factor") for line in lines[:17])
 
 

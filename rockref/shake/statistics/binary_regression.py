@@ -92,12 +92,12 @@ def penalised(X: np.ndarray, y: np.ndarray, coefficients: np.ndarray, link: Link
 
 
 def _information(X: np.ndarray, eta: np.ndarray, link: Link) -> np.ndarray:
-    """Expected information (k, k): sum of w x x', w = h(eta)^2/(H (1 - H)), h the density of H."""
+    """Return expected information (k, k): sum of w x x', w = h(eta)^2/(H (1 - H)), h the density of H."""
     return (X * np.exp(_log_weight(eta, link))[:, None]).T @ X
 
 
 def _gradient(X: np.ndarray, y: np.ndarray, coefficients: np.ndarray, link: Link) -> np.ndarray:
-    """Slope (k,) of the penalised likelihood: X' [d ln L/d eta + (leverage/2) d ln w/d eta], a row a test."""
+    """Return slope (k,) of the penalised likelihood: X' [d ln L/d eta + (leverage/2) d ln w/d eta], a row a test."""
     eta = X @ coefficients
     _, log_fell, log_stood = _forms(link)
     log_density = log_fell(eta) + log_stood(eta) if link == "logit" else -0.5 * eta**2 - 0.5 * np.log(2.0 * np.pi)
@@ -116,7 +116,7 @@ def _log_weight(eta: np.ndarray, link: Link) -> np.ndarray:
 
 
 def _forms(link: Link) -> tuple[Callable, Callable, Callable]:
-    """H, ln H and ln(1 - H) of a link. Raises InputError E-RANGE."""
+    """Return H, ln H and ln(1 - H) of a link. Raises InputError E-RANGE."""
     from scipy.special import expit, log_expit, log_ndtr, ndtr
 
     if link == "probit":

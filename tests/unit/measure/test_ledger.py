@@ -132,9 +132,6 @@ def test_signatures_of_the_shipped_experiments(shipped):
     assert ledgers(shipped, 5)["01"].release_loss > 0.01
 
 
-P = BLOCK.rocking_rate
-
-
 def struck(*times, sign=1):
     """Impacts at these times, of which nothing else is known."""
     nothing = np.zeros(len(times))
