@@ -203,7 +203,8 @@ def load_experiment(folder: Path | str, *, uses: Collection[str] = USES) -> Expe
     runs = _listed_runs(document["run"], experiment, str(source))
     notices = _density(experiment, str(source)) + _tilt(experiment, str(source))
     if not any(run.use == HOLDOUT for run in runs):
-        cure = "Keep one run in four back, with another tilt or side."
+        alone = "Record more runs: what one run shows, none confirms."
+        cure = alone if len(runs) == 1 else "Keep one run in four back, with another tilt or side."
         notices.append(Notice("W-NO-HOLDOUT", str(source), "no run is marked holdout", cure))
     if "gyro" in document:
         gyro, found = _gyro(document["gyro"], runs, folder, str(source))

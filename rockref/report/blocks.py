@@ -29,7 +29,7 @@ HOUSNER_RATE, HOUSNER_STEP = 200.0, 1e-3
 def add_measured(page: Page, c: Comparison) -> None:
     """Add what was measured, before any model."""
     e = c.experiment
-    runs = f"{len(c.of('fit'))} fit runs, {len(c.of('holdout'))} holdout runs"
+    runs = f"{len(c.of('fit'))} fitted, {len(c.of('holdout'))} held out"
     page.add_text(
         f"{e.name}: a block of {e.mass:g} kg, {1e3 * e.width:g} mm wide and {1e3 * e.height:g} mm high, released "
         f"{len(c.measured)} times ({runs}). The gyroscope's noise floor, from the quiet stretches, is "

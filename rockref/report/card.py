@@ -12,7 +12,7 @@ from rockref.api import Model
 from rockref.discover.compare.models import Comparison, baseline_model
 from rockref.discover.hypotheses.law import law_parameters
 from rockref.effects import catalogue
-from rockref.report import diagnosis_text
+from rockref.report import addition_text, diagnosis_text
 from rockref.report.spoken import Spoken, spoken, spoken_amplitudes
 from rockref.report.trial import Trial, trial
 
@@ -34,7 +34,8 @@ class Fact:
 class Card:
     """What a page says at a glance.
 
-    kicker : the verdict;  name : of the effect;  sentence : the physics;  facts, trial, next_step
+    kicker : the verdict;  name : of the effect;  sentence : the answer, with its size;  about : the physics
+    facts, trial, next_step;  picture, keys, caption : of a run, where there is no trial, drawn without a script
     """
 
     kicker: str
@@ -45,6 +46,9 @@ class Card:
     next_step: str = ""
     picture: str = ""
     keys: str = ""
+    caption: str = ""
+    about: str = ""
+    next_label: str = "What to measure next"
 
 
 def card_of_diagnosis(record: dict[str, Any], c: Comparison) -> Card:
@@ -59,7 +63,8 @@ def card_of_diagnosis(record: dict[str, Any], c: Comparison) -> Card:
     return finished(
         kicker=kicker,
         name=" or ".join(effects) if verdict == "class" else " and ".join(effects) or "no effect",
-        sentence=sentence_of(record),
+        sentence=diagnosis_text.answer(record),
+        about=about(record),
         facts=[*size_facts(sizes), *error_facts(record["error"], bool(record["amplitudes"]))],
         drawn=drawn,
         next_step=record["separating_experiment"] or WITHOUT[verdict],
@@ -76,7 +81,8 @@ def card_of_addition(a: Addition, c: Comparison) -> Card:
     return finished(
         kicker=f"added to {' + '.join(a.before.effects) or 'the baseline'}",
         name=a.effect,
-        sentence=kind.sentence or "An effect of the user's own.",
+        sentence=" ".join([*([f"Its size is {sizes[0]}."] if len(sizes) == 1 else []), *addition_text.lines(a)[-1:]]),
+        about=kind.sentence or "An effect of the user's own.",
         facts=[*size_facts(sizes[: diagnosis_text.SIZES]), *error_facts(error, True)],
         drawn=trial(c, [a.effect]),
         next_step=kind.experiment,
@@ -84,11 +90,11 @@ def card_of_addition(a: Addition, c: Comparison) -> Card:
 
 
 def finished(
-    kicker: str, name: str, sentence: str, facts: Sequence[Fact], drawn: Trial, next_step: str
+    kicker: str, name: str, sentence: str, about: str, facts: Sequence[Fact], drawn: Trial, next_step: str
 ) -> Card:  # fmt: skip
     """Return a card with the picture of its run."""
     picture, keys = drawn.picture()
-    return Card(kicker, name, sentence, facts, drawn, next_step, picture, keys)
+    return Card(kicker, name, sentence, facts, drawn, next_step, picture, keys, about=about)
 
 
 #: What to measure next where a verdict advises no experiment.
@@ -105,13 +111,11 @@ WITHOUT = {
 }  # fmt: skip
 
 
-def sentence_of(record: dict[str, Any]) -> str:
-    """Return one sentence: the physics of the effect, or what the verdict says."""
+def about(record: dict[str, Any]) -> str:
+    """Return the physics of one effect of the catalogue, what an unlisted one looks like, or nothing."""
     if len(record["effects"]) == 1 and record["effects"][0] in catalogue.EFFECTS:
         return catalogue.EFFECTS[record["effects"][0]].sentence
-    if record["verdict"] == "something_else":
-        return f"{diagnosis_text.sentence_of(record)} {diagnosis_text.looks_like(record)}"
-    return diagnosis_text.sentence_of(record)
+    return diagnosis_text.looks_like(record) if record["verdict"] == "something_else" else ""
 
 
 def size_facts(sizes: Sequence[Spoken]) -> list[Fact]:
@@ -136,9 +140,8 @@ def error_facts(error: dict[str, Any], with_effect: bool) -> list[Fact]:
     if not with_effect or after is None:
         return [Fact(label, f"{before:.3f} deg/s", [f"noise alone: {noise:.3f}"])]
     gone = diagnosis_text.closed(error, use, noise)
-    return [
-        Fact(label, f"{before:.3f} → {after:.3f} deg/s", [f"noise alone: {noise:.3f}", f"{gone} of the excess gone"])
-    ]
+    notes = [] if gone == diagnosis_text.NOTHING else [f"{gone} of the excess gone"]
+    return [Fact(label, f"{before:.3f} → {after:.3f} deg/s", [f"noise alone: {noise:.3f}", *notes])]
 
 
 def fitted_baseline(d: Diagnosis) -> Model:

@@ -7,6 +7,7 @@ import math
 from rockref.discover.compare.models import Comparison
 from rockref.report import blocks, tables
 from rockref.report.block_drawing import block_drawing
+from rockref.report.comparison_card import card_of_comparison
 from rockref.report.comparison_text import error_lines
 from rockref.report.curves import Curves
 from rockref.report.page import MAX_BYTES, Page
@@ -21,6 +22,7 @@ def comparison_page(c: Comparison, title: str | None = None) -> Page:
     """Return the page of one comparison."""
     models = " and ".join(c.names)
     page = Page(title or f"{c.experiment.name}: {models} beside the measured runs", lead(c))
+    page.set_card(card_of_comparison(c))
     add_comparison(page, c)
     page.add_section("Where the numbers come from")
     page.add_provenance(blocks.provenance(c))

@@ -79,11 +79,19 @@ def verdict_line(d: dict[str, Any]) -> str:
     """Return the verdict, how sure it is, and how large the effect is."""
     probability = d.get("probability")
     sure = "" if probability is None or d["verdict"] in UNSURE else f" (probability {probability:.2f})"
-    said = f"{d['verdict'].upper().replace('_', ' ')}{sure}. {sentence_of(d)}"
-    sizes = [] if d["verdict"] == "class" else spoken_amplitudes(d["amplitudes"], SIZES)
+    return f"{d['verdict'].upper().replace('_', ' ')}{sure}. {answer(d)}"
+
+
+def answer(d: dict[str, Any]) -> str:
+    """Return the verdict in a sentence, and the size: the numbers of the effect that these runs determine."""
+    if len(d["effects"]) != 1:
+        return sentence_of(d)
+    sizes = spoken_amplitudes(d["amplitudes"], SIZES)
     if len(sizes) == 1:
-        said += f" Its size is {sizes[0]}."
-    return said
+        return f"{sentence_of(d)} Its size is {sizes[0]}."
+    known = [s for s in sizes if s.is_determined]
+    told = " and ".join(f"{s.name.partition('.')[2]} {s}" for s in known[:2])
+    return sentence_of(d) + (f" Its size: {told}." if told else "")
 
 
 def print_tables(console: Console, d: dict[str, Any]) -> None:
@@ -120,6 +128,10 @@ def size_lines(d: dict[str, Any]) -> list[str]:
     return [f"  {s.name} = {s}{f': {s.meaning}' if s.meaning else ''}" for s in sizes]
 
 
+#: Error over the noise from which there is a gap to be closed; decided: noise is known to a few per cent.
+GAP, NOTHING = 1.05, "–"
+
+
 def error_lines(d: dict[str, Any]) -> list[str]:
     """Return the error before and after, beside the noise."""
     e, found = d["error"], []
@@ -131,7 +143,8 @@ def error_lines(d: dict[str, Any]) -> list[str]:
             found.append(f"{words} runs {before:.3f}")
             continue
         gap = closed(e, use, e["noise_floor"])
-        found.append(f"{words} runs {before:.3f} before, {after:.3f} after ({gap} of the excess gone)")
+        gone = "" if gap == NOTHING else f" ({gap} of the excess gone)"
+        found.append(f"{words} runs {before:.3f} before, {after:.3f} after{gone}")
     return [f"Error in deg/s, where noise alone makes {e['noise_floor']:.3f}: {'; '.join(found)}."] if found else []
 
 
@@ -181,11 +194,11 @@ def with_words(d: dict[str, Any]) -> str:
 
 
 def closed(e: dict[str, Any], use: str, floor: float) -> str:
-    """Which part of the gap between baseline and noise floor is closed."""
+    """Return which part of the gap between baseline and noise floor is closed; a dash where there is hardly one."""
     before, after = e["baseline"].get(use), e["with_effect"].get(use)
-    if before is None or after is None or before <= floor:
-        return "–"
-    return f"{100 * (before - after) / (before - floor):.0f} %"
+    if before is None or after is None or before < GAP * floor:
+        return NOTHING
+    return f"{100 * min(1.0, (before - after) / (before - floor)):.0f} %"
 
 
 def amplitudes_table(d: dict[str, Any]) -> Table:
@@ -270,6 +283,8 @@ def signature_table(d: dict[str, Any]) -> Table:
     """What the misfit of the baseline looks like."""
     rows = []
     for key, value in d["signature"].items():
+        if value is None:
+            continue
         words = SIGNATURE_WORDS.get(key, key.replace("_", " "))
         rows.append([words, in_words(value).replace("_", " ")])
     return Table("What the baseline's misfit looks like", ("sign", "found"), rows, prose=True)

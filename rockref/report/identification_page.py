@@ -29,8 +29,10 @@ def identification_page(result: dict[str, Any]) -> Page:
         facts.insert(1, Fact("Held-out runs", f"{max(held):.2f} times the noise", notes))
     page = Page("The parameters of the law", last)
     name = "at the noise floor" if floor else "above the noise floor"
-    then = "Compare the model with all runs: rockref compare." if floor else "Look for an effect: rockref diagnose."
-    page.set_card(Card("identification", name, last, facts, next_step=then))
+    then = (
+        "Compare the model with all runs: rockref compare." if floor else "Look for a missing effect: rockref diagnose."
+    )
+    page.set_card(Card("identification", name, last, facts, next_step=then, next_label="Next"))
     page.add_section("In words", [*rest, last])
     page.add_section("Parameters")
     page.add_table(parameters_table(result))

@@ -7,7 +7,7 @@ from pathlib import Path
 from rockref.discover.plan import Plan
 from rockref.report.card import Card, Fact
 from rockref.report.page import Page
-from rockref.report.plan_text import confusion_table, further_table, limit_lines, limits_table, sentences
+from rockref.report.plan_text import confusion_table, counted, further_table, limit_lines, limits_table, sentences
 
 
 def plan_page(p: Plan) -> Page:
@@ -15,15 +15,15 @@ def plan_page(p: Plan) -> Page:
     *rest, last = sentences(p)
     o, best = p.outlook, p.further[0]
     seen = len(o.effects) - len(o.undetectable())
-    page = Page(f"What {len(o.runs)} planned runs could show", last)
+    page = Page(f"What {counted(len(o.runs), 'planned run')} could show", last)
     facts = [
-        Fact("Effects that would show", f"{seen} of {len(o.effects)}", ["at three times their typical size or less"]),
+        Fact("Releases (tilt in rad)", ", ".join(map(str, o.runs)), ["t: the block turned by 180 degrees"]),
         Fact("Pairs not told apart", str(len(o.confused()))),
         Fact(
             "One more run", best["run"], [f"limits fall by {100 * (1 - 1 / best['limits_fall_by']):.0f} % in the mean"]
         ),
     ]
-    page.set_card(Card("plan", ", ".join(map(str, o.runs)), rest[0], facts, next_step=last))
+    page.set_card(Card("plan", f"{seen} of {len(o.effects)} effects would show", rest[0], facts, next_step=last))
     page.add_section("In words", rest)
     page.add_sentences([line.strip() for line in limit_lines(p)], "The effects that are hardest to see")
     page.add_section("Smallest sizes")

@@ -38,8 +38,9 @@ def sentences(p: Plan) -> list[str]:
     o, best, versus = p.outlook, p.further[0], p.comparison()
     unseen = o.undetectable()
     found = [
-        f"{len(o.runs)} runs ({', '.join(map(str, o.runs))}): {len(o.effects) - len(unseen)} of {len(o.effects)} "
-        f"effects would show at three times their typical size or less."
+        f"{counted(len(o.runs), 'run')} ({', '.join(map(str, o.runs))}): "
+        f"{len(o.effects) - len(unseen)} of {len(o.effects)} effects would show at three times their typical size or "
+        "less."
     ]
     if unseen:
         found.append(f"These would not: {', '.join(unseen)}.")
@@ -55,6 +56,11 @@ def sentences(p: Plan) -> list[str]:
         f"{100 * (1 - 1 / best['its_limit_falls_by']):.0f} %."
     )
     return found
+
+
+def counted(number: int, noun: str) -> str:
+    """Return a number with its noun, as "1 run" or "2 runs"."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 def limit_lines(p: Plan) -> list[str]:

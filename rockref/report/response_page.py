@@ -13,24 +13,27 @@ from rockref.report.drawing import Line, Panel
 from rockref.report.output import made_folder
 from rockref.report.page import Page, Table
 from rockref.report.response_table import as_measured
-from rockref.report.style import AXIS_NAMES
 
 # decided: what a screen shows of a curve; a rate of more rows is thinned evenly.
 MOST_ROWS = 4000
+# decided: what a sentence holds.
+IMPACTS = 3
 
 
 def write_response_page(response: Response, model: Model, folder: Path) -> Path:
     """Write ``index.html`` of a simulated release into the folder, and return its path. Raises InputError E-WRITE."""
     impacts = [float(t) for t in response.main_impacts()]
     effects = ", ".join(effect.id for effect in model.active_effects()) or "no effects"
-    lead = f"{model.mass:g} kg, {model.points.replace('_', ' ')}, {effects}: {len(impacts)} main impacts."
-    page = Page("A simulated release", lead)
+    page = Page("A simulated release", lead(response, model, effects))
     page.add_section("The body rates")
     step = -(-len(response.t) // MOST_ROWS)
     t, crv = response.t[::step], as_measured(response).crv[::step]
-    panels = [Panel(f"{AXIS_NAMES[k]}, deg/s", [Line("simulated", t, crv[:, k])]) for k in range(3)]
+    panels = [Panel(f"{'XYZ'[k]} (deg/s)", [Line("simulated", t, crv[:, k])]) for k in range(3)]
     panels.append(Panel("points that touch", strips=response.contacts()))
-    sentence = "Rates about the block's axes as a gyroscope without noise shows them, and when each point touches."
+    sentence = (
+        "Rates about the block's axes (X main, Y transverse, Z longitudinal) as a gyroscope without noise shows them, "
+        "and when each point touches. Red lines: main impacts."
+    )
     if step > 1:
         sentence += f" One row in {step} is drawn."
     page.add_curves(curves(t, panels, title="Body rates", sentence=sentence, marks=impacts))
@@ -41,3 +44,14 @@ def write_response_page(response: Response, model: Model, folder: Path) -> Path:
     page.add_section("Where the numbers come from")
     page.add_provenance({"rockref": __version__, "model": repr(model), "effects": effects})
     return page.write(made_folder(folder) / "index.html")
+
+
+def lead(response: Response, model: Model, effects: str) -> str:
+    """Return the block, when it strikes the plate, and how fast it turns, in a sentence."""
+    impacts = [f"{t:.3f}" for t in response.main_impacts()[:IMPACTS]]
+    more = " and later" if len(response.main_impacts()) > IMPACTS else ""
+    struck = f"main impacts at {', '.join(impacts)} s{more}" if impacts else "no main impact"
+    fell = " The block overturns." if response.overturned else ""
+    largest = float(abs(as_measured(response).crv).max())
+    body = f"{model.mass:g} kg, {model.points.replace('_', ' ')}, {effects}"
+    return f"{body}: {struck}; the largest rate is {largest:.0f} deg/s.{fell}"

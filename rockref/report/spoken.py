@@ -17,7 +17,10 @@ SPOKEN = {"m": ("mm", 1e3), "rad": ("deg", DEGREES), "rad/s": ("deg/s", DEGREES)
 
 @dataclass(frozen=True)
 class Spoken:
-    """A number of an effect as it is said: value and both ends of its interval as texts, unit, meaning."""
+    """A number of an effect as it is said: value and both ends of its interval as texts, unit, meaning.
+
+    is_determined : whether the interval leaves out the value at which the effect is absent
+    """
 
     name: str
     value: str
@@ -25,6 +28,7 @@ class Spoken:
     high: str
     unit: str
     meaning: str = ""
+    is_determined: bool = True
 
     @property
     def size(self) -> str:
@@ -41,12 +45,14 @@ def spoken(name: str, value: float | None, low: float | None, high: float | None
     known = quantity_of(name)
     meaning = known.meaning if known is not None else ""
     numbers = [math.inf if x is None else x for x in (value, low, high)]
+    absent = 0.0 if known is None else known.absent
+    sure = absent is None or not numbers[1] <= absent <= numbers[2]
     if known is not None and known.unit == "1" and known.absent == 1.0 and " over " in known.meaning:
         middle, least, most = (f"{100 * (x - 1):+.2g}" for x in numbers)
-        return Spoken(name, middle, least, most, "%", meaning)
+        return Spoken(name, middle, least, most, "%", meaning, sure)
     said, factor = SPOKEN.get(unit, ("" if unit == "1" else unit, 1.0))
     middle, least, most = (figures(x * factor) for x in numbers)
-    return Spoken(name, middle, least, most, said, meaning)
+    return Spoken(name, middle, least, most, said, meaning, sure)
 
 
 def figures(value: float) -> str:

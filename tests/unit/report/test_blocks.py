@@ -29,7 +29,7 @@ def test_remarks_about_the_files_stand_with_what_was_measured(short, notices):
     blocks.add_measured(page, replace(short, experiment=replace(short.experiment, notices=notices)))
     text, _ = part(page)
     assert ("Remarks about the files" in text) is bool(notices) and ("has a gap" in text) is bool(notices)
-    assert "2 fit runs, 1 holdout runs" in text
+    assert "2 fitted, 1 held out" in text
 
 
 @pytest.mark.parametrize(

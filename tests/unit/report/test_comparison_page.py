@@ -11,6 +11,7 @@ from rockref import Model
 from rockref.discover.compare.models import compare
 from rockref.effects.catalogue import parse
 from rockref.report import blocks, figures, tables
+from rockref.report.comparison_card import card_of_comparison
 from rockref.report.comparison_page import add_runs, comparison_page
 from rockref.report.comparison_text import print_comparison
 from rockref.report.encoding import unpacked
@@ -201,3 +202,11 @@ def test_zooms_have_a_labelled_row_of_contacts_for_every_model(c):
         assert len(first.get_yticklabels()) == 8
         colours = {tuple(p.get_facecolor()[0]) for axes in rows[3 + i] for p in axes.collections}
         assert len(colours) == 1
+
+
+def test_the_head_says_which_model_is_closest_and_draws_the_held_out_run(c):
+    card = card_of_comparison(c)
+    assert card.name.startswith("<scaled> is closest, off by") and card.facts[0].label == "plain"
+    assert "held-out" in card.facts[1].notes[0] and card.caption.startswith("Run 02 (held out)")
+    # Measured and each model is a line of the picture; the frame and its grid are not drawn with them.
+    assert card.keys.count("<svg") == 3 and card.picture.count("<svg") == 1

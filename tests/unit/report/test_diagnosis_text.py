@@ -87,3 +87,16 @@ def test_a_gate_that_was_not_passed_is_told_with_care(record):
     bounds = {"name": "off_bounds", "passed": False, "sentence": "K_N is far off."}
     text = said(record | {"gates": record["gates"] | {"off_bounds": bounds}})
     assert "With care" not in text and "Take them with care: K_N is far off." in text
+
+
+def test_of_several_numbers_the_answer_says_those_that_are_determined(record):
+    size = {"value": 0.4, "low": 0.3, "high": 0.5, "unit": "N m s2"}
+    unknown = {"value": 0.3, "low": 0.0, "high": 1.6, "unit": "N s2/m2"}
+    two = record | {"amplitudes": {"quadratic_drag.c": size, "quadratic_drag.c_v": unknown}}
+    assert diagnosis_text.answer(two).endswith("Its size: c 0.4 N m s2 (90 %: 0.3 to 0.5).")
+
+
+@pytest.mark.parametrize("before, after, gone", [(0.0510, 0.0501, "–"), (0.15, 0.10, "50 %"), (0.15, 0.04, "100 %")])
+def test_a_share_of_the_excess_is_said_where_there_is_one_to_be_taken(before, after, gone):
+    error = {"baseline": {"fit": before}, "with_effect": {"fit": after}}
+    assert diagnosis_text.closed(error, "fit", 0.05) == gone

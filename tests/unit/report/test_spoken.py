@@ -26,3 +26,16 @@ def test_a_size_is_said_in_the_unit_of_a_person(name, values, unit, said):
 
 def test_what_the_number_means_is_known():
     assert spoken("rolling_resistance.lever", 1e-4, 0, 1, "m").meaning.startswith("shift of the pressure")
+
+
+@pytest.mark.parametrize(
+    "name, ends, determined",
+    [
+        ("quadratic_drag.c", (0.2, 0.4), True),
+        ("quadratic_drag.c_v", (0.0, 1.6), False),
+        ("gyro_scale.x", (0.99, 1.02), False),  # absent at one
+        ("gyro_scale.x", (1.01, 1.02), True),
+    ],
+)
+def test_a_number_is_determined_where_its_interval_leaves_out_that_the_effect_is_absent(name, ends, determined):
+    assert spoken(name, sum(ends) / 2, *ends, "1").is_determined is determined
