@@ -56,13 +56,13 @@ def known_files(effects: Iterable[str] | None) -> None:
 
 
 def spec_of(words: str) -> str:
-    """The "file.py:Class" of the words of an effect, without its parameters."""
+    """Return the "file.py:Class" of the words of an effect, without its parameters."""
     head, marker, rest = words.strip().partition(".py:")
     return f"{head}.py:{rest.partition(':')[0]}" if marker else words.strip()
 
 
 def models_and_others(texts: Iterable[str], effects: Iterable[str] | None) -> tuple[list[Model], list[str]]:
-    """The models, and of the effects that are named those that are no user's own effect of any of them.
+    """Return the models, and of the effects that are named those that are no user's own effect of any of them.
 
     Raises InputError (E-EFFECT) for numbers beside the name of one that a model has: they would change nothing.
     """
@@ -80,7 +80,7 @@ def models_and_others(texts: Iterable[str], effects: Iterable[str] | None) -> tu
 
 
 def has(model: Model, words: str) -> bool:
-    """Whether a model has the user's own effect that words name: of that file, and of that class."""
+    """Return whether a model has the user's own effect that words name: of that file, and of that class."""
     path, _, name = spec_of(words).rpartition(":")
     own = [effect.file.rpartition(":") for effect in model.effects if effect.file is not None]
     return any(os.path.realpath(p) == os.path.realpath(path) and n == name for p, _, n in own)
@@ -92,7 +92,8 @@ def carried_by(model: Model | None) -> set[str]:
 
 
 def named_models(texts: Iterable[str], effects: Iterable[str] | None) -> list[Model]:
-    """The models, which may have the user's own effects that are named. Raises InputError (E-EFFECT) for other ones."""
+    """Return the models, which may have the user's own effects that are named. Raises InputError (E-EFFECT) for other
+    ones."""
     models, others = models_and_others(texts, effects)
     if others:
         from rockref.model.errors import InputError

@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 
 
 def folder_name(text: str | Path) -> Path:
-    """The folder that an argument names; an empty word, which would be the current folder, is refused."""
+    """Return the folder that an argument names; an empty word, which would be the current folder, is refused."""
     if not str(text).strip():
         raise typer.BadParameter("is empty; name a folder, or . for the current one.")
     return Path(text)
 
 
 def folder_option(*names: str, help: str) -> Any:
-    """The option for a folder that a command writes into."""
+    """Return the option for a folder that a command writes into."""
     return typer.Option(*names, parser=folder_name, metavar="FOLDER", help=help)
 
 
@@ -68,7 +68,7 @@ def usable_files(*paths: Path | None) -> None:
 
 
 def in_json(record: Any) -> str:
-    """A record as strict JSON: numbers that are not finite are null, which JSON has no word for."""
+    """Return a record as strict JSON: numbers that are not finite are null, which JSON has no word for."""
     import json
 
     from rockref.discover.diagnosis_record import plain
@@ -88,7 +88,7 @@ def keep(text: str, output: Path | None, model: "Model", save_model: Path | None
 
 
 def with_files(found: Any) -> Callable[[list[Path]], str]:
-    """What makes JSON of a result with a `to_dict`, and of the files that were written."""
+    """Return what makes JSON of a result with a `to_dict`, and of the files that were written."""
     return lambda written: in_json(found.to_dict() | {"written": [str(path) for path in written]})
 
 
@@ -120,13 +120,13 @@ def told(
 
 
 def say_written(paths: Iterable[Path]) -> None:
-    """A line for every file that was written."""
+    """Print a line for every file that was written."""
     for path in paths:
         typer.echo(f"wrote {path}")
 
 
 def say_old_spelling(old: str, new: str) -> None:
-    """A remark on a spelling that still works, on standard error."""
+    """Print a remark on a spelling that still works, on standard error."""
     from rockref.measure.notice import Notice
 
     say_remarks(
@@ -135,6 +135,7 @@ def say_old_spelling(old: str, new: str) -> None:
 
 
 def say_remarks(notices: "Iterable[Notice]") -> None:
-    """What the reader of the experiment remarked on, on standard error: it went on, and the result may hang on it."""
+    """Print what the reader of the experiment remarked on, on standard error: it went on, and the result may hang on
+    it."""
     for notice in notices:
         typer.echo(f"rockref: {notice}", err=True)

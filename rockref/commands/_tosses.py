@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 def usable(report: Path | None) -> Path | None:
-    """The folder of a page, if one is wanted; one that cannot be written to is refused before the work (E-WRITE)."""
+    """Return folder of a page, if one is wanted; one that cannot be written to is refused before the work (E-WRITE)."""
     from rockref.report.output import usable_folder
 
     return None if report is None else usable_folder(report)
 
 
 def read(path: Path) -> "Tosses":
-    """The tosses of a folder; what the reader remarked on is said."""
+    """Return the tosses of a folder; what the reader remarked on is said."""
     from rockref.measure.tosses import load_tosses
 
     tosses = load_tosses(path)

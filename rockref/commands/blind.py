@@ -80,7 +80,7 @@ def make(
 
 
 def _chosen(seed: int, effects: str, numbers: tuple[int, int] | None) -> list:
-    """Cases of the words of --effects; with numbers, so many near the source and of other blocks."""
+    """Return cases of the words of --effects; with numbers, so many near the source and of other blocks."""
     from rockref.blind.cases import plan
     from rockref.model.errors import InputError
 
@@ -151,7 +151,7 @@ def judge(
 
 
 def _print(found: dict, as_json: bool) -> None:
-    """The scores, the cases that failed, and how right stated probabilities are."""
+    """Print the scores, the cases that failed, and how right stated probabilities are."""
     from rockref.blind.scoring import intervals, table
 
     if as_json:

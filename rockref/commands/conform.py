@@ -22,7 +22,7 @@ class WithProgram(TyperCommand):
 
 
 def parted(args: list[str], own: set[str]) -> list[str]:
-    """The words with "--" before the first option after `exe` that is not among `own`: from there on they are the
+    """Return words with "--" before the first option after `exe` that is not among `own`: from there on they are the
     program's. A long option that looks like a slip in writing one of ours is left for the parser to refuse."""
     if "exe" not in args or "--" in args:
         return args
@@ -136,7 +136,7 @@ def _layers(layers: str | None, quick: bool, every: tuple[str, ...]) -> list[str
 
 
 def _backend(target: str, rest: list[str], timeout: float) -> tuple[Any, set[str] | None]:
-    """The backend, and the layers to which it has answers (None: whatever it is asked)."""
+    """Return the backend, and the layers to which it has answers (None: whatever it is asked)."""
     from rockref.conformance.backend import load
     from rockref.model.errors import InputError
 

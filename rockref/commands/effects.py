@@ -73,7 +73,7 @@ def effects(
 
 
 def text(effect: "Effect") -> str:
-    """What is shown of an effect, as lines."""
+    """Return what is shown of an effect, as lines."""
     from rockref.effects.catalogue import OF_TOSSES
     from rockref.report import gallery
 

@@ -81,7 +81,7 @@ def reproduce(
 
 
 def processor_seconds() -> float:
-    """Processor time of this process and of its workers that have ended [s]."""
+    """Return processor time of this process and of its workers that have ended [s]."""
     return sum(os.times()[:4])
 
 
@@ -100,7 +100,8 @@ class Request:
 
 
 def source(asked: Request) -> Path:
-    """The eight-point model's own studies; `data` is the experiment that is identified (default: the control)."""
+    """Reproduce the eight-point model's own studies; `data` is the experiment that is identified (default: the
+    control)."""
     from rockref.model.errors import InputError
     from rockref.report.demo import find_experiments
     from rockref.report.reproduction import QUICK, Budget
@@ -116,7 +117,8 @@ def source(asked: Request) -> Path:
 
 
 def cube(asked: Request) -> Path:
-    """Measured tosses of a cube; `data` is their folder (default: what ROCKREF_CUBE_TOSSES names)."""
+    """Compare measured tosses of a cube with models; `data` is their folder (default: what ROCKREF_CUBE_TOSSES
+    names)."""
     from rockref.model.errors import InputError
     from rockref.report.cube_story import reproduce_cube
 
@@ -129,7 +131,7 @@ def cube(asked: Request) -> Path:
 
 
 def earthquake(asked: Request) -> Path:
-    """The calibrated block and its symmetric twin under artificial bidirectional signals at ten levels."""
+    """Simulate the calibrated block and its symmetric twin under artificial bidirectional signals at ten levels."""
     from rockref.report.earthquake_page import reproduce_earthquake
 
     only_for("other studies", only=bool(asked.only), data=asked.data is not None)

@@ -20,7 +20,7 @@ ORDER = (slots.LOADS, slots.CONTACT, slots.FORCES, slots.MOMENTS, slots.PLATE, s
 
 
 def missing() -> list[int]:
-    """The variants of ORDER of which numba has kept no machine code."""
+    """Return the variants of ORDER of which numba has kept no machine code."""
     folder = Path(abreast.LOOPS[slots.ALL].stats.cache_path)
     names = {groups: abreast.LOOPS[groups].py_func.__qualname__.split(".")[-1] for groups in ORDER}
     return [groups for groups in ORDER if not any(folder.glob(f"*.{names[groups]}-*.nbi"))]

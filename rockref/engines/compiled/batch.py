@@ -55,7 +55,7 @@ class Batch:
 
 
 def from_problems(problems: Sequence[Problem]) -> Batch:
-    """The arrays of problems that share step, duration, output rate and number of points.
+    """Return the arrays of problems that share step, duration, output rate and number of points.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def from_problems(problems: Sequence[Problem]) -> Batch:
 
 
 def batch_of(problems: Sequence[Problem], wanted: np.ndarray) -> Batch:
-    """The arrays of problems of one step and number of points, their memories started, that want these rows."""
+    """Return the arrays of problems of one step and number of points, their memories started, that want these rows."""
     effects, samples = pack.effects_rows(problems)
     given = [np.zeros((p.points.n, 3)) if p.start.F is None else np.asarray(p.start.F, float) for p in problems]
     bodies, feet = {id(p.block): p for p in problems}, {id(p.points): p for p in problems}
@@ -161,7 +161,8 @@ def run_reduced(batch: Batch, reduce: Callable[[np.ndarray], np.ndarray], worker
 
 
 def packs_of(batch: Batch) -> list[tuple[int, np.ndarray]]:
-    """Which runs go abreast: for each variant of the loop the packs (packs, LANES); short ones repeat their last run.
+    """Return which runs go abreast: for each variant of the loop the packs (packs, LANES); short ones repeat their last
+    run.
 
     The runs of a pack have the same effects, inertia of the same form, and both or neither given accelerations; those
     with as many steps go together.
@@ -228,7 +229,7 @@ def run_listening(batch: Batch, listening: Listening, workers: int | None = None
 
 
 def checked(batch: Batch) -> Batch:
-    """The batch as the compiled loop takes it; raises InputError (E-SHAPE).
+    """Return the batch as the compiled loop takes it; raises InputError (E-SHAPE).
 
     What the run writes becomes an array of its own. The others stay as they are where they are contiguous float64, and
     writeable: for those that are not, numba would compile everything once more.

@@ -85,7 +85,7 @@ def _abreast(problems: list[Problem], workers: int | None, keep_going: bool) -> 
 
 
 def _rows_with_numbers(states: np.ndarray) -> int:
-    """How many rows (R, STATE) the loop has written: to the first one without numbers, which counts."""
+    """Return how many rows (R, STATE) the loop has written: to the first one without numbers, which counts."""
     lost = ~np.isfinite(states[:, 0:3].sum(1) + states[:, 3:6].sum(1) + states[:, 15:18].sum(1))
     return int(np.argmax(lost)) + 1 if lost.any() else len(states)
 
@@ -114,7 +114,7 @@ def _in_pieces(loop, read: list, h: float, samples, wanted: np.ndarray, written_
 
 
 def _has_numbers(row: np.ndarray) -> bool:
-    """Whether a row (STATE,) is still made of numbers, by the test with which the loop ends a run."""
+    """Return whether a row (STATE,) is still made of numbers, by the test with which the loop ends a run."""
     return bool(np.isfinite(row[0:3].sum() + row[3:6].sum() + row[15:18].sum()))
 
 
@@ -138,7 +138,7 @@ def _one(problem: Problem, keep_going: bool, progress: Progress = None) -> Respo
 
 
 def _response(problem: Problem, wanted, states, forces, memories, written: int, keep_going: bool) -> Response:
-    """The rows of a run as a Response, or the error where it has lost its numbers; `written` of them hold some."""
+    """Return rows of a run as a Response, or the error where it has lost its numbers; `written` of them hold some."""
     rows = len(wanted)
     if not np.isfinite(states[written - 1, :18]).all() and not keep_going:
         good = problem.start
@@ -160,7 +160,7 @@ def _response(problem: Problem, wanted, states, forces, memories, written: int, 
 
 
 def lost(problem: Problem, good: State) -> NumericalError:
-    """The error that names step and point at which the numbers were lost: the law finds them, from a good state.
+    """Return the error that names step and point at which the numbers were lost: the law finds them, from a good state.
 
     Raises InputError (E-ANGLE) itself where a step turns the block too far, as the law does.
     """
@@ -170,7 +170,7 @@ def lost(problem: Problem, good: State) -> NumericalError:
 
 
 def joined(problem: Problem, responses: list[Response]) -> Response:
-    """The responses of a batch's problems as one, leading axes as in the batch."""
+    """Return the responses of a batch's problems as one, leading axes as in the batch."""
     fields = ("x", "v", "Lambda", "W", "F", "s", "anchored", "sliding")
     rows = {k: np.stack([getattr(r, k) for r in responses]) for k in fields}
     rows = {k: a.reshape(problem.batch + a.shape[1:]) for k, a in rows.items()}

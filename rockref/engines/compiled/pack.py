@@ -20,7 +20,7 @@ from rockref.model.rotation import inverse
 
 
 def body_row(problem: Problem) -> np.ndarray:
-    """(BODY,) mass, gravity, inertia and its inverse."""
+    """Return (BODY,) mass, gravity, inertia and its inverse."""
     block = problem.block
     row = np.zeros(col.BODY)
     inertia = prepared_inertia(block)
@@ -33,14 +33,14 @@ def body_row(problem: Problem) -> np.ndarray:
 
 
 def centres(P: np.ndarray, props: np.ndarray) -> np.ndarray:
-    """(..., n, 3) contact points raised by the radius of their feet [m]."""
+    """Return (..., n, 3) contact points raised by the radius of their feet [m]."""
     raised = np.array(P, np.float64, order="C")
     raised[..., 2] += props[..., col.RADIUS]
     return raised
 
 
 def props_rows(problem: Problem) -> np.ndarray:
-    """(n, PROPS) properties of the points."""
+    """Return (n, PROPS) properties of the points."""
     q = problem.points
     rows = np.zeros((q.n, col.PROPS))
     for j, name in enumerate(("K_N", "K_T", "C_N", "C_T", "mu_0", "mu")):
@@ -52,7 +52,7 @@ def props_rows(problem: Problem) -> np.ndarray:
 
 
 def memory_rows(state: State) -> np.ndarray:
-    """(n, MEMORY) what the points remember."""
+    """Return (n, MEMORY) what the points remember."""
     rows = np.zeros((state.s.shape[0], col.MEMORY))
     rows[:, 0:2], rows[:, 2], rows[:, 3] = state.s, state.anchored, state.sliding
     for m in state.memory:
@@ -69,7 +69,7 @@ PLATE_MEMORY = {"q": col.Q, "q_rate": col.Q_RATE, "pitch": col.PITCH, "pitch_rat
 
 
 def state_row(problem: Problem) -> np.ndarray:
-    """(STATE,) pose, rates, accelerations and time of the start."""
+    """Return (STATE,) pose, rates, accelerations and time of the start."""
     s = problem.start
     row = np.zeros(col.STATE)
     row[0:3], row[3:6], row[6:15], row[15:18] = s.x, s.v, np.asarray(s.Lambda).ravel(), s.W
@@ -86,7 +86,7 @@ def state_row(problem: Problem) -> np.ndarray:
 
 
 def with_memory(problem: Problem) -> Problem:
-    """The problem with the memories of its effects started, where they are not yet."""
+    """Return the problem with the memories of its effects started, where they are not yet."""
     if len(problem.start.memory) == len(problem.effects):
         return problem
     start = replace(problem.start, memory=tuple(e.start(problem) for e in problem.effects))
@@ -94,7 +94,7 @@ def with_memory(problem: Problem) -> Problem:
 
 
 def effects_rows(problems: Sequence[Problem]) -> tuple[np.ndarray, np.ndarray]:
-    """(B, SLOTS) the numbers of the effects and of the plate's motions, whose samples follow, (N, 3) [m/s2].
+    """Return (B, SLOTS) the numbers of the effects and of the plate's motions, whose samples follow, (N, 3) [m/s2].
 
     Runs on the same motion share its samples. Raises InputError as `effects_row`.
     """
@@ -112,7 +112,7 @@ def effects_rows(problems: Sequence[Problem]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def effects_row(problem: Problem) -> np.ndarray:
-    """(SLOTS,) the numbers of the effects.
+    """Return (SLOTS,) the numbers of the effects.
 
     Raises
     ------
@@ -135,19 +135,20 @@ NUMPY = 'Use engine="numpy", or engine="auto", which does.'
 
 
 def has_twin(problem: Problem) -> bool:
-    """Whether the compiled step can run this problem."""
+    """Return whether the compiled step can run this problem."""
     active = [effect for effect in problem.effects if not effect.is_absent()]
     return all(knows(effect) for effect in active) and in_order(active)
 
 
 def in_order(effects: Sequence[Effect]) -> bool:
-    """Whether the effects that act in the step stand once each, in the order in which the compiled step has them."""
+    """Return whether the effects that act in the step stand once each, in the order in which the compiled step has
+    them."""
     ranks = [slots.IN_THE_STEP.index(effect.id) for effect in effects if effect.id in slots.IN_THE_STEP]
     return all(a < b for a, b in zip(ranks, ranks[1:], strict=False))
 
 
 def knows(effect: Effect) -> bool:
-    """Whether the compiled step has a twin of this very class, or the effect does not act in the step at all.
+    """Return whether the compiled step has a twin of this very class, or the effect does not act in the step at all.
 
     A user's effect has no twin even where it takes the id of one that has.
     """
@@ -207,7 +208,7 @@ FILL = {
 
 
 def final_state(problem: Problem, row: np.ndarray, memory: np.ndarray, forces: np.ndarray) -> State:
-    """The State that restarts the run, from the last row of the compiled step."""
+    """Return the State that restarts the run, from the last row of the compiled step."""
     own = []
     for effect, m in zip(problem.effects, problem.start.memory or tuple({} for _ in problem.effects), strict=True):
         started = m or effect.start(problem)
