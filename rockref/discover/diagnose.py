@@ -36,6 +36,8 @@ from rockref.measure.experiment import Experiment
 
 #: Hypotheses whose evidence is stored, and sets of effects that are asked of the held-out runs beside the baseline.
 STORED, ASKED = 8, 3
+#: Probability below which a set is not asked of the held-out runs (decided: no verdict depends on it).
+UNLIKELY = 1e-3
 #: Stages of a diagnosis, each with its share of the time in per cent (measured on a shipped experiment that needs them
 #: all).
 STAGES = {"baseline": 5.0, "effects": 30.0, "starts": 29.0, "S3": 15.0, "F": 12.0, "without": 5.0, "evidence": 4.0}
@@ -238,7 +240,8 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     if held is not None:
         problem.progress.begin("evidence", "checking on held-out runs")
         stands = decide(evidence).best.effects
-        for effects in dict.fromkeys([null.effects, stands, *(a.evidence.effects for a in ranked[:ASKED])]):
+        likely = [a.evidence.effects for a in ranked[:ASKED] if a.probability > UNLIKELY]
+        for effects in dict.fromkeys([null.effects, stands, *likely]):
             add_held_out(said[effects], fitter, next(h for h in kept if h.effects == effects), held)
     best = next(h for h in kept if h.effects == ranked[0].evidence.effects)
     evidence.signature = misfit(fitter, null, best)

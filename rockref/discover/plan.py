@@ -29,6 +29,7 @@ from rockref.discover.progress import StageReport
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.detection import cosines, eliminated, limit
 from rockref.effects.base import Effect
+from rockref.effects.natural import natural_units
 from rockref.effects.prior import to_scale
 from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment, Gyro, Run
 from rockref.measure.gyroscope import record
@@ -167,9 +168,11 @@ class Plan:
         }
 
 
-def switches_of(kind: type[Effect]) -> tuple[Parameter, ...]:
-    """Return the numbers of an effect that bring it in."""
-    return tuple(p for p in effect_parameters(kind.id, 1) if p.typical > 0 and p.run is None)
+def switches_of(kind: type[Effect], model: Model) -> tuple[Parameter, ...]:
+    """Return the numbers of an effect that bring it in, on the block of a model."""
+    return tuple(
+        p for p in effect_parameters(kind.id, 1, units=natural_units(model)) if p.typical > 0 and p.run is None
+    )
 
 
 def recorded(model: Model, release: Release, gyro: Gyro, seed: int, duration: float) -> Run:
@@ -216,7 +219,7 @@ def says(
     fitter = Fitter(problem)
     own = problem.parameters(problem.carried)
     truth = FittedModel(problem.carried, np.array([true_z(p, model) for p in own]))
-    numbers = [p for kind in effects for p in switches_of(kind)]
+    numbers = [p for kind in effects for p in switches_of(kind, model)]
     H, _ = fitter.linearise(fitter.evaluate(truth, F), F, numbers)
     shared = [k for k, p in enumerate((*own, *numbers)) if p.run is None and (not p.effect or k >= len(own))]
     rest = [k for k in range(len(H)) if k not in shared]
@@ -248,7 +251,7 @@ def outlook(
     S = eliminated(H + np.eye(len(H)), len(shared))
     limits, sizes, blocks, at = {}, {}, [], 0
     for kind in effects:
-        own = switches_of(kind)
+        own = switches_of(kind, model)
         block = np.arange(at, at + len(own))
         at += len(own)
         blocks.append(block)

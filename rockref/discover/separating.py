@@ -76,7 +76,7 @@ def separating_run(problem: FitProblem, model: Model, members: Sequence[str], si
     effects = [catalogue.find(id) for id in members]
     uncertainty = problem.experiment.tilt_uncertainty or TILT_UNCERTAINTY
     shared = len(law_parameters(model))
-    ends = np.cumsum([0, *(len(switches_of(kind)) for kind in effects)])
+    ends = np.cumsum([0, *(len(switches_of(kind, model)) for kind in effects)])
     blocks = [np.arange(a, b) for a, b in zip(ends, ends[1:], strict=False)]
 
     def information(offer: Offer) -> np.ndarray:

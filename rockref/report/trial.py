@@ -14,6 +14,7 @@ from rockref.discover.compare.stretches import AXES
 from rockref.discover.hypotheses.effects import effect_parameters, own_value
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.effects import catalogue
+from rockref.effects.natural import natural_units
 from rockref.effects.prior import to_scale
 from rockref.measure.prediction import gyro_of, predict
 from rockref.model.channel import DEGREES
@@ -177,7 +178,7 @@ def scaled(model: Model, id: str, share: float) -> tuple[Model, str]:
         return model.replace(effects=tuple(e for e in model.effects if e.id != id)), "none"
     kind, effect = catalogue.find(id), next(e for e in model.effects if e.id == id)
     largest: tuple[float, Parameter, float] | None = None
-    for p in effect_parameters(id, 1):
+    for p in effect_parameters(id, 1, units=natural_units(model)):
         if p.run is not None or p.typical <= 0.0:
             continue
         z = p.z_of(to_scale(kind, p.name.partition(".")[2], float(getattr(effect, p.name.partition(".")[2]))))

@@ -17,11 +17,16 @@ BLOCK = 0.1
 
 
 def deviations(fitter: Fitter, h: FittedModel, stage: Stage, temperature: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return the standard deviation (G,) of each z, and the Gauss-Newton matrix (G, G), at a fit, which is polished.
+    """Return the standard deviation (G,) of each z, and the Gauss-Newton matrix (G, G), at a fit.
+
+    h : polished at the stage; if it is not, it is.
 
     The larger of two: the sandwich, and the posterior's at the temperature of the evidence.
     """
-    fitter.polish(h, stage, 1)
+    if h.spread is None:
+        fitter.polish(h, stage, 1)
+    else:
+        fitter.evaluate(h, stage)
     spread = h.spread
     assert spread is not None
     scores = (spread.J * (weight(spread.r) * spread.r)).sum(axis=-1)  # (G, R, n)

@@ -23,6 +23,8 @@ RISE = 144.0
 #: Nats of the likelihood that count as one for the length of a direction, beside the prior, and its longest component
 #: in prior deviations (decided: where the data say little, the prior keeps it short).
 SOFTENED, LONGEST_END = 18.0, 1.5
+#: Factor by which the width of a number may grow and the valley count as known (decided: widths are told to a fifth).
+KNOWN = 1.2
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,11 @@ def softened(H: np.ndarray) -> np.ndarray:
     """Return the covariance of z by a Gauss-Newton matrix with its prior, where the likelihood is softened."""
     one = np.eye(len(H))
     return np.linalg.inv((H - one) / SOFTENED + one)
+
+
+def wider(covariance: np.ndarray, before: np.ndarray) -> bool:
+    """Return whether some number is less certain by a covariance than it was before."""
+    return bool((np.diag(covariance) > KNOWN**2 * np.diag(before)).any())
 
 
 def spread_about(

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rockref.discover.fit.differences import NARROWER, WIDEST, Residuals, jacobian
-from rockref.discover.fit.directions import SOFTENED, Spread, softened, spread_about
+from rockref.discover.fit.directions import SOFTENED, Spread, softened, spread_about, wider
 from rockref.discover.fit.objective import inflation_for, loss, mean_loss, objective, weight
 from rockref.discover.fit.problem import FitProblem
 from rockref.discover.fit.stages import Stage
@@ -142,18 +142,23 @@ class Fitter:
     def polish(self, h: FittedModel, stage: Stage, most: int, least_gain: float = LEAST_GAIN) -> FittedModel:
         """Take at most so many Gauss-Newton steps along the directions of the posterior, and keep its spread.
 
+        It goes on while a step gains, or the valley turns out wider than it was known to be.
         h : refined, so that its valley is known.
         """
         self.evaluate(h, stage)
+        if h.spread is not None:
+            known = h.spread.covariance(SOFTENED)
+        else:
+            known = softened(self.linearise(h, stage)[0] if h.H is None else h.H)
         for _ in range(most):
             assert h.r is not None
-            known = softened(self.linearise(h, stage)[0] if h.H is None else h.H)
-            covariance = known if h.spread is None else h.spread.covariance(SOFTENED)
-            h.spread = spread = spread_about(self.residuals(stage), self.parameters(h), h.z, h.r, covariance)
+            h.spread = spread = spread_about(self.residuals(stage), self.parameters(h), h.z, h.r, known)
             J = spread.J.reshape(len(h.z), -1)
             gradient = J @ (weight(h.r) * h.r).ravel() + spread.moves.T @ h.z
             H = spread.information() + spread.prior()
-            if self.step(h, stage, H, gradient, spread.moves) < least_gain:
+            gain = self.step(h, stage, H, gradient, spread.moves)
+            before, known = known, spread.covariance(SOFTENED)
+            if gain < least_gain and not wider(known, before):
                 break
         self.problem.refined(h, stage)
         return h

@@ -16,6 +16,7 @@ from rockref.discover.hypotheses.law import law_parameters, release_parameters, 
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.discover.listening.listener import Job, Listener, record_of
 from rockref.discover.progress import StageCounter
+from rockref.effects.natural import NaturalUnits, natural_units
 from rockref.measure.experiment import TILT_UNCERTAINTY, Experiment, Run
 from rockref.model.parameters import BLOCK, Parameters
 
@@ -62,6 +63,11 @@ class FitProblem:
         """Return by how much slower than the source's block the block rocks."""
         return time_scale(self.base)
 
+    @property
+    def units(self) -> NaturalUnits:
+        """Return the natural units of the block, with which the typical sizes of effects grow."""
+        return natural_units(self.base)
+
     def parameters(self, effects: Sequence[str] = ()) -> tuple[Parameter, ...]:
         """Return the numbers of the law, of each release, and of these effects, in this order."""
         key = (tuple(effects), self.tone)
@@ -70,7 +76,7 @@ class FitProblem:
             uncertainty = self.experiment.tilt_uncertainty or TILT_UNCERTAINTY
             found = [*law_parameters(self.base, self.experiment.prior), *release_parameters(R, uncertainty)]
             for id in effects:
-                found += [within_base(p, self.base) for p in effect_parameters(id, R, self.tone)]
+                found += [within_base(p, self.base) for p in effect_parameters(id, R, self.tone, self.units)]
             self._known[key] = tuple(found)
         return self._known[key]
 

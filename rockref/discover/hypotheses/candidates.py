@@ -13,7 +13,8 @@ from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.hypotheses.parameter import Parameter as PriorParameter
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
-from rockref.effects.prior import TYPICALLY_NONE, Prior, from_scale, prior_of
+from rockref.effects.natural import SOURCE, NaturalUnits, factor_of, natural_units
+from rockref.effects.prior import ROLES, TYPICALLY_NONE, Prior, from_scale, prior_of
 
 #: Candidates that no window can judge by a derivative: what has a phase of its own in every run, and what cuts samples.
 LEFT_OUT = tuple(kind.id for kind in catalogue.IN_STEP_ORDER if kind.of_run or kind.stage == "samples")
@@ -48,8 +49,13 @@ def current(model: Model, kind: type[Effect]) -> Effect:
     for effect in model.effects:
         if effect.id == kind.id:
             return effect
-    shape = {k: q.typical for k, q in kind.quantities.items() if prior_of(kind, k).role in ("shape", "fixed")}
-    return kind(**shape)
+    return kind(**typical_values(kind, natural_units(model), ("shape", "fixed")))
+
+
+def typical_values(kind: type[Effect], units: NaturalUnits, roles: Iterable[str] = ROLES) -> dict[str, float | None]:
+    """Return typical values of the quantities with these roles on a block with these units."""
+    chosen = {k: q.typical for k, q in kind.quantities.items() if prior_of(kind, k).role in roles}
+    return {k: v if v is None else v * factor_of(kind, k, units) for k, v in chosen.items()}
 
 
 def with_effect(model: Model, effect: Effect) -> Model:
@@ -75,29 +81,40 @@ def setter(kind: type[Effect], key: str) -> Callable[[Model, float], Model]:
     return set_value
 
 
-def parameters_of(kind: type[Effect], runs: int, frequency: float | None = None) -> tuple[Parameter, ...]:
+def parameters_of(
+    kind: type[Effect], runs: int, frequency: float | None = None, units: NaturalUnits = SOURCE
+) -> tuple[Parameter, ...]:
     """Return the free parameters of an effect; z = 0 is its absence, z = 1 its typical size (shapes: typical at z = 0).
 
-    frequency [Hz] : known beforehand, of an effect with a phase of its own in every run.
+    frequency [Hz] : known beforehand, of an effect with a phase of its own in every run.  units : of the block.
     """
     free = [key for key in kind.quantities if prior_of(kind, key).role != "fixed" and key not in kind.of_run]
     ordered = sorted(free, key=lambda key: prior_of(kind, key).role == "shape")
-    found = [parameter_of(kind, key) for key in ordered]
+    found = [parameter_of(kind, key, units) for key in ordered]
     if kind.of_run and frequency:
         found = [replace(p, centre=frequency) if p.unit == "Hz" else p for p in found]
-    return (*found, *(p for i in range(runs) for p in parts_of_run(kind, i)))
+    return (*found, *(p for i in range(runs) for p in parts_of_run(kind, i, units)))
 
 
-def parameter_of(kind: type[Effect], key: str) -> Parameter:
+def parameter_of(kind: type[Effect], key: str, units: NaturalUnits) -> Parameter:
     """Return one parameter of an effect as a number that a fit can move, on its own scale."""
-    p = prior_of(kind, key)
+    p, centre, spread = prior_of(kind, key), *on_block(kind, key, units)
     return Parameter(
-        f"{kind.id}.{key}", setter(kind, key), p.centre, p.spread, p.scale == "log", None, STEP, p.deviation,
+        f"{kind.id}.{key}", setter(kind, key), centre, spread, p.scale == "log", None, STEP, p.deviation,
         p.low, p.high, kind.quantities[key].unit,
     )  # fmt: skip
 
 
-def parts_of_run(kind: type[Effect], run: int) -> tuple[Parameter, ...]:
+def on_block(kind: type[Effect], key: str, units: NaturalUnits) -> tuple[float, float]:
+    """Return centre and spread of a prior on a block with these units."""
+    p, factor = prior_of(kind, key), factor_of(kind, key, units)
+    if p.scale == "log":
+        return p.centre * factor, p.spread
+    factor = 1 / factor if p.scale == "inverse" else factor
+    return p.centre * factor, p.spread * factor
+
+
+def parts_of_run(kind: type[Effect], run: int, units: NaturalUnits) -> tuple[Parameter, ...]:
     """Return cosine and sine part of what a run has of its own: a size and its phase; nothing where an effect has
     neither."""
     if not kind.of_run:
@@ -112,11 +129,11 @@ def parts_of_run(kind: type[Effect], run: int) -> tuple[Parameter, ...]:
         c, s = (value, s) if real else (c, value)
         return with_effect(model, replace(e, **{size: math.hypot(c, s), phase: math.atan2(s, c)}))
 
-    p, unit = prior_of(kind, size), kind.quantities[size].unit
+    _, spread = on_block(kind, size, units)
     return tuple(
         Parameter(
-            f"{kind.id}.{name}[{run}]", partial(part, real), 0.0, p.spread, run=run, step=STEP_OF_RUN,
-            prior=p.deviation, unit=unit,
+            f"{kind.id}.{name}[{run}]", partial(part, real), 0.0, spread, run=run, step=STEP_OF_RUN,
+            prior=prior_of(kind, size).deviation, unit=kind.quantities[size].unit,
         )
         for name, real in (("cosine", True), ("sine", False))
     )  # fmt: skip

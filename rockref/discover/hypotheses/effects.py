@@ -10,16 +10,20 @@ from rockref.discover.hypotheses import candidates
 from rockref.discover.hypotheses.counted import Parameter as Counted
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.effects import catalogue
+from rockref.effects.natural import SOURCE, NaturalUnits, factor_of
 from rockref.effects.prior import from_scale, prior_of, to_scale
 
 
-def effect_parameters(id: str, runs: int, tone: float | None = None) -> tuple[Parameter, ...]:
+def effect_parameters(
+    id: str, runs: int, tone: float | None = None, units: NaturalUnits = SOURCE
+) -> tuple[Parameter, ...]:
     """Return the numbers of an effect: those that bring it in, those that shape it, and those of each run.
 
-    tone [Hz] : a line in the misfit, at which an effect that oscillates starts.
+    tone [Hz] : a line in the misfit, at which an effect that oscillates starts.  units : of the block, with which
+    typical sizes grow.
     """
     kind = catalogue.find(id)
-    return tuple(counted_in_priors(p) for p in candidates.parameters_of(kind, runs, tone))
+    return tuple(counted_in_priors(p) for p in candidates.parameters_of(kind, runs, tone, units))
 
 
 def counted_in_priors(p: Counted) -> Parameter:
@@ -40,15 +44,19 @@ def own_value(p: Parameter, z: float) -> float:
     return value if kind is None else from_scale(kind, key, value)
 
 
-def seeds_of(parameters: Sequence[Parameter], id: str, records: Sequence[tuple[np.ndarray, np.ndarray]]) -> list:
+def seeds_of(
+    parameters: Sequence[Parameter], id: str, records: Sequence[tuple[np.ndarray, np.ndarray]],
+    units: NaturalUnits = SOURCE,
+) -> list:  # fmt: skip
     """Return the finite starts of an effect, z of its numbers (G,); none where one step from zero shows it.
 
-    records : times (N,) [s] and rates (N, 3) [rad/s] of the runs.
+    records : times (N,) [s] and rates (N, 3) [rad/s] of the runs.  units : of the block.
     """
     kind = catalogue.find(id)
     found = []
     for values in kind.seeds_in(records):
-        effect = kind(**{**kind.typical().values(), **values})
+        here = {key: value * factor_of(kind, key, units) for key, value in values.items()}
+        effect = kind(**{**candidates.typical_values(kind, units), **here})
         z = np.zeros(len(parameters))
         for k, p in enumerate(parameters):
             _, key = candidates.kind_and_key(p.name)

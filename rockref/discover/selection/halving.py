@@ -37,8 +37,11 @@ def within(field: Sequence[FittedModel], most: int, margin: float = MARGIN) -> l
     return [h for h in ranked if h.objective <= margin * ranked[0].objective][:most]
 
 
-def halving(fitter: Fitter, starts: Sequence[FittedModel]) -> list[FittedModel]:
-    """Return the best additions of one effect to models, each from its start at the shortest memory, fitted at S2."""
+def halving(fitter: Fitter, starts: Sequence[FittedModel], left: float = np.inf) -> list[FittedModel]:
+    """Return the best additions of one effect to models, each from its start at the shortest memory, fitted at S2.
+
+    left : mean loss above which the best of the shortest memory is not the cause, and none goes on.
+    """
     field: list[FittedModel] = []
     for start in starts:
         field += entrants(fitter, FittedModel(start.effects, start.z if start.start is None else start.start))
@@ -48,6 +51,8 @@ def halving(fitter: Fitter, starts: Sequence[FittedModel]) -> list[FittedModel]:
         for h in field:
             fitter.tempered(h, S1, 1)
     say(fitter, "S1", field := within(field, FIRST, 2 * MARGIN))
+    if field[0].loss > left:
+        return []
     for h in field:
         h.start = h.z.copy()
         fitter.refine(h, S2, 3)

@@ -91,7 +91,9 @@ def proposals(
     base = len(fitter.problem.parameters())
     for e in test.places:
         numbers = fitter.problem.parameters((e,))[base:]
-        seeds += [fitter.with_effect(h, e, z) for z in seeds_of(numbers, e, fitter.problem.records)]
+        seeds += [
+            fitter.with_effect(h, e, z) for z in seeds_of(numbers, e, fitter.problem.records, fitter.problem.units)
+        ]
     if seeds:
         fitter.evaluate_all(seeds, stage)
     return sorted(best_of_each([*found, *seeds]), key=lambda k: k.objective)[:most]

@@ -4,7 +4,8 @@
 2. If contradicted: try all effects by successive halving; fit the baseline from starts over the whole prior; try all
    effects beside that; then the law anew beside the best effect, and one more effect.
 3. Lengthen the memory. At each stage the score test proposes more effects; those that gain enough join.
-4. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
+4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
+5. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from collections.abc import Sequence
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
-from rockref.discover.fit.starts import global_fit
-from rockref.discover.selection.halving import WORTH, halving, say, seen_at_release, within
+from rockref.discover.fit.starts import global_fit, kicked
+from rockref.discover.selection.halving import WORTH, halving, say, seen_at_release, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.tone import tone
 
@@ -47,6 +48,8 @@ EQUALS = 2
 FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
 #: Steps at the later stages.
 STEPS = {"S3": 3, "F": 4}
+#: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
+REPLACING = 4
 #: Words for the stages of longer memory.
 MEMORY = {"S3": "refining the best models", "F": "testing every effect again at the longest memory"}
 
@@ -71,7 +74,45 @@ class Search:
         beam = self.lengthen(self.begin(), S3)
         if self.best(beam).loss > UNEXPLAINED:
             return self.unexplained(beam)
-        return self.eliminate(self.lengthen(beam, F))
+        beam = self.lengthen(beam, F)
+        if self.best(beam).loss > WHITE:
+            beam = self.second_look(beam)
+        return self.eliminate(beam)
+
+    def second_look(self, beam: list[FittedModel]) -> list[FittedModel]:
+        """Return a beam at F with what stands in a better valley of the law, if there is one beside the best model.
+
+        A model that leaves more than white noise may have the right effect and feet that are nearly right: it is moved
+        along the ridges of the law at the shortest memory. Or several effects stand for another one, and found the law
+        only after all had been compared. In both cases all effects are compared again beside the new law.
+        """
+        best = self.best(beam)
+        self.problem.progress.begin("F", "looking for a better law", best.name)
+        moved = self.fitter.tempered(FittedModel(best.effects, best.z.copy()), S1, 2)
+        moved = self.fitter.settle(kicked(self.fitter, moved, S1, 2), S2, 4)
+        (end,) = self.followed([moved.copy()])
+        self.problem.say(f"{end.name}, the law moved: mean loss {end.loss:.2f}")
+        better = end.objective <= (1 - JOINS["F"]) * best.objective
+        added = set(best.effects) - set(self.problem.carried)
+        if not better and len(added) < 2:
+            return beam
+        base = moved if better else best
+        for e in added:
+            base = self.fitter.without(base, e)
+        self.baseline = self.settled(base)
+        singles = halving(self.fitter, [self.baseline])
+        return within([*beam, end, *self.followed([self.baseline, *singles])], BEAM, MARGINS["F"])
+
+    def followed(self, field: list[FittedModel]) -> list[FittedModel]:
+        """Return those of a field at S2 that stay near the best, at F."""
+        self.fitter.widen()
+        for h in field:
+            self.fitter.refine(h, S3, STEPS["S3"])
+        field = within(field, BEAM, MARGINS["S3"])
+        for h in field:
+            self.fitter.polish(h, F, STEPS["F"])
+        self.remember(field)
+        return field
 
     def unexplained(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Return the best hypothesis and the baseline at F, where none explains the runs."""
@@ -125,7 +166,8 @@ class Search:
         """
         progress, null = self.problem.progress, self.best(beam)
         progress.begin("effects", f"comparing {self.compared(null)}", null.name)
-        self.add(beam, halving(self.fitter, [self.nominal()]))
+        left = WHITE + LEAVES[0] * (null.loss - WHITE)
+        self.add(beam, halving(self.fitter, [self.nominal()], left))
         if self.is_explained(best := self.best(beam)) and self.moved(best) < STAYED:
             return
         progress.begin("starts", "fitting the baseline from other starts", best.name)
@@ -224,13 +266,23 @@ class Search:
             if e in self.problem.carried:
                 continue
             less = self.fitter.polish(self.fitter.without(best, e), F, 3)
-            found.append(less)
-            for h in proposals(self.fitter, self.fitter.evaluate(less.copy(), F), F, 2):
-                found.append(self.fitter.polish(h, F, 2))
+            found += [less, *(self.fitter.polish(h, F, 2) for h in self.replacements(less, [*beam, *found]))]
         if not any(h.effects == self.problem.carried for h in [*beam, *found]):
             found.append(self.fitter.polish(self.baseline.copy(), F, 3))
         self.remember([*beam, *found])
         return self.converged(best_of_each([*beam, *found, *self.seen.values()]))
+
+    def replacements(self, less: FittedModel, known: Sequence[FittedModel]) -> list[FittedModel]:
+        """Return the two best additions to a model at F that are not known yet.
+
+        An error of the sensor may be out of reach of one step of a long memory, and is sized from the release.
+        """
+        start = self.fitter.evaluate(less.copy(), F)
+        sized = sized_at_release(self.fitter, start)
+        self.fitter.evaluate_all(sized, F)
+        there = {frozenset(h.effects) for h in [*known, *self.seen.values()]}
+        field = best_of_each([*proposals(self.fitter, start, F, REPLACING), *sized])
+        return [h for h in field if frozenset(h.effects) not in there][:2]
 
     def converged(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Refine the finalists until no step gains, and each subset of the best from the optimum of the best.

@@ -28,6 +28,7 @@ class Adhesion(Effect):
     priors = {"range": Prior("shape")}
     # A small pull changes when a foot lifts off, a larger one whether it does. Decided: 0.3 to 1.4 typical ones.
     seeds = ({"force": 15.0}, {"force": 35.0}, {"force": 70.0})
+    not_with_block = ("range",)  # that of the film
     sentence = "Magnetism, an oil film or clean metal hold the feet down until they are some micrometres off the plate."
     equation = r"F_z = -F_a\,\mathrm{clip}(1 + \xi/d_a,\ 0,\ 1)"
     source = (

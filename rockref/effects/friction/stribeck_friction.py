@@ -26,6 +26,7 @@ class StribeckFriction(Effect):
         ),
     }
     switches = ("ratio",)
+    not_with_block = ("velocity",)  # that of the surfaces
     # Decided: factors of one and a half, and of two; friction is positive on either side of none.
     priors = {"ratio": Prior(scale="log", spread=0.4), "velocity": Prior("shape", spread=0.7)}
     sentence = "Surfaces at rest interlock or squeeze out their film; sliding parts them, so friction falls with speed."

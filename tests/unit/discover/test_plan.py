@@ -149,5 +149,5 @@ def test_what_a_release_says_is_information():
     """It is symmetric, and never less than none."""
     pytest.importorskip("numba")
     says = planning.says(TABLE, A, (FILM,), planning.GYRO, 0.0014, 0, 1.0, 1)
-    assert says.H.shape == (SHARED + len(planning.switches_of(FILM)),) * 2
+    assert says.H.shape == (SHARED + len(planning.switches_of(FILM, TABLE)),) * 2
     assert np.allclose(says.H, says.H.T) and np.linalg.eigvalsh(says.H).min() > -1e-6 * np.abs(says.H).max()

@@ -75,7 +75,7 @@ def test_a_shaking_base_has_no_derivative_and_no_offer():
 def test_taking_the_cable_off_takes_its_trace_out_of_that_run(monkeypatch):
     """Drag and cable leave one trace in every run; only a run without the cable can tell them apart."""
     members = ("quadratic_drag", "cable_restraint")
-    numbers = [len(separating.switches_of(separating.catalogue.find(id))) for id in members]
+    numbers = [len(separating.switches_of(separating.catalogue.find(id), TABLE)) for id in members]
 
     def says(model, release, effects, *args, **options):
         H = np.zeros((SHARED + sum(numbers), SHARED + sum(numbers)))
