@@ -11,18 +11,33 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from rockref.model.parameters import BLOCK
 
 if TYPE_CHECKING:
-    from rockref.api import Model
     from rockref.effects.base import Effect
 
 #: Powers of mass, length and time in a unit.
 POWERS = {"kg": (1, 0, 0), "m": (0, 1, 0), "s": (0, 0, 1), "N": (1, 1, -2), "Hz": (0, 0, -1)}
 #: One unit and its power, as in "N m s2".
 PART = re.compile(r"([A-Za-z]+)(\d*)")
+
+
+class Cuboid(Protocol):
+    """What natural units are read from: mass [kg] and sides [m]."""
+
+    @property
+    def mass(self) -> float:
+        """Return the mass."""
+
+    @property
+    def width(self) -> float:
+        """Return the side across the edge on which the block rocks."""
+
+    @property
+    def height(self) -> float:
+        """Return the upright side."""
 
 
 @dataclass(frozen=True)
@@ -48,10 +63,10 @@ class NaturalUnits:
 SOURCE = NaturalUnits()
 
 
-def natural_units(model: Model) -> NaturalUnits:
-    """Return the natural units of a model's block."""
+def natural_units(block: Cuboid) -> NaturalUnits:
+    """Return the natural units of a block, or of a model of it."""
     width, height, mass = (BLOCK[name].value for name in ("width", "height", "mass"))
-    return NaturalUnits(model.mass / mass, math.hypot(model.width, model.height) / math.hypot(width, height))
+    return NaturalUnits(block.mass / mass, math.hypot(block.width, block.height) / math.hypot(width, height))
 
 
 def factor_of(kind: type[Effect], name: str, units: NaturalUnits) -> float:
