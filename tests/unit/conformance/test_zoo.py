@@ -18,11 +18,15 @@ from rockref.conformance.zoo.mistake import Mistake
 from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
 from rockref.conformance.zoo.run import case_of_control, case_of_mistake, in_markdown, run_zoo, summary
 
+#: What the first pieces let through or misnamed.
+ONCE_MISSED = ("Z89", "Z96", "Z98", "Z102", "Z103", "Z124", "Z131", "Z132", "Z133")
+
 
 @pytest.fixture(scope="module")
 def cases():
-    """All mistakes, by their pieces."""
-    return [case_of_mistake(m, black_box=False) for m in MISTAKES]
+    """Every third mistake in the order of the rules, and those once missed, by their pieces; slow: all of them."""
+    asked = {m.id: m for m in (*MISTAKES[::3], *(BY_ID[id_] for id_ in ONCE_MISSED))}
+    return [case_of_mistake(m, black_box=False) for m in asked.values()]
 
 
 def test_the_zoo_is_large_enough():
@@ -39,11 +43,11 @@ def test_the_thirty_five_of_the_study_are_there():
     assert any("root of squares" in c.says for c in CONTROLS)
 
 
-def test_every_mistake_is_detected(cases):
+def test_mistakes_are_detected(cases):
     assert [c["id"] for c in cases if not c["detected"]] == []
 
 
-def test_nearly_every_mistake_is_named_by_its_rule(cases):
+def test_nearly_all_are_named_by_their_rules(cases):
     wrong = [f"{c['id']}: planted {c['rule']}, named {c['named']}" for c in cases if not c["attributed"]]
     assert len(wrong) <= (1 - zoo_run.WITH_PIECES) * len(cases), wrong
 
@@ -77,7 +81,7 @@ def test_what_the_first_short_runs_let_through_or_misnamed_is_named(id_):
     assert v.rule == mistake.rule, in_words.text(v)
 
 
-@pytest.mark.parametrize("id_", ["Z89", "Z96", "Z98", "Z102", "Z103", "Z124", "Z131", "Z132", "Z133"])
+@pytest.mark.parametrize("id_", ONCE_MISSED)
 def test_what_pieces_let_through_or_misnamed_is_named(cases, id_):
     case = next(c for c in cases if c["id"] == id_)
     assert case["attributed"], case
