@@ -11,6 +11,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
@@ -46,6 +49,8 @@ EQUALS = 2
 #: Finalists, the factor on the best objective up to which one is, and the steps that one may take (decided: what is
 #: further above has no probability; fits end by gaining nothing long before that).
 FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
+#: Times that they are compared from the law of the best (decided: twice, should the best change).
+EXCHANGES = 2
 #: Steps at the later stages.
 STEPS = {"S3": 3, "F": 4}
 #: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
@@ -285,23 +290,29 @@ class Search:
         return [h for h in field if frozenset(h.effects) not in there][:2]
 
     def converged(self, beam: list[FittedModel]) -> list[FittedModel]:
-        """Refine the finalists until no step gains, and each subset of the best from the optimum of the best.
+        """Fit the finalists until no step gains, and again from the law and the releases of the best of them.
 
         A fit that stops early, or in a local minimum, lies hundreds of nats too high; a common start compares effects.
         """
         finalists = sorted((h for h in beam if h.objective <= CLOSE * self.best(beam).objective), key=penalised)
-        for h in finalists[:FINALISTS]:
+        finalists = finalists[:FINALISTS]
+        for h in finalists:
             self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
             self.problem.say(f"finalist {h.name}")
             self.fitter.polish(h, F, CONVERGED)
-        best = min(beam, key=penalised)
-        for h in finalists[:FINALISTS]:
-            if set(h.effects) < set(best.effects):
-                start = best
-                for e in set(best.effects) - set(h.effects):
-                    start = self.fitter.without(start, e)
-                beam.append(self.fitter.polish(start, F, CONVERGED))
+        for _ in range(EXCHANGES):
+            best = min(beam, key=penalised)
+            others = [h for h in finalists if set(h.effects) != set(best.effects)]
+            beam += [self.fitter.polish(self.beside(best, h), F, CONVERGED) for h in others]
+            if set(min(beam, key=penalised).effects) == set(best.effects):
+                break
         return sorted(best_of_each(beam), key=lambda h: h.objective)
+
+    def beside(self, best: FittedModel, h: FittedModel) -> FittedModel:
+        """Return a hypothesis with the law, the releases and the shared effects of another one."""
+        known = {p.name: z for p, z in zip(self.fitter.parameters(best), best.z, strict=True)}
+        z = [known.get(p.name, own) for p, own in zip(self.fitter.parameters(h), h.z, strict=True)]
+        return replace(h, z=np.array(z))
 
     def remember(self, field: Sequence[FittedModel]) -> None:
         """Keep the best fit of each set of effects at the longest memory."""
