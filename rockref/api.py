@@ -33,6 +33,8 @@ from rockref.model.response import Response
 from rockref.model.simulate import check_names, check_points
 from rockref.model.standing import standing_posture
 
+#: What `simulate` takes beside its own arguments.
+OF_START = frozenset({"start", "turned", "out_of_plane", "theta_0", "body", "base", "standing", "heading"})
 POINT_SETS = ("eight_points", "four_points", "custom")
 
 
@@ -95,6 +97,19 @@ class Model:
         effects = ", ".join(effect.id for effect in self.effects) or "no effects"
         sides = f"{self.width} x {self.depth} x {self.height} m"
         return f"<Model: {self.mass} kg, {sides}, {self.points}, {effects}>"
+
+    def summary(self) -> str:
+        """Return block, parameters and effects, a line each, as one would put them in an e-mail."""
+        numbers = [f"{key} {value:g}" for key in self.acting_parameters() if (value := self._number(key)) is not None]
+        effects = [f"{e.id}: {', '.join(f'{k} {v}' for k, v in e.values().items())}" for e in self.effects]
+        return "\n".join([repr(self)[1:-1], ", ".join(numbers), *effects])
+
+    def _number(self, key: str) -> float | None:
+        """Return a parameter of Table 3.1 by its name there, as delta_long_1."""
+        name, _, place = key.rpartition("_")
+        if name == "delta_long":
+            return self.parameters.delta_long[int(place) - 1]
+        return getattr(self.parameters, key, None)
 
     def __eq__(self, other: object) -> bool:
         """Return whether two models have the same values, arrays and notes included."""
@@ -360,5 +375,10 @@ def simulate(
     if not isinstance(model, (Model, Problem)):
         cure = "Give a Model: Model.table_3_1(), or Model.load of a file."
         raise InputError("E-TYPE", "model", f"is {model!r}"[:80], cure)
-    problem = model if isinstance(model, Problem) else model.problem(duration, step, output_rate, **start)
+    if isinstance(model, Problem):
+        return run(model, engine=engine, progress=progress, dtype=dtype)
+    unknown = [key for key in start if key not in OF_START]
+    if unknown:
+        raise model_file.unknown_key("simulate", unknown[0], OF_START)
+    problem = model.problem(duration, step, output_rate, **start)
     return run(problem, engine=engine, progress=progress, dtype=dtype)

@@ -23,7 +23,7 @@ def load(folder: str | Path) -> Experiment:
     """
     from rockref.measure import load_experiment
 
-    return load_experiment(folder)
+    return load_experiment(_folder(folder))
 
 
 def compare(
@@ -77,7 +77,7 @@ def fit(
     from rockref.discover.fit_baseline import fit_baseline
     from rockref.report.fit_text import print_fit
 
-    along = (effects,) if isinstance(effects, str) else tuple(effects)
+    along, seed = tuple(_words(effects)), _seed(seed)
     folder, start = _folder(experiment), _optional(model)
     found = fit_baseline(folder, along, start, seed, None, check=check, progress=progress)
     return _of_model(f"fit of {found.experiment.name}", found, lambda: printed(lambda c: print_fit(c, found)), start)
@@ -102,7 +102,7 @@ def diagnose(
     from rockref.report.diagnosis_text import print_diagnosis
     from rockref.report.output import made_folder
 
-    own = [effects] if isinstance(effects, str) else list(effects)
+    own, seed = _words(effects), _seed(seed)
     start = _optional(model)
     with compiled_ahead():
         found = engine.diagnose(_folder(experiment), start, seed, None, progress=progress, own=own)
@@ -133,7 +133,7 @@ def add(
     from rockref.report.addition_text import print_addition
     from rockref.report.output import made_folder
 
-    start = _optional(model)
+    (effect,), seed, start = _words(effect, "effect"), _seed(seed), _optional(model)
     found = add_effect(effect, _folder(experiment), start, seed, None, progress=progress)
     return _of_model(
         f"{effect} in {found.experiment.name}",
@@ -160,7 +160,9 @@ def plan(
     from rockref.discover.plan import releases_from
     from rockref.report.plan_text import sentences
 
-    own = [effects] if isinstance(effects, str) else list(effects)
+    own, seed = _words(effects), _seed(seed)
+    if not isinstance(runs, str):
+        raise _no_runs(runs)
     found = run_plan(_model(model), releases_from(runs), own or None, seed=seed, progress=progress)
     return Result(f"plan of {runs}", found, lambda: "\n".join(sentences(found)))
 
@@ -221,6 +223,32 @@ def _folder(given: Any) -> Path:
     if not isinstance(given, str | Path):
         raise InputError("E-TYPE", "experiment", f"is {given!r}"[:80], "Give a folder, or what rockref.load returned.")
     return Path(given)
+
+
+def _words(given: Any, name: str = "effects") -> list[str]:
+    """Return effects as words: one, or a sequence of them. Raises InputError E-TYPE for what is neither."""
+    from rockref.model.errors import InputError
+
+    listed = [given] if isinstance(given, str) else given
+    if not isinstance(listed, Sequence) or not all(isinstance(one, str) for one in listed):
+        cure = 'Give the id of an effect, as "rolling_resistance", or path/to/file.py:Class.'
+        raise InputError("E-TYPE", name, f"is {given!r}"[:80], cure)
+    return list(listed)
+
+
+def _no_runs(given: Any) -> Exception:
+    from rockref.model.errors import InputError
+
+    return InputError("E-TYPE", "runs", f"is {given!r}"[:80], 'Give tilts in rad, as "0.117x3,0.098,0.117t".')
+
+
+def _seed(given: Any) -> int:
+    """Return a seed. Raises InputError E-TYPE where it is no whole number from zero on."""
+    from rockref.model.errors import InputError
+
+    if isinstance(given, bool) or not isinstance(given, int) or given < 0:
+        raise InputError("E-TYPE", "seed", f"is {given!r}"[:80], "Give a whole number, 0 or above.")
+    return given
 
 
 def _model(given: Any) -> Model:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import re
 import sys
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -110,6 +111,15 @@ def made(thing: Any, target: str) -> Any:
         raise InputError("E-BACKEND", target, what, "Give a class that can be called without arguments.") from e
 
 
+def class_cure(path: Path) -> str:
+    """Return what to write in the place of a file: the file with each of its classes, read and not run."""
+    if not path.is_file():
+        return "The file is not there; give path/to/file.py:Class."
+    classes = re.findall(r"^class +(\w+)", path.read_text(encoding="utf-8", errors="replace"), re.MULTILINE)
+    listed = " or ".join(f"{path}:{name}" for name in classes)
+    return f"Write {listed}." if classes else "There is no class in it; write one with simulate(problem)."
+
+
 def load(target: str) -> Any:
     """Return the backend that a target names: "numpy", "numba", "path/to/file.py:Class", "package.module:Class", or an
     entry point.
@@ -126,6 +136,8 @@ def load(target: str) -> Any:
         found = named(target)
         if found is not None:
             return found
+        if target.endswith(".py"):
+            raise InputError("E-BACKEND", target, "names no class", class_cure(Path(target)))
         known = [*ENGINES, *(p.name for p in entry_points(group=GROUP))]
         cure = f"Use one of {', '.join(known)}, path/to/file.py:Class, or package.module:Class."
         raise InputError("E-BACKEND", target, "is no backend", cure)

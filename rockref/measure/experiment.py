@@ -41,6 +41,8 @@ from rockref.model.errors import InputError
 
 # kg/m3: osmium, the densest element, has 22590 (CRC Handbook of Chemistry and Physics).
 DENSEST = 23e3
+# kg/m3; decided: the lightest boards of plastic foam, of which a block of records might be.
+LIGHTEST = 10.0
 # rad, where a release states none; decided: 1 mm of wire (the source's "±0.08°").
 TILT_UNCERTAINTY = 1.4e-3
 # decided: a campaign of more runs than this is several experiments.
@@ -258,9 +260,10 @@ def _gyro(table: Any, runs: tuple[Run, ...], folder: Path, source: str) -> tuple
 def _density(experiment: Experiment, source: str) -> list[Notice]:
     """Look whether a block of this mass, width and height can be of anything."""
     density = experiment.mass / (experiment.width**2 * experiment.height)
-    if density <= DENSEST:
+    if LIGHTEST <= density <= DENSEST:
         return []
-    what = f"a block of {experiment.mass:g} kg and this size has {density:.3g} kg/m3, and no matter has more than 23000"
+    limit = "no matter has more than 23000" if density > DENSEST else "hard foam has ten at least"
+    what = f"a block of {experiment.mass:g} kg and this size has {density:.3g} kg/m3, and {limit}"
     return [Notice("W-DENSITY", f"{source}, [block]", what, "Check mass, width and height, and their units.")]
 
 

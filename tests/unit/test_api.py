@@ -211,3 +211,15 @@ class TestEffectsInWords:
     def test_a_model_says_itself_in_a_line(self):
         model = Model(effects="rolling_resistance:lever=3e-4")
         assert repr(model) == "<Model: 54.0 kg, 0.1 x 0.1 x 0.688 m, eight_points, rolling_resistance>"
+
+
+def test_a_model_says_itself_in_a_few_lines():
+    head, numbers, effect = Model(effects="rolling_resistance:lever=3e-4").summary().splitlines()
+    assert head.startswith("Model: 54.0 kg") and "delta_long_4 5.8e-05" in numbers and "theta_0 0.117" in numbers
+    assert effect == "rolling_resistance: lever 0.0003"
+
+
+def test_an_argument_that_a_run_does_not_know_is_refused_with_the_nearest():
+    with pytest.raises(InputError) as refused:
+        rockref.simulate(Model(), duration=0.01, turnt=True)
+    assert (refused.value.code, refused.value.cure) == ("E-KEY", "Did you mean 'turned'?")

@@ -57,6 +57,12 @@ def test_a_backend_is_judged(tmp_path):
 @pytest.mark.parametrize(
     "call",
     [
+        lambda: rockref.load(3),
+        lambda: rockref.diagnose("folder", effects=3),
+        lambda: rockref.fit("folder", effects=["gyro_scale", 3]),
+        lambda: rockref.add("folder", 3),
+        lambda: rockref.fit("folder", seed="a"),
+        lambda: rockref.plan(runs=3),
         lambda: rockref.compare(3),
         lambda: rockref.compare("nowhere", 3),
         lambda: rockref.plan(3),

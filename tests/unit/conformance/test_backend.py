@@ -128,3 +128,20 @@ def test_of_a_run_what_an_object_does_not_have_is_not_shown():
 def test_layers_are_taken_in_their_order_and_all_by_default():
     assert chosen_layers(None) == LAYERS
     assert chosen_layers(["L7", "LE", "L0"]) == ("L0", "L7", "LE")
+
+
+@pytest.mark.parametrize(
+    "text, cure",
+    [
+        ("class Mine:\n    pass\nclass Other(Mine):\n    pass\n", "Write {0}:Mine or {0}:Other."),
+        ("raise SystemExit\n", "There is no class in it; write one with simulate(problem)."),
+        (None, "The file is not there; give path/to/file.py:Class."),
+    ],
+)
+def test_a_file_without_a_class_is_told_which_there_are_and_is_not_run(tmp_path, text, cure):
+    path = tmp_path / "mine.py"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(InputError) as refused:
+        load(str(path))
+    assert (refused.value.code, refused.value.cure) == ("E-BACKEND", cure.format(path))

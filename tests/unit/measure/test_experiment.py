@@ -242,9 +242,16 @@ def test_a_tilt_of_which_nobody_says_how_far_it_is_off_is_remarked_on(folder, sa
     assert notice.code == "W-TILT" and "0.0014 rad off" in notice.what
 
 
-@pytest.mark.parametrize("old, new", [("mass_kg = 54.0", "mass_kg = 54000.0"), ("height_m = 0.688", "height_m = 0.1")])
-def test_a_block_denser_than_any_matter_is_remarked_on(folder, old, new):
-    """Grams called kilograms; or the width typed again for the height: 54 kg in a litre, twice as dense as osmium."""
+@pytest.mark.parametrize(
+    "old, new",
+    [
+        ("mass_kg = 54.0", "mass_kg = 54000.0"),
+        ("mass_kg = 54.0", "mass_kg = 0.054"),
+        ("height_m = 0.688", "height_m = 0.1"),
+    ],
+)
+def test_a_block_of_no_matter_is_remarked_on(folder, old, new):
+    """Grams called kilograms, kilograms called grams; or the width typed again for the height: 54 kg in a litre."""
     rewrite(folder, old, new)
     notices = load_experiment(folder, uses=()).notices
     assert [n.code for n in notices] == ["W-DENSITY"]
