@@ -16,12 +16,12 @@ MESH = {"mass": 350.0, "centre_height": 0.3, "inertia": [[20.0, -1.0, 0.0], [-1.
 def test_the_weaker_edge_lies_on_either_side():
     grid = plane_blocks(MESH)
     assert grid.shape == (len(WEAK_DEG), len(RATIOS), len(RESTITUTIONS), 2, 6)
-    weak, strong = grid[4, 2, 1, 0, :2], grid[4, 2, 1, 1, :2]
+    weak, strong = grid[4, 0, 1, 0, :2], grid[4, 0, 1, 1, :2]
     # Degrees to radians and back by a tangent: rounding.
-    assert np.degrees(weak) == pytest.approx([WEAK_DEG[4], WEAK_DEG[4] * RATIOS[2]])
+    assert np.degrees(weak) == pytest.approx([WEAK_DEG[4], WEAK_DEG[4] * RATIOS[0]])
     assert strong.tolist() == weak[::-1].tolist()
     R2 = 0.3**2 * (1 + math.tan(math.radians(WEAK_DEG[4])) ** 2)
-    assert grid[4, 2, 1, 0, 2] == pytest.approx(math.sqrt(9.81 * math.sqrt(R2) / (19.0 / 350.0 + R2)))
+    assert grid[4, 0, 1, 0, 2] == pytest.approx(math.sqrt(9.81 * math.sqrt(R2) / (19.0 / 350.0 + R2)))
 
 
 def test_a_threshold_becomes_a_lognormal_probability():
