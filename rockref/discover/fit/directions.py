@@ -8,14 +8,16 @@ the valley is wide in each, stay in it, and learn its directions anew each time.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import ndtr, ndtri
 
 from rockref.discover.fit.differences import Residuals
 from rockref.discover.fit.objective import weight
-from rockref.discover.hypotheses.parameter import Parameter
+from rockref.discover.hypotheses.parameter import FARTHEST, Parameter
 
 #: Nats by which the objective is expected to rise at the ends of a difference; decided: the roughness of the objective
 #: at the longest memory is 30 to 100 nats, and a difference must see across it.
@@ -31,7 +33,7 @@ KNOWN = 1.2
 class Spread:
     """How innovations change about a fit: r (R, n, 3) there, J (G, R, n, 3) along G directions.
 
-    moves : (G, G), the change of z that belongs to one unit of each direction, in its columns
+    moves : (G, G), the change of z that belongs to one unit of each direction, in its columns; see `moved`
     """
 
     moves: np.ndarray
@@ -76,9 +78,28 @@ def spread_about(
     lengths, directions = np.linalg.eigh(covariance)
     ends = directions * np.sqrt(np.maximum(lengths, 0.0) * 2 * RISE / SOFTENED)
     ends *= np.minimum(1.0, LONGEST_END / np.abs(ends).max(axis=0))
-    least, most = np.array([p.least for p in parameters]), np.array([p.most for p in parameters])
-    up = [np.clip(z + end, least, most) for end in ends.T]
-    down = [np.clip(z - end, least, most) for end in ends.T]
+    up = [moved(parameters, z, end) for end in ends.T]
+    down = [moved(parameters, z, -end) for end in ends.T]
     found = residuals.at(parameters, [*up, *down])
     G = len(z)
-    return Spread((np.array(up) - np.array(down)).T, found[:G] - found[G:], r)
+    moves = [way(parameters, z, a) - way(parameters, z, b) for a, b in zip(up, down, strict=True)]
+    return Spread(np.array(moves).T, found[:G] - found[G:], r)
+
+
+def moved(parameters: Sequence[Parameter], z: np.ndarray, d: np.ndarray) -> np.ndarray:
+    """Return z (G,) after a move d, within its limits: straight in z, and in the share of the range of a flat prior."""
+    least, most = np.array([p.least for p in parameters]), np.array([p.most for p in parameters])
+    flat = np.array(["uniform" in p.scale for p in parameters])
+    share = np.clip(ndtr(z) + density(z) * d, ndtr(-FARTHEST), ndtr(FARTHEST))
+    return np.clip(np.where(flat, ndtri(share), z + d), least, most)
+
+
+def way(parameters: Sequence[Parameter], z: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Return the move d (G,) that leads from z to `end`: the inverse of `moved`."""
+    flat = np.array(["uniform" in p.scale for p in parameters])
+    return np.where(flat, (ndtr(end) - ndtr(z)) / density(z), end - z)
+
+
+def density(z: np.ndarray) -> np.ndarray:
+    """Return the standard normal density."""
+    return np.exp(-0.5 * z**2) / math.sqrt(2 * math.pi)

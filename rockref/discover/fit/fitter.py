@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rockref.discover.fit.differences import NARROWER, WIDEST, Residuals, jacobian
-from rockref.discover.fit.directions import SOFTENED, Spread, softened, spread_about, wider
+from rockref.discover.fit.directions import SOFTENED, Spread, moved, softened, spread_about, wider
 from rockref.discover.fit.objective import inflation_for, loss, mean_loss, objective, weight
 from rockref.discover.fit.problem import FitProblem
 from rockref.discover.fit.stages import Stage
@@ -224,5 +224,7 @@ def damped(
     d = -np.linalg.solve(H + damping * np.diag(np.diag(H)), g)
     d = d if moves is None else moves @ d
     d *= min(1.0, LONGEST / max(float(np.abs(d).max()), 1e-300))
+    if moves is not None:
+        return moved(parameters, z, d)
     least, most = np.array([p.least for p in parameters]), np.array([p.most for p in parameters])
     return np.clip(z + d, least, most)

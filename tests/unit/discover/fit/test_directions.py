@@ -5,9 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.discover.fit.directions import SOFTENED, softened, spread_about
+from rockref.discover.fit.directions import SOFTENED, moved, softened, spread_about, way
+from rockref.discover.hypotheses.parameter import Parameter
 
-FREE = SimpleNamespace(least=-np.inf, most=np.inf)
+FREE = SimpleNamespace(least=-np.inf, most=np.inf, scale="linear")
 SAMPLES = 6000
 
 
@@ -55,3 +56,26 @@ def test_across_it_the_width_is_that_of_the_data():
 def test_the_matrix_is_the_inverse_of_the_covariance():
     spread = found(1)
     assert np.allclose(spread.matrix() @ spread.covariance(1.0), np.eye(3), atol=1e-8)
+
+
+FLAT = Parameter("beta", lambda model, value: model, 0.0, scale="log_uniform", low=0.02, high=0.7)
+PLAIN = Parameter("foot", lambda model, value: model, 1.0, 0.4, scale="log")
+
+
+def test_a_move_is_straight_in_the_logarithm_of_a_number_with_a_flat_prior():
+    z = np.array([-0.8, 0.3])
+    logs = [np.log(FLAT.value(moved((FLAT, PLAIN), z, np.array([d, 0.0]))[0])) for d in (-0.4, 0.0, 0.4)]
+    assert logs[2] - logs[1] == pytest.approx(logs[1] - logs[0], rel=1e-9)
+
+
+def test_a_way_leads_where_a_move_ends():
+    z, d = np.array([-0.8, 0.3]), np.array([0.37, -1.1])
+    end = moved((FLAT, PLAIN), z, d)
+    assert way((FLAT, PLAIN), z, end) == pytest.approx(d, rel=1e-9)
+    # Small moves are moves of z itself.
+    assert moved((FLAT, PLAIN), z, 1e-6 * d) == pytest.approx(z + 1e-6 * d, abs=1e-11)
+
+
+def test_a_move_ends_at_the_limits():
+    ends = [moved((FLAT,), np.array([0.0]), np.array([d]))[0] for d in (-50.0, 50.0)]
+    assert ends == pytest.approx([FLAT.least, FLAT.most])
