@@ -123,6 +123,7 @@ def seen(backend: Any, mistake: Mistake, profile: str = "float64") -> dict[str, 
 def of_mistake(mistake: Mistake, scheme: str | None = None) -> dict[str, Any]:
     """One mistake, in all ways that can show it."""
     backend, kept = planted(mistake, scheme), {}
+    backend.simulate = Runs(planted(mistake, scheme), kept).simulate
     profile = "float64" if scheme is None else "scheme"
     ways = {"pieces": seen(backend, mistake, profile)}
     if mistake.in_runs:
