@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.conformance.asking import printable
 from rockref.conformance.fields import PARTS, RESULTS, Missing, result
 from rockref.conformance.negligible import same_force, size_and_unit
 from rockref.conformance.rules import ORDER
@@ -142,13 +143,21 @@ def compare_one(name: str, vector: Vector, out: dict[str, Any], profile: str) ->
         note = (
             f"has shape {got.shape}, not {expected.value.shape}"
             if got.shape != expected.value.shape
-            else "is no number"
+            else unreadable(got)
         )
         return Check(**common, grade="outside", worst=float("inf"), note=note, weighed=False)
     if flag:
         return Check(**common, **compare_flag(name, vector, got, expected.value))
     look = look_of(profile, vector.layer)
     return Check(**common, **compare_number(name, vector.layer, got, expected, bar, look))
+
+
+def unreadable(got: np.ndarray) -> str:
+    """What stands in the place of numbers."""
+    odd = next((x for x in got.ravel().tolist() if not isinstance(x, int | float)), None)
+    if odd is None:
+        return "holds null, which is no number (is it a NaN?)"
+    return f"is no number but {type(odd).__name__}, first {printable(repr(odd))[:40]}"
 
 
 def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> list[Check]:
@@ -180,7 +189,18 @@ def wrong_shape(vector: Vector, out: dict[str, Any]) -> str:
         except ValueError:
             return f"{key} has rows of different lengths"
         if found != shape:
-            return f"{key} has shape {found}, not {shape}"
+            return f"{key} has shape {found}, not {shape}{likely_shape(found, shape)}"
+    return ""
+
+
+def likely_shape(found: tuple[int, ...], right: tuple[int, ...]) -> str:
+    """What rows of another shape seem to be, and how they should be; "" where nothing is known."""
+    if len(right) == 3 and found[1:] == (4,):
+        return ": quaternions? give the matrices, three lists of three numbers a row"
+    if len(right) > 1 and len(found) < len(right) and np.prod(found) == np.prod(right):
+        return ": nest the lists, rows first"
+    if len(right) == 2 and found == right[::-1]:
+        return ": turned over? rows come first"
     return ""
 
 

@@ -20,6 +20,8 @@ from rockref.model.problem import Problem
 
 PROTOCOL = 1
 WHOLE = ("step", "simulate")
+#: Results that are one number: null in their place is what JavaScript writes for NaN, not a result that is left out.
+SINGLE = ("F_N", "threshold")
 #: Pieces that show effects of the catalogue, and runs on a plate that moves.
 CLAIMS = ("effect", "sensor", "shaken")
 
@@ -60,10 +62,12 @@ def readable(answer: Any, piece: str) -> dict[str, Any]:
     """The results of an answer as arrays where they are lists of numbers."""
     if not isinstance(answer, dict):
         raise ValueError(f"'out' is {type(answer).__name__}, not an object")
-    return {k: readable(v, piece) if isinstance(v, dict) else _array(v) for k, v in answer.items()}
+    return {k: readable(v, piece) if isinstance(v, dict) else _array(v, k) for k, v in answer.items()}
 
 
-def _array(value: Any) -> Any:
+def _array(value: Any, name: str = "") -> Any:
+    if value is None and name in SINGLE:
+        return float("nan")
     if not isinstance(value, list) or not of_numbers(value):
         return value
     try:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.asking import ANYTHING, as_mapping, raised
-from rockref.conformance.compare import grade_of, look_of, weighed_in_bars, wrong_instants
+from rockref.conformance.compare import grade_of, likely_shape, look_of, weighed_in_bars, wrong_instants
 from rockref.conformance.negligible import INSTANT, size_and_unit
 from rockref.conformance.side_by_side import grouped, simulate
 from rockref.conformance.vectors import Trajectory, trajectory, trajectory_names, window_names
@@ -76,7 +76,8 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
         except ValueError:
             return replace(check, grade="outside", worst=np.inf, note=f"{key} has rows of different lengths")
         if got.dtype.kind not in "fiu" or got.shape != right.shape:
-            return replace(check, grade="outside", worst=np.inf, note=f"{key} has shape {got.shape}, not {right.shape}")
+            note = f"{key} has shape {got.shape}, not {right.shape}{likely_shape(got.shape, right.shape)}"
+            return replace(check, grade="outside", worst=np.inf, note=note)
         bar = bars[key].reshape((-1,) + (1,) * (right.ndim - 1))
         bar = np.broadcast_to(bar[:rows], right[:rows].shape)
         ratios[key], small = weighed_in_bars(got[:rows], right[:rows], bar, size_and_unit(key)[0], look)

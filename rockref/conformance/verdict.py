@@ -26,6 +26,10 @@ ANEW = "The answer is that of a start evaluated anew: the a, T and F that the st
 SMALL = ("L0", "L1", "L2", "L3", "L7")
 #: Short runs: those of the law's scheme, and those of other ones.
 SHORT = ("L5s", "LS")
+#: Of another integrator `rotate` shows the exponential, and not what is multiplied with it, and on which side.
+NOT_BY_PIECES = {"I3"}
+#: Places in L5s behind the runs that show moments of normal forces alone, and behind the first that shows friction.
+AFTER_PUSHING, AFTER_DRAGGING = 35.9, 45.6
 
 
 @dataclass
@@ -99,13 +103,30 @@ def first(checks: Sequence[Check]) -> Check | None:
 def place(check: Check) -> tuple[float, float]:
     """Where a failure stands: by rule and number; short runs by place alone, as they build on each other."""
     number = float(check.vector.removesuffix(AS_RUN).rpartition("-")[2])
-    return (0.0, places().get(check.vector, number)) if check.layer in SHORT else (check.rank, number)
+    if check.layer not in SHORT:
+        return (check.rank, number)
+    at = places().get(check.vector, number)
+    return (0.0, max(at, stand_ins().get((check.vector, check.name), at)))
 
 
 @lru_cache
 def places() -> dict[str, float]:
     """The short runs that are judged elsewhere than at their own number."""
     return {v.id: v.place for name in SHORT for v in layer(name) if v.place is not None}
+
+
+@lru_cache
+def stand_ins() -> dict[tuple[str, str], float]:
+    """From where on what stands in for forces is judged, by vector and result: a moment turns the block, too, whatever
+    the normal force is, and moves it where friction holds the feet."""
+    found: dict[tuple[str, str], float] = {}
+    for v in layer("L5s"):
+        for name, e in v.expect.items():
+            if e.instead_of.startswith("F_T"):
+                found[v.id, name] = AFTER_DRAGGING
+            elif e.instead_of and name.startswith("Lambda"):
+                found[v.id, name] = AFTER_PUSHING
+    return found
 
 
 def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
@@ -133,6 +154,8 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
     """The first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
     checks, pieces = findings.checks, findings.pieces
     good = {r for r, s in status_of_rules([c for c in checks if c.layer in SMALL]).items() if s in ("pass", "look")}
+    if findings.profile == "scheme":
+        good -= NOT_BY_PIECES
     for layers in stages(pieces):
         check = first([c for c in checks if c.layer in layers])
         if check is None:
@@ -145,6 +168,9 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
             return check.rule, check, ""
         if layers == ("L4",):
             return in_company(checks) or (rule_of_a_step(findings, check), check, HANDED)
+        near = [rule for rule in ALIKE_IN_RUNS.get(check.rule, ()) if rule not in good]
+        if findings.profile == "scheme" and near:
+            return near[0], check, HANDED
         others = [c for c in checks if c.layer in SHORT and c.rule not in good]
         unproved = first(others)
         whole = {"step", "integrate"} & set(pieces) if findings.profile != "scheme" else set()
@@ -211,15 +237,18 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
         return found
     found.slip, anew = slip_of(findings, check)
     found.says = found.says or anew
+    cut = cut_short(findings)
+    if cut:
+        found.slip, found.rule = cut, None
     found.consequences = [c for c in findings.checks if c.failed and c is not check]
-    found.rules = with_consequences(rules, rule, findings.checks)
+    found.rules = with_consequences(rules, found.rule, findings.checks)
     in_pieces = {"step", "contact_law"} <= set(findings.pieces) and findings.profile != "scheme"
-    if rule is None and bad_run is not None and in_pieces:
+    if rule is None and bad_run is not None and in_pieces and not cut:
         found.rule, found.says = ("S2", LOOP) if all_asked(findings) else (None, UNASKED)
     short = any(c.layer in SHORT for c in findings.checks)
     if found.rule is None and check is None and bad_run is not None and short:
         found.says = NO_RULE
-    silent = check is not None and not check.weighed
+    silent = bool(cut) or (check is not None and not check.weighed)
     if backend is not None and findings.profile == "float64" and "contact_law" not in findings.pieces and not silent:
         resembling(found, backend)
     return found
@@ -231,6 +260,17 @@ def slip_of(findings: Findings, check: Check | None) -> tuple[str, str]:
 
     shown = next((a for a in findings.answers if check is not None and a[0].id == check.vector), None)
     return told(findings.answers, findings.checks), ANEW if shown is not None and evaluated_anew(*shown) else ""
+
+
+def cut_short(findings: Findings) -> str:
+    """The format of the numbers in words, where it takes away all that is missing of them: no rule is to blame."""
+    from rockref.conformance.digits import Format
+
+    failed = [c for c in findings.failures if c.layer in (*SMALL, *SHORT, "L4") and not c.follows]
+    if not failed or not all(c.weighed for c in failed):
+        return ""
+    form = Format(findings.answers)
+    return form.words if form.words and all(form.explains(c) for c in failed) else ""
 
 
 def resembling(found: Verdict, backend: Any) -> None:

@@ -23,6 +23,8 @@ LONGEST = 9
 LEAP, LEAP_SLOW, FEW_SAMPLES = 0.18, 0.3, 20.0
 # decided: noise of six standard deviations, and two steps of the resolution, are no leap.
 SIGMAS, STEPS = 6.0, 2.0
+# decided: at an end of the record a burst does not leap back; half of the first swing's rate is more than an impact's.
+LEAP_AT_END = 0.5
 # decided: after a burst the motion goes on where it was, to half of the leap.
 BACK = 0.5
 # decided: three samples may be drawn straight, as where they are missing, and three such places say enough.
@@ -48,6 +50,21 @@ def burst_samples(x: np.ndarray, least: float) -> np.ndarray:
     return out
 
 
+def burst_at_ends(x: np.ndarray, least: float) -> np.ndarray:
+    """Which samples, (N,) bool, of one rate x (N,) rad/s before or after the motion stand off it by `least` rad/s."""
+    out = np.zeros(len(x), dtype=bool)
+    for seen, marks in ((x, out), (x[::-1], out[::-1])):
+        leaps = np.abs(np.diff(seen[: 2 * LONGEST + 1]))
+        for last in np.flatnonzero(leaps[:LONGEST] > least):
+            # The motion goes on quietly after it, and none of these samples belongs to it.
+            if (
+                leaps[last + 1 :].max(initial=0.0) < 0.5 * least
+                and np.abs(seen[: last + 1] - seen[last + 1]).min() > least
+            ):
+                marks[: last + 1] = True
+    return out
+
+
 def sample_noise(crv: np.ndarray) -> np.ndarray:
     """Return the noise of a sample of each channel, (3,) rad/s, from second differences of crv (N, 3): their median."""
     second = crv[2:] - 2.0 * crv[1:-1] + crv[:-2]
@@ -66,8 +83,13 @@ def check_bursts(signal: Signal) -> tuple[np.ndarray, np.ndarray, list[Notice]]:
     least = (LEAP_SLOW if slow else LEAP) * size
     least += STEPS * signal.gyro.resolution
     noise = np.maximum(signal.gyro.noise, sample_noise(signal.crv))
+    at_end = max(LEAP_AT_END * size, least)
     wild: np.ndarray = np.stack(
-        [burst_samples(signal.crv[:, axis], least + SIGMAS * noise[axis]) for axis in range(3)], axis=-1
+        [
+            burst_samples(x, least + SIGMAS * rest) | burst_at_ends(x, at_end + SIGMAS * rest)
+            for x, rest in zip(signal.crv.T, noise, strict=True)
+        ],
+        axis=-1,
     )
     rows = np.asarray(wild.any(axis=1))
     if not rows.any():

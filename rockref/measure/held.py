@@ -44,6 +44,8 @@ def chance_of_repeat(signal: Signal, axis: int) -> float:
     same = repeats(signal.crv[:, axis])
     size = max(20, len(same) // 60)
     parts = same[: len(same) // size * size].reshape(-1, size).mean(axis=1)
+    # What stands still all the time tells of no chance: it is a dropout itself, or a block at rest.
+    parts = parts[parts < 1.0]
     # decided: where a quarter of the record stands still, it is the record's habit.
     return min(1.0, max(_stated_chance(signal, axis), float(np.percentile(parts, 75.0)) if len(parts) else 0.0))
 
@@ -107,11 +109,23 @@ def _is_dropout(signal: Signal, axes: tuple[int, ...], begin: int, end: int, cha
         return False  # a flat top
     if chance < 1.0 and (end - begin) * math.log(max(chance, 1e-300)) < math.log(CHANCE):
         return True
+    if any(_stands_off(signal, axis, begin, end) for axis in axes):
+        return True
     if len(axes) < 3:
         return False
     # With a coarse step only a slope that was left out tells: a leap where the motion itself has none.
     after = np.abs(np.diff(crv[end : end + 3, 0]))
     return len(after) == 2 and bool(after[0] > LEAP * signal.rate + 2.0 * signal.gyro.resolution + 3.0 * after[1])
+
+
+def _stands_off(signal: Signal, axis: int, begin: int, end: int) -> bool:
+    """Whether a value that is held from row `begin` to `end`, for longer than a burst, is off the motion around it."""
+    x, gyro = signal.crv[:, axis], signal.gyro
+    if begin < 1 or end + 1 >= len(x) or end - begin < LONGEST_HOLD:
+        return False
+    off = np.array([x[begin - 1], x[end + 1]]) - x[begin]
+    least = LEAP * signal.rate + 2.0 * gyro.resolution + 6.0 * gyro.noise
+    return bool(off[0] * off[1] > 0.0 and np.abs(off).min() > least)
 
 
 def _said(signal: Signal, axes: tuple[int, ...], places: list[tuple[int, int]]) -> Notice:
@@ -145,7 +159,8 @@ def check_hold(signal: Signal) -> list[Notice]:
     rate = len(changes) / len(signal.t) / signal.step
     count = f"{usual}" if even else f"{int(np.percentile(lengths, 2.0))} to {int(np.percentile(lengths, 98.0))}"
     what = f"values are held for {count} samples: {rate:.4g} a second are measured, and {1.0 / signal.step:.4g} written"
-    cure = f"Keep every {usual}th row, and state sample_rate_hz = {rate:.4g}."
+    which = {2: "second", 3: "third"}.get(usual, f"{usual}th")
+    cure = f"Keep every {which} row, and state sample_rate_hz = {rate:.4g}."
     if not even:
         cure = "Let the logger wait for a new value of the gyroscope, or record with the gyroscope's own clock."
     where = signal.path if len(held) == 3 else f"{signal.path}, column {signal.names[held[0]]}"

@@ -30,6 +30,7 @@ _TEXT = re.compile(r"\s*(\"?[^\W\d][^,]{2,}|#|//|%|;)", re.ASCII)
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.ASCII | re.IGNORECASE)
 _DECIMAL_COMMA = re.compile(r"[+-]?\d+,\d+", re.ASCII)
+_CLOCK = re.compile(r"(\d+:)?\d+:\d+(\.\d+)?", re.ASCII)
 _WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 
 
@@ -86,6 +87,7 @@ def read_table(
         raise InputError("E-ROWS", str(path), f"more than {max_rows} rows, which is no run", "Cut the file to the run.")
     lines = raw.text.rstrip().split("\n")
     above, lines = _without_separator(lines, path)
+    _check_top(lines, path, above, needed)
     columns, width, notices = parse_header(
         _plain(_short(lines[0], path, above + 1)), f"{path}, line {above + 1}", needed
     )
@@ -132,6 +134,18 @@ def _without_separator(lines: list[str], path: Path) -> tuple[int, list[str]]:
     return 1, lines[1:]
 
 
+def _check_top(lines: list[str], path: Path, above: int, needed: Sequence[str]) -> None:
+    """Refuse lines of a logger above the header (E-HEADER), where the header stands below them."""
+    for number, line in enumerate(lines[:LONGEST_FOOTER]):
+        known = {name.partition("_")[0] for name in split_line(line[:MAX_LINE], ",")}
+        if known.issuperset(needed):
+            if number and not lines[0].lstrip().startswith("#"):
+                what = f"the first line is {shown(lines[0])}; the names stand in line {above + number + 1}"
+                cure = "Remove the lines above the names of the columns."
+                raise InputError("E-HEADER", f"{path}, line {above + 1}", what, cure)
+            return
+
+
 def _plain(line: str) -> str:
     """Return a line without quotes around fields; a comma inside of quotes becomes a sign that no number has."""
     if '"' not in line:
@@ -154,7 +168,7 @@ def _rows(lines: list[str], columns: list[Column], path: Path, above: int) -> tu
     while end > 1 and end > len(body) - LONGEST_FOOTER and _is_text(body[end - 1]):
         end -= 1
     if end < len(body):
-        where, what = f"{path}, line {skipped + end + 1}", f"{len(body) - end} lines of text behind the last row"
+        where, what = f"{path}, line {skipped + end + 1}", _lines(len(body) - end)
         notices.append(Notice("W-DIALECT", where, what, "They were passed over."))
         body = body[:end]
     if body and all(line.endswith(",") for line in body) and not lines[0].rstrip().endswith(","):
@@ -162,6 +176,10 @@ def _rows(lines: list[str], columns: list[Column], path: Path, above: int) -> tu
     if any('"' in line for line in body):
         body = [_plain(_short(line, path, number)) for number, line in enumerate(body, start=skipped + 1)]
     return body, skipped, notices
+
+
+def _lines(count: int) -> str:
+    return "a line of text behind the last row" if count == 1 else f"{count} lines of text behind the last row"
 
 
 def _is_text(line: str) -> bool:
@@ -218,6 +236,11 @@ def _first_fault(body: list[str], columns: list[Column], width: int, path: Path,
     """Find the first row that is at fault, the slow way, and say what is wrong with it."""
     for number, line in enumerate(body, start=skipped + 1):
         fields = line.split(",")
+        if _is_text(line) and ";" not in line:
+            again = [field.strip() for field in fields[: len(columns)]] == [column.name for column in columns]
+            what = "the header stands there again" if again else f"a line of text between rows ({shown(line)})"
+            cure = "A second record begins there: cut the file before it." if again else "Remove the line."
+            return InputError("E-FIELDS", f"{path}, line {number}", what, cure)
         if len(fields) != width:
             return _wrong_count(fields, width, f"{path}, line {number}", last=number == len(body) + skipped)
         for column in columns:
@@ -257,4 +280,13 @@ def _wrong_number(field: str, where: str) -> InputError | None:
     if _DECIMAL_COMMA.fullmatch(bare):
         cure = "Write decimals with a point."
         return InputError("E-DECIMAL-COMMA", where, f"{shown(field)} has a decimal comma", cure)
-    return InputError("E-NUMBER", where, f"{shown(field)} is not a number", "Write plain decimal numbers.")
+    return InputError("E-NUMBER", where, f"{shown(field)} is not a number", _cure_of(field))
+
+
+def _cure_of(field: str) -> str:
+    """Return what to do about a field that is no number."""
+    if _NUMBER.fullmatch(field.replace("\N{MINUS SIGN}", "-")):
+        return "Its minus sign is that of print (U+2212): write a hyphen."
+    if _CLOCK.fullmatch(field):
+        return "That is a time of day: write seconds from the release."
+    return "Write plain decimal numbers."

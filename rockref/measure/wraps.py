@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from rockref.measure.bursts import LONGEST
 from rockref.measure.columns import DEGREE
 from rockref.measure.signal import Signal
 from rockref.model.errors import InputError
@@ -25,9 +26,7 @@ def check_wraps(signal: Signal) -> None:
             continue
         span = float(np.median(np.abs(leaps[rows])))
         alike = np.abs(np.abs(leaps[rows]) / span - 1.0) < ALIKE
-        # From near one end to near the other, on either side of the middle of both.
-        ends = (np.abs(np.abs(x[rows]) - 0.5 * span) < AT_END * span) & (x[rows] * x[rows + 1] < 0.0)
-        if not (alike & ends).all() or not _goes_on(x, rows, leaps, span):
+        if not alike.all() or not _between_ends(x, rows, span) or not _goes_on(x, rows, leaps, span):
             continue
         row = int(rows[0])
         what = f"leaps from {x[row] / DEGREE:.4g} to {x[row + 1] / DEGREE:.4g} deg/s at {signal.t[row + 1]:.4g} s"
@@ -35,6 +34,24 @@ def check_wraps(signal: Signal) -> None:
             what += f", and {len(rows)} times in all"
         cure = f"The numbers wrap around: add {span / DEGREE:.4g} deg/s where they do, or record with a larger range."
         raise InputError("E-WRAP", signal.column(axis), what, cure)
+
+
+def _between_ends(x: np.ndarray, rows: np.ndarray, span: float) -> bool:
+    """Whether all leaps of x (N,) after `rows` go from near one end of a range `span` to near the other.
+
+    The middle of the range is zero, or, where a value stays beyond for longer than a burst, the middle of the values:
+    numbers without a sign begin at their own zero.
+    """
+    stays = np.diff(np.concatenate(([-1], rows, [len(x) - 1])))
+    longest = min(stays[0::2].max(), stays[1::2].max())
+    if longest <= LONGEST and len(rows) == 1:
+        return False  # a burst at an end of the record
+    before, after = x[rows], x[rows + 1]
+    if bool(((np.abs(np.abs(before) - 0.5 * span) < AT_END * span) & (before * after < 0.0)).all()):
+        return True
+    low, high = np.minimum(before, after) - x.min(), x.max() - np.maximum(before, after)
+    # A single leap is that of a block that falls and lies.
+    return bool(longest > LONGEST and len(rows) > 1 and np.maximum(low, high).max() < AT_END * span)
 
 
 def _goes_on(x: np.ndarray, rows: np.ndarray, leaps: np.ndarray, span: float) -> bool:

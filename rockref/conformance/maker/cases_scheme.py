@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance import negligible
-from rockref.conformance.maker import cases_alone, cases_apart, cases_memory, cases_short, programs, ways
+from rockref.conformance.maker import cases_alone, cases_apart, cases_askew, cases_memory, cases_short, programs, ways
 from rockref.conformance.maker.bars import FACTOR, Case
 from rockref.conformance.scheme import SHOWN, extrapolated, halved
 from rockref.conformance.vectors import problem_of
@@ -27,6 +27,16 @@ STEPS, PARTS = 16, 256
 LARGEST_SWING = 0.1
 #: Bar: so many times the largest deviation of five integrators, as for long runs.
 SCHEME_FACTOR = 2
+#: Short runs above the plate that touch it within so many steps.
+TOUCHING = (17, 18)
+#: Runs of sixteen steps show more rules than the one of their first step: where they are judged, by number. What is
+#: pushed by springs alone comes before what turns and is damped; a block that hardly turns before one that does; what
+#: slides straight on, whatever its anchor, before anchors, these before all other sliding, and all behind what the
+#: forces of the first row show of it.
+PLACES = {152: 30.05, 142: 30.1, 139: 30.8, 140: 30.81, 141: 30.82, 143: 30.83, 36: 30.85, 37: 30.86,
+          145: 43.1, 147: 43.2, 51: 43.3, 148: 43.4, 89: 49.6, 149: 51.1, 150: 51.11, 151: 51.12,
+          57: 51.2, 58: 51.21, 95: 51.22, 129: 51.23, 70: 56.1, 71: 56.11, 72: 56.12, 73: 56.13,
+          52: 56.5, 53: 56.51, 54: 56.52, 94: 56.53, 55: 56.54, 56: 56.55}  # fmt: skip
 #: Least bar [m, rad, rad/s]: what is too small to be physical.
 FLOOR = negligible.LENGTH
 
@@ -77,6 +87,8 @@ def converged(q: dict[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, np.nd
 def asked(case: Case) -> Case | None:
     """A short run as a question to other integrators; None where it is one of the law's own scheme."""
     names = {name.partition("@")[0] for name in (*case.fields, *case.instead)} & {*SHOWN, "x_T"}
+    if next(iter(case.fields.values()))[0] in ("N1", "N2") and case.instead:
+        names -= {"Lambda"}  # a moment
     h, rate = case.inputs["step"], case.inputs["output_rate"]
     swing = h * float(np.sqrt(np.sum(case.inputs["K_N"]) / case.inputs["mass"]))
     if not names or case.inputs.get("a") is not None or abs(rate * h - 1) > 1e-9 or swing > LARGEST_SWING:
@@ -86,6 +98,7 @@ def asked(case: Case) -> Case | None:
     fields = {f"{k}@1": (rule, rule) for k in (*SHOWN, "x_T") if k in names}
     # Who shows the forces at the start is judged by them.
     stand_in = {f"{k.partition('@')[0]}@1": name for k, name in case.instead.items() if name.endswith("@0")}
+    stand_in = {k: name for k, name in stand_in.items() if k in fields}
     flags = (case.flags[0], f"{STEPS} steps")
     return Case(rule, "LS", "simulate", q, fields, flags, set="even feet", place=case.place, instead=stand_in)
 
@@ -93,9 +106,10 @@ def asked(case: Case) -> Case | None:
 def all_of_them() -> Iterator[tuple[int, Case]]:
     """Every question, with the number of its short run."""
     number = 0
-    for group in (cases_short.all_short, cases_alone.alone, cases_memory.memory, cases_apart.apart):
+    groups = (cases_short.all_short, cases_alone.alone, cases_memory.memory, cases_apart.apart, cases_askew.askew)
+    for group in groups:
         for case in group():
             number += 1
             found = asked(case)
-            if found is not None:
-                yield number, found
+            if found is not None and number not in TOUCHING:
+                yield number, replace(found, place=PLACES.get(number, found.place))

@@ -12,6 +12,7 @@ import numpy as np
 from rockref.conformance.maker import (
     cases_alone,
     cases_apart,
+    cases_askew,
     cases_body,
     cases_derived,
     cases_full,
@@ -34,7 +35,7 @@ QUESTIONS = {
     "L2": (cases_body.assembly, cases_full.assembly),
     "L3": (cases_body.exponentials, cases_body.steps, cases_body.no_rotation, cases_full.steps),
     "L4": (cases_step.steps, cases_step.elsewhere),
-    "L5s": (cases_short.all_short, cases_alone.alone, cases_memory.memory, cases_apart.apart),
+    "L5s": (cases_short.all_short, cases_alone.alone, cases_memory.memory, cases_apart.apart, cases_askew.askew),
     "L7": (cases_derived.channel,),
 }
 LAYERS = (*QUESTIONS, "LS")

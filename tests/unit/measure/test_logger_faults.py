@@ -143,3 +143,47 @@ def test_exchanged_columns_of_a_slender_block_are_told_at_any_rate(tmp_path, mot
         made = sensed(block, gyro, rng, motion)
         assert codes_of(written(tmp_path, made)) == set()
         assert codes_of(written(tmp_path, made, degrees=made.degrees[:, [0, 2, 1]])) == {"W-AXES"}
+
+
+@pytest.mark.parametrize("share", [0.7, 1.3])
+@pytest.mark.parametrize("seed", range(2))
+def test_numbers_without_a_sign_that_wrap_are_refused(tmp_path, motions, seed, share):
+    made, _ = good(motions, seed)
+    spoiled = made.degrees.copy()
+    spoiled[:, 0] = np.mod(spoiled[:, 0], share * np.abs(spoiled[:, 0]).max())
+    assert codes_of(written(tmp_path, made, degrees=spoiled)) == {"E-WRAP"}
+
+
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize(
+    ("rows", "code"), [(slice(-2, None), "W-SPIKE"), (slice(-7, None), "E-SPIKE"), (slice(0, 2), "W-SPIKE")]
+)
+def test_a_burst_at_an_end_of_the_record_does_not_wrap(tmp_path, motions, axis, rows, code):
+    made, rate = good(motions, 2)
+    spoiled = made.degrees.copy()
+    spoiled[rows, axis] += 1.5 * rate
+    assert codes_of(written(tmp_path, made, degrees=spoiled)) == {code}
+
+
+def test_a_missing_value_that_is_a_large_number_is_a_burst(tmp_path, motions):
+    made, _ = good(motions, 1)
+    spoiled = made.degrees.copy()
+    spoiled[[400, 900], 2] = -9999.0
+    assert codes_of(written(tmp_path, made, degrees=spoiled)) == {"E-SPIKE"}
+
+
+def test_a_channel_that_stands_off_the_motion_is_told_whatever_the_resolution(tmp_path, motions):
+    made, rate = good(motions, 2, rate=400.0, noise=0.05, resolution=0.5)
+    spoiled = made.degrees.copy()
+    first = int(np.argmax(np.abs(spoiled[:, 0]))) - 40
+    assert abs(spoiled[first, 0]) > 0.5 * rate
+    spoiled[first : first + 12, 0] = 0.0
+    assert codes_of(written(tmp_path, made, degrees=spoiled)) == {"W-DROPOUT"}
+
+
+def test_a_record_that_stands_still_to_its_end_is_no_fall(tmp_path, motions):
+    made, rate = good(motions, 1)
+    spoiled = made.degrees.copy()
+    first = int(np.argmax(np.abs(spoiled[:, 0]))) - 20
+    spoiled[first:] = spoiled[first]
+    assert codes_of(written(tmp_path, made, degrees=spoiled)) == {"E-DROPOUT"}

@@ -1,0 +1,64 @@
+"""Numbers that were cut on their way out: the format is told, and no rule; a wrong rule keeps its name."""
+
+import numpy as np
+import pytest
+
+from rockref.conformance import jsonlines
+from rockref.conformance.digits import digits_of
+from rockref.conformance.judge import judge
+from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance.verdict import verdict
+from rockref.conformance.zoo.mistakes import BY_ID
+
+
+class Cut:
+    """The contact law of a backend with every number written in a format."""
+
+    language, precision, name = "Python", "float64", "cut"
+
+    def __init__(self, backend, written):
+        self.backend = backend
+        self.write = np.vectorize(lambda x: float(written % x), otypes=[float])
+
+    def simulate(self, problem):
+        return {k: self.write(getattr(self.backend.simulate(problem), k)) for k in ("t", "W", "x", "Lambda")}
+
+    def contact_law(self, **q):
+        out = dict(self.backend.contact_law(**q))
+        return {k: v if np.asarray(v).dtype == bool else self.write(v) for k, v in out.items() if k != "trace"}
+
+
+@pytest.mark.parametrize(
+    ("written", "words"), [("%.10g", "more than 10 significant digits"), ("%.7f", "more than 7 decimals")]
+)
+def test_a_format_is_told_and_no_rule(written, words):
+    v = verdict(judge(Cut(NumpyEngine(), written), ["L1"]))
+    assert v.status == "FAIL" and v.rule is None and words in v.slip and "%.17g" in v.slip
+
+
+@pytest.mark.parametrize("written", ["%.15g", "%.17g"])
+def test_what_many_languages_print_by_default_passes(written):
+    assert verdict(judge(Cut(NumpyEngine(), written), ["L1"])).passed
+
+
+def test_a_wrong_rule_that_is_written_in_few_digits_keeps_its_name():
+    v = verdict(judge(Cut(BY_ID["Z01"].backend(), "%.10g"), ["L1"]))
+    assert v.rule == "N1" and "significant digits" not in v.slip
+
+
+def test_digits_and_decimals_are_those_of_the_shortest_decimal():
+    assert digits_of(0.1) == (1, 1) and digits_of(-1250.0) == (3, 0) and digits_of(1.25e-7) == (3, 9)
+    assert digits_of(1 / 3) == (16, 16)
+
+
+def test_null_in_the_place_of_a_number_is_an_answer_that_is_none():
+    out = jsonlines.readable({"F_N": None, "F_T": [None, 1.0], "sliding": False, "trace": None}, "contact_law")
+    assert np.isnan(out["F_N"]) and out["trace"] is None
+
+    class Nulls(NumpyEngine):
+        def contact_law(self, **q):
+            return jsonlines.readable({"F_N": None, "F_T": [None, 0.0]}, "contact_law")
+
+    v = verdict(judge(Nulls(), ["L1"]))
+    notes = {c.note for c in v.findings.failures}
+    assert v.status == "FAIL" and notes == {"not a finite number", "holds null, which is no number (is it a NaN?)"}
