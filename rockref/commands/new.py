@@ -240,7 +240,7 @@ def _asked(campaign: "Campaign", paths: list[Path]) -> "Campaign":
     from rockref.measure.importing.axes import other_way_up
 
     choices = campaign.choices
-    if typer.confirm("Is this the first swing, and is the table right?", default=True):
+    if typer.confirm("First swing and table right?", default=True):
         if campaign.axes.up_known or typer.confirm(_up(campaign), default=True):
             # Answered: nothing is left to remark on.
             return replace(campaign, notices=tuple(n for n in campaign.notices if n.code != "W-UP"))
@@ -249,7 +249,7 @@ def _asked(campaign: "Campaign", paths: list[Path]) -> "Campaign":
         run.id: typer.prompt(f"Tilt of run {run.id}", f"{run.tilt:.4f}rad", value_proc=typed.angle)
         for run in campaign.runs
     }
-    turned = _runs(typer.prompt("Runs that are turned by 180 degrees", _listed(campaign, "turned")))
+    turned = _runs(typer.prompt("Runs turned by 180 degrees", _listed(campaign, "turned")))
     holdout = _runs(typer.prompt("Runs that no fit may read", _listed(campaign, "holdout")))
     up = campaign.axes.up_known or typer.confirm(_up(campaign), default=True)
     changed = replace(choices, tilt=None, tilts=tilts, turned=turned, holdout=holdout)
@@ -265,7 +265,7 @@ def _listed(campaign: "Campaign", what: str) -> str:
 
 def _up(campaign: "Campaign") -> str:
     axis, turn = campaign.axes.places[2], campaign.axes.signs[2]
-    return f"Does the chip's {'-' if turn < 0 else ''}{'xyz'[axis]} axis point up?"
+    return f"Does the chip's {'-' if turn < 0 else ''}{'xyz'[axis]} point up?"
 
 
 def _facts(campaign: "Campaign", folder: Path) -> dict[str, Any]:

@@ -74,7 +74,10 @@ def swing_in_text(run: ImportedRun, columns: int = 64, rows: int = 6) -> list[st
     lines[-1] += f" {round(math.degrees(low)):+d} deg/s"
     release = int(np.searchsorted(t, 0.0) / len(t) * columns)
     impact = int(np.searchsorted(t, run.impact) / len(t) * columns)
-    below = [" "] * (columns + 24)
-    for place, words in ((release, "^ release"), (impact, f"^ first impact, {run.impact:.3f} s")):
-        below[place : place + len(words)] = list(words)
-    return [*lines, "".join(below).rstrip()]
+    below, width = [], columns + len(" +000 deg/s")
+    for place, words in ((release, "release"), (impact, f"first impact, {run.impact:.3f} s")):
+        fits = place + 2 + len(words) <= width
+        below.append(" " * place + f"^ {words}" if fits else f"{words} ^".rjust(place + 1))
+    first, second = below
+    apart = len(first) < len(second) - len(second.lstrip())
+    return [*lines, first + second[len(first) :]] if apart else [*lines, *below]

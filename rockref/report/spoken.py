@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -50,9 +51,14 @@ def spoken(name: str, value: float | None, low: float | None, high: float | None
     if known is not None and known.unit == "1" and known.absent == 1.0 and " over " in known.meaning:
         middle, least, most = (f"{100 * (x - 1):+.2g}" for x in numbers)
         return Spoken(name, middle, least, most, "%", meaning, sure)
-    said, factor = SPOKEN.get(unit, ("" if unit == "1" else unit, 1.0))
+    said, factor = SPOKEN.get(unit, ("" if unit == "1" else re.sub(r"(?<=[a-z])[23]", raised, unit), 1.0))
     middle, least, most = (figures(x * factor) for x in numbers)
     return Spoken(name, middle, least, most, said, meaning, sure)
+
+
+def raised(power: re.Match[str]) -> str:
+    """Return a power as it is written, raised: s2 as s²."""
+    return {"2": "²", "3": "³"}[power[0]]
 
 
 def figures(value: float) -> str:

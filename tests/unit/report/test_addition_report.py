@@ -53,7 +53,7 @@ def test_printed_it_has_the_size_of_the_effect_and_no_number_of_the_baseline(who
     out = io.StringIO()
     print_addition(Console(file=out, width=200), whole)
     text = out.getvalue()
-    assert "quadratic_drag.c = 0.41 N m s2 (90 %: 0.38 to 0.44)" in text and "K_N" not in text
+    assert "quadratic_drag.c = 0.41 N m s² (90 %: 0.38 to 0.44)" in text and "K_N" not in text
     assert text.splitlines()[-1].startswith("Held-out runs")
 
 

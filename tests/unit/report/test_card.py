@@ -24,7 +24,7 @@ def test_name_size_and_error_stand_at_the_head(named):
     d, _, card = named
     assert card.name == "quadratic_drag" and card.kicker.startswith("named") and card.next_step.startswith("Turn")
     size, error = card.facts
-    assert (size.label, size.value, size.notes[0]) == ("Size", "0.41 N m s2", "90 %: 0.38 to 0.44")
+    assert (size.label, size.value, size.notes[0]) == ("Size", "0.41 N m s²", "90 %: 0.38 to 0.44")
     assert error.value == "0.350 → 0.080 deg/s" and error.notes == ["noise alone: 0.050", "90 % of the excess gone"]
 
 
@@ -46,7 +46,7 @@ def test_the_slider_goes_through_the_model_that_was_found(named):
     assert SHARES[OPTIMUM] == 1.0 and len(dial.rates) == len(SHARES) == 9
     found = np.degrees(c.results[1][k].modelled)[:: round((card.trial.t[1] - card.trial.t[0]) * 1000)]
     np.testing.assert_array_equal(dial.rates[OPTIMUM], found[: len(dial.rates[OPTIMUM])])
-    assert dial.sizes[0] == "none" and dial.sizes[OPTIMUM].endswith("N m s2")
+    assert dial.sizes[0] == "none" and dial.sizes[OPTIMUM].endswith("N m s²")
     assert np.abs(np.diff(dial.rates, axis=0)).max(axis=(1, 2)).min() > 0
 
 

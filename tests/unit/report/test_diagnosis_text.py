@@ -93,7 +93,7 @@ def test_of_several_numbers_the_answer_says_those_that_are_determined(record):
     size = {"value": 0.4, "low": 0.3, "high": 0.5, "unit": "N m s2"}
     unknown = {"value": 0.3, "low": 0.0, "high": 1.6, "unit": "N s2/m2"}
     two = record | {"amplitudes": {"quadratic_drag.c": size, "quadratic_drag.c_v": unknown}}
-    assert diagnosis_text.answer(two).endswith("Its size: c 0.4 N m s2 (90 %: 0.3 to 0.5).")
+    assert diagnosis_text.answer(two).endswith("Its size: c 0.4 N m s² (90 %: 0.3 to 0.5).")
 
 
 @pytest.mark.parametrize("before, after, gone", [(0.0510, 0.0501, "–"), (0.15, 0.10, "50 %"), (0.15, 0.04, "100 %")])

@@ -18,6 +18,7 @@ from rockref.report.spoken import spoken
         ("hysteretic_contact.kappa", (0.31, 0.3, None), "1", "0.31 (90 %: 0.3 to ∞)"),
         ("adhesion.force", (51234.5, 0.0, 6e4), "N", "5.12e+04 N (90 %: 0 to 6.00e+04)"),
         ("nobody.knows", (2.0, 1.0, 3.0), "1", "2 (90 %: 1 to 3)"),
+        ("quadratic_drag.c_v", (0.3, 0.1, 1.6), "N s2/m2", "0.3 N s²/m² (90 %: 0.1 to 1.6)"),
     ],
 )
 def test_a_size_is_said_in_the_unit_of_a_person(name, values, unit, said):

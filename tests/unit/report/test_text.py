@@ -65,7 +65,7 @@ def test_few_lines_are_enough(name, short):
 def test_a_verdict_is_in_the_last_line(verdict):
     lines = said(print_diagnosis, plain(fakes.diagnosis(verdict).to_dict())).splitlines()
     assert lines[-1].startswith(verdict.upper().replace("_", " ")) and len(lines) <= 10
-    assert ("Its size is 0.41 N m s2 (90 %: 0.38 to 0.44)" in lines[-1]) is (verdict == "named")
+    assert ("Its size is 0.41 N m s² (90 %: 0.38 to 0.44)" in lines[-1]) is (verdict == "named")
 
 
 def test_a_command_that_is_wider_than_the_terminal_can_still_be_pasted():
@@ -114,7 +114,7 @@ def test_a_demonstration_tells_the_verdict_the_size_and_both_errors(tmp_path):
     the_error(story)
     verdict, size, fit, held_out = story.lines
     assert verdict == "synthetic: quadratic_drag is missing."
-    assert size == "Size of quadratic_drag: c 0.41 N m s2 (90 %: 0.38 to 0.44)."
+    assert size == "Size of quadratic_drag: c 0.41 N m s² (90 %: 0.38 to 0.44)."
     assert fit.startswith("Fit runs: error 0.2500 to 0.0700") and held_out.startswith("Held-out runs: error 0.3500 to")
     assert [s.title for s in story.page.sections] == ["The missing effect", "The error falls"]
 
