@@ -57,9 +57,6 @@ def check_axes(signal: Signal) -> list[Notice]:
 def check_flat_tops(signal: Signal) -> list[Notice]:
     """Remark on stretches at the largest or smallest value that are longer than a cusp can be (W-FLAT-TOP)."""
     width = 4.0 * signal.gyro.noise + signal.gyro.resolution
-    # Towards upright the rate grows by its size over the time of a swing: so long it stays within a width of its cusp.
-    slope = signal.rate / signal.duration
-    least = FLAT_TOP * signal.scale + 2.0 * width / slope
     notices = []
     for axis in range(3):
         for side, word in ((1.0, "top"), (-1.0, "bottom")):
@@ -68,6 +65,10 @@ def check_flat_tops(signal: Signal) -> list[Notice]:
             # Near the noise everything is flat, also about an offset.
             if limit - float(np.median(x)) < 5.0 * width:
                 continue
+            # Towards upright a rate grows by its size over the time of a swing: so long it stays within a width of its
+            # cusp; one out of the plane has a smaller size.
+            slope = min(signal.rate, limit - float(np.median(x))) / signal.duration
+            least = FLAT_TOP * signal.scale + 2.0 * width / slope
             samples = _flat_samples(x, limit, width)
             # Out of the plane a block that is off the plate keeps its rate for a while, at one place and not again.
             again = axis == 0 or len(stretches(x >= limit - width)) > 1

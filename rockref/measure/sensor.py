@@ -36,7 +36,8 @@ STEADY, AT_END, CALM = (0.5, 0.5, 0.15), 0.1, 2.0
 MOST_LAG, LEAST_LAG, SAME_LAG = 4, 0.6, 0.35
 # decided: a late channel fits better by a third at its lag than at none; of one run alone, by six tenths, which one of
 # 320 simulated records without a lag did.
-CLEARER, CLEARER_ALONE = 1.3, 1.6
+# Of one run alone lags of more than two and a half samples are shocks that are alike by chance.
+CLEARER, CLEARER_ALONE, MOST_ALONE = 1.3, 1.6, 2.5
 # decided: steps of more than twice the noise, and samples of more than 2.5 ms, leave shocks that are alike by chance.
 COARSE, SLOW = 2.0, 2.5e-3
 # decided: mains of 50 and 60 Hz and their first harmonics, which are kept to 0.3 Hz.
@@ -142,7 +143,7 @@ def _lags(runs: Sequence[Run]) -> list[SensorFault]:
     for run in runs:
         assert run.t is not None and run.crv is not None
         late = late_channel(run.crv, CLEARER if len(runs) > 1 else CLEARER_ALONE)
-        if late is not None:
+        if late is not None and (len(runs) > 1 or abs(late[1]) <= MOST_ALONE):
             found.append((late[0], late[1] * sample_step(run.t)))
     if not found or len(found) < max(1, 0.5 * len(runs)):
         return []

@@ -1,13 +1,14 @@
 """Faults of the sensor in a record of a block that has none: told with their numbers, and told from motion."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from rockref.measure.columns import DEGREE
 from rockref.measure.experiment import load_experiment
-from rockref.measure.sensor import sensor_faults
+from rockref.measure.sensor import _lags, sensor_faults
 from tests.shipped import CONTROL
 
 
@@ -77,3 +78,16 @@ def test_a_hum_is_told_with_size_and_frequency(control, axis, size, line):
     assert {(f.kind, f.axis) for f in faults} == {("hum", axis)}
     assert all(f.size / DEGREE == pytest.approx(size, rel=0.15) and abs(f.place - line) < 0.1 for f in faults)
     assert {n.code for n in notices} == {"W-HUM"}
+
+
+@pytest.mark.parametrize(("count", "told"), [(2, True), (3, False)])
+def test_of_one_run_alone_a_large_lag_is_chance(count, told):
+    """Shocks of random size at random rows, the same in all channels, one of which comes late."""
+    rng = np.random.default_rng(8)
+    shocks = np.zeros((4000, 1))
+    shocks[rng.choice(4000, 80, replace=False), 0] = rng.uniform(0.5, 1.0, 80)
+    crv = np.repeat(shocks, 3, axis=1) + 1e-3 * rng.standard_normal((4000, 3))
+    crv[count:, 1] = crv[:-count, 1].copy()
+    run = SimpleNamespace(t=np.arange(4000) * 1e-3, crv=crv)
+    assert [f.kind for f in _lags([run])] == ["lag"] * told
+    assert [(f.axis, round(1e3 * f.size)) for f in _lags([run, run])] == [(1, count)]
