@@ -165,7 +165,8 @@ def rule_card(v: Verdict) -> str:
     cells = "".join(
         f"<div><dt>{escape(label)}</dt><dd>{escape(value)}{note}</dd></div>" for label, value, note in facts
     )
-    said = "".join(f"<p>{escape(words)}</p>" for words in (v.slip, v.says) if words)
+    said = f'<p class="next"><strong>Common slip:</strong> {escape(v.slip)}</p>' if v.slip else ""
+    said += f"<p>{escape(v.says)}</p>" if v.says else ""
     where = "" if check is None else f" · vector {escape(check.vector)}"
     return (
         f'<section class="card" id="rule-{rule.id}"><p class="kicker">first divergence{where}</p>'

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rockref.conformance import in_words, vectors
+from rockref.conformance import in_files, in_words, vectors
 from rockref.conformance.judge import judge
 from rockref.conformance.law_backend import NumpyEngine
 from rockref.conformance.verdict import as_json, verdict
@@ -51,6 +51,7 @@ def test_a_slip_is_told_before_the_rule(words):
 def test_the_evidence_is_the_ratio():
     v = verdict(judge(Slipping("integrate", "Theta", lambda a, q: np.degrees(a)), ["L3"]))
     assert "got/expected = 57.2958: degrees for radians" in v.slip
+    assert f"<strong>Common slip:</strong> {v.slip}</p>" in in_files.page(v)
 
 
 def test_rows_of_a_run_that_are_a_row_late_are_told():
