@@ -50,7 +50,8 @@ def lead(response: Response, model: Model, effects: str) -> str:
     """Return the block, when it strikes the plate, and how fast it turns, in a sentence."""
     impacts = [f"{t:.3f}" for t in response.main_impacts()[:IMPACTS]]
     more = " and later" if len(response.main_impacts()) > IMPACTS else ""
-    struck = f"main impacts at {', '.join(impacts)} s{more}" if impacts else "no main impact"
+    many = "s" if len(impacts) > 1 else ""
+    struck = f"main impact{many} at {', '.join(impacts)} s{more}" if impacts else "no main impact"
     fell = " The block overturns." if response.overturned else ""
     largest = float(abs(as_measured(response).crv).max())
     body = f"{model.mass:g} kg, {model.points.replace('_', ' ')}, {effects}"

@@ -141,4 +141,4 @@ def test_a_page_of_a_release(capsys, tmp_path):
     code, out, _ = run(capsys, "simulate", "--duration", 0.6, "--report", tmp_path / "page")
     text = (tmp_path / "page/index.html").read_text()
     assert code == 0 and f"wrote {tmp_path / 'page/index.html'}" in out
-    assert faults_of(text) == [] and "1 main impacts" in text
+    assert faults_of(text) == [] and "main impact at 0.510 s; the largest rate is" in text
