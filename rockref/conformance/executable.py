@@ -112,13 +112,16 @@ class Executable:
         if reply.get("id") != request["id"]:
             self.failures[piece] = self.failures.get(piece, 0) + 1
             self.close()
-            raise Misbehaved(f"answered to id {printable(repr(reply.get('id')))}, not {request['id']!r}")
+            said = printable(repr(reply.get("id")))
+            raise Misbehaved(f"answered to id {said}, not {request['id']!r}: give the question's id back, once")
         if "error" in reply:
             raise Misbehaved(f"says: {printable(reply['error'])}")
         if piece in jsonlines.CLAIMS and reply.get("out", 0) is None:
             return None
+        if "out" not in reply:
+            raise Misbehaved(f"the answer has no 'out', but {', '.join(map(printable, reply))}")
         try:
-            return jsonlines.readable(reply.get("out"), piece)
+            return jsonlines.readable(reply["out"], piece)
         except ValueError as e:
             raise Misbehaved(str(e)) from e
 
@@ -274,7 +277,14 @@ def _close(pipe: Any) -> None:
 
 def _and(rubbish: list[str]) -> str:
     """Return what was printed in place of an answer."""
-    return f", printed rubbish: {rubbish[0][:80]!r}" if rubbish else ""
+    if not rubbish:
+        return ""
+    first = rubbish[0].strip()
+    if first in ("{", "["):
+        return ", printed an answer over several lines: write one JSON object a line"
+    if first.startswith('{"') and first.endswith("}"):
+        return f", printed an object with neither the question's id nor 'out': {first[:80]!r}"
+    return f", printed rubbish: {rubbish[0][:80]!r}"
 
 
 def _write(pipe: Any, text: str) -> None:

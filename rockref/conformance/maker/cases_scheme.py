@@ -34,7 +34,7 @@ TOUCHING = (17, 18)
 #: slides straight on, whatever its anchor, before anchors, these before all other sliding, and all behind what the
 #: forces of the first row show of it.
 PLACES = {152: 30.05, 142: 30.1, 139: 30.8, 140: 30.81, 141: 30.82, 143: 30.83, 36: 30.85, 37: 30.86,
-          145: 43.1, 147: 43.2, 51: 43.3, 148: 43.4, 89: 49.6, 149: 51.1, 150: 51.11, 151: 51.12,
+          45: 43.05, 145: 43.1, 147: 43.2, 51: 43.3, 148: 43.4, 89: 49.6, 149: 51.1, 151: 51.12, 150: 62.5,
           57: 51.2, 58: 51.21, 95: 51.22, 129: 51.23, 70: 56.1, 71: 56.11, 72: 56.12, 73: 56.13,
           52: 56.5, 53: 56.51, 54: 56.52, 94: 56.53, 55: 56.54, 56: 56.55}  # fmt: skip
 #: Least bar [m, rad, rad/s]: what is too small to be physical.

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from rockref.conformance.executable import Executable, Misbehaved
+from rockref.conformance.executable import Executable, Misbehaved, _and
 from rockref.conformance.offline import Recorded
 from rockref.model.errors import InputError
 
@@ -95,3 +95,33 @@ def test_packed_answers_are_read(tmp_path, answers):
     path = tmp_path / "answers.jsonl.gz"
     path.write_bytes(gzip.compress(answers.read_bytes()))
     assert Recorded(path).name == "x"
+
+
+@pytest.mark.parametrize(
+    ("printed", "words"),
+    [
+        (["{\n", ' "id": "q1",\n'], "over several lines: write one JSON object a line"),
+        (['{"F_N": 600.0}\n'], "neither the question's id nor 'out'"),
+        (["step 3\n"], "printed rubbish: 'step 3"),
+    ],
+)
+def test_what_was_printed_in_place_of_an_answer_is_told_by_its_looks(printed, words):
+    assert words in _and(printed)
+
+
+def test_an_answer_without_out_is_told_by_what_it_has(tmp_path):
+    program = tmp_path / "mine.py"
+    program.write_text(
+        "import json, sys\n"
+        "for line in sys.stdin:\n"
+        "    q = json.loads(line)\n"
+        "    hello = {'protocol': 1, 'capabilities': ['rotate']}\n"
+        "    a = hello if q['cmd'] == 'start' else {'id': q['id'], 'result': {}}\n"
+        "    print(json.dumps(a), flush=True)\n"
+    )
+    backend = Executable([sys.executable, str(program)])
+    try:
+        with pytest.raises(Misbehaved, match="has no 'out', but id, result"):
+            backend.rotate(Theta=[0.0, 0.0, 1.0])
+    finally:
+        backend.close()
