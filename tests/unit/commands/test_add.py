@@ -24,7 +24,7 @@ def test_error_before_and_after_in_words(capsys, monkeypatch, tmp_path, made):
     monkeypatch.setattr(adding, "add_effect", lambda *a, **k: fakes.addition(made))
     code, out, _ = run(capsys, "anywhere", "quadratic_drag", "-o", tmp_path / "m.toml")
     assert code == 0 and len(out.splitlines()) <= 12
-    assert out.splitlines()[-1].startswith("Next: rockref compare anywhere --model table_3_1 --model ")
+    assert out.splitlines()[-1].startswith("Next: rockref compare anywhere --model baseline --model ")
     # (0.25 - 0.07) of (0.25 - 0.05); (0.35 - 0.15) of (0.35 - 0.05).
     assert "Fit runs: error 0.2500 to 0.0700 deg/s RMS, noise floor 0.0500; 90 % of the gap" in out
     assert "Held-out runs: error 0.3500 to 0.1500 deg/s RMS, noise floor 0.0500; 67 % of the gap" in out

@@ -56,7 +56,7 @@ def test_the_verdict_comes_last_and_then_what_to_type(capsys, monkeypatch, made)
     answer(monkeypatch, fakes.diagnosis("named", made))
     _, out, _ = run(capsys, "anywhere")
     assert out.splitlines()[-1] == "Next: rockref add anywhere quadratic_drag"
-    said = "NAMED (probability 1.00). quadratic_drag is missing. Its size is 0.41 N m s2 (90 %: 0.38 to 0.44). Next:"
+    said = "NAMED (probability 1.00). quadratic_drag is missing. Its size is 0.41 N m s² (90 %: 0.38 to 0.44). Next:"
     assert said in " ".join(out.split())
     assert len(out.splitlines()) <= 12
     for text in ("0.250", "0.060", "0.350", "0.080", "0.050", "0.38", "0.44", "512"):
