@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from rockref.discover.add_effect import Addition
 from rockref.discover.compare.stretches import AXES
 from rockref.report import tables
+from rockref.report.diagnosis_text import GAP
 from rockref.report.fit_text import effect_lines, estimates_table
 from rockref.report.page import Table
 from rockref.report.text import print_table, say
@@ -43,7 +44,8 @@ def lines(a: Addition) -> list[str]:
         before, after = getattr(a.before, use), getattr(a.after, use)
         if before is None or after is None:
             continue
-        closed = a.gap_closed(use)
+        # Of a gap within what is known of the noise no share is said.
+        closed = a.gap_closed(use) if before["total"] >= GAP * a.noise else None
         tail = "" if closed is None else f"; {100 * min(closed, 1.0):.0f} % of the gap to the noise floor closed"
         found.append(
             f"{words}: error {before['total']:.4f} to {after['total']:.4f} deg/s RMS, noise floor {a.noise:.4f}{tail}."

@@ -67,3 +67,10 @@ def test_the_spread_of_repeats_is_drawn_where_it_is_known(whole):
 def test_a_history_without_any_number_is_still_a_figure():
     svg, keys = history_figure([{"effects": []}], float("nan"))
     assert "baseline" in svg and "held-out runs" in keys
+
+
+def test_no_share_is_said_of_a_gap_within_the_noise():
+    a = fakes.addition()
+    near = replace(a, before=State((), fakes.errors(1.01 * a.noise), fakes.errors(2.0 * a.noise)))
+    fit, held = lines(near)
+    assert "gap to the noise floor" not in fit and "gap to the noise floor" in held
