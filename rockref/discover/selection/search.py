@@ -80,7 +80,7 @@ class Search:
         if self.best(beam).loss > UNEXPLAINED:
             return self.unexplained(beam)
         beam = self.lengthen(beam, F)
-        if self.best(beam).loss > WHITE:
+        if WHITE < self.best(beam).loss <= CONTRADICTED:
             beam = self.second_look(beam)
         return self.eliminate(beam)
 
