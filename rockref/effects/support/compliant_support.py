@@ -46,11 +46,10 @@ class CompliantSupport(Effect):
         "ratio": Quantity("1", 0.03, 0.0, 0.2, 0.03, "+", "damping ratio of the plate alone", 0.0),
         "pitch": Quantity("1", 0.0, 0.0, 4.0, 0.0, "+", "(frequency / that of its pitching)^2; 0: none", 0.0),
     }
-    switches = ("frequency",)
+    switches = not_with_block = ("frequency",)  # as the contacts', whose stiffness grows with the mass
     priors = {"mass": Prior("shape", spread=SPREAD), "ratio": Prior("shape", spread=SPREAD)}
     priors |= {"frequency": Prior(scale="compliance"), "pitch": Prior("form")}
     seeds = tuple({"mass": mass, "frequency": frequency} for mass in MASSES for frequency in TONES)
-    not_with_block = ("frequency",)  # it goes with that of the contacts, whose stiffness grows with the mass
     sentence = "The plate and its table give a little under each impact and ring on after it."
     equation = r"M\ddot q = -\sum_i F_i^{(N)} + m g - k q - c\dot q,\quad \xi_i = q + \varphi y_i - z_i"
     source = (
