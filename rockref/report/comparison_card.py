@@ -13,7 +13,7 @@ from rockref.model.channel import DEGREES
 from rockref.report import style
 from rockref.report.card import Card, Fact
 from rockref.report.comparison_text import error_lines, share_missed
-from rockref.report.drawing import Line, Panel, chart, key
+from rockref.report.drawing import Line
 from rockref.report.trial import Trial, trial
 
 
@@ -72,12 +72,7 @@ def drawn(c: Comparison, shown: Trial) -> tuple[str, str]:
     for i, name in enumerate(c.names):
         rates = c.results[i][k].modelled[rows, shown.axis] * DEGREES
         lines.append(Line(name, x, rates, style.colour(i), style.dash(i)))
-    marks = [float(v) for v in shown.impacts if shown.view[0] <= v <= shown.view[1]]
-    svg = chart(
-        [Panel(f"{AXES[shown.axis]} (deg/s)", lines, height=220.0)],
-        title=f"Run {shown.run}: measured and modelled", x_label="time (s)", x_limits=shown.view, marks=marks,
-    )  # fmt: skip
-    return svg, key([(line.name, line.colour, line.dash) for line in lines])
+    return shown.drawn(lines, f"Run {shown.run}: measured and modelled")
 
 
 def caption(shown: Trial) -> str:

@@ -113,10 +113,14 @@ class Trial:
         """Return (SVG, legend) of the opening view, for paper and where no script runs."""
         inside = (self.t >= self.view[0]) & (self.t <= self.view[1])
         lines = [Line(ln.name, ln.x[inside], ln.y[inside], ln.colour, ln.dash) for ln in self.lines()]
+        return self.drawn(lines, f"Run {self.run}: measured, before and after")
+
+    def drawn(self, lines: list[Line], title: str) -> tuple[str, str]:
+        """Return (SVG, legend) of lines in the opening view, with the impacts in it."""
         marks = [float(v) for v in self.impacts if self.view[0] <= v <= self.view[1]]
         svg = chart(
             [Panel(f"{AXES[self.axis]} (deg/s)", lines, height=220.0)],
-            title=f"Run {self.run}: measured, before and after", x_label="time (s)", x_limits=self.view, marks=marks,
+            title=title, x_label="time (s)", x_limits=self.view, marks=marks,
         )  # fmt: skip
         return svg, key([(ln.name, ln.colour, ln.dash) for ln in lines])
 

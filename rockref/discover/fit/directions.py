@@ -3,7 +3,8 @@
 Wide differences of single numbers leave the valley: what they see of each number bends, and numbers that undo each
 other's change (a factor that all feet share, and the common damping) no longer cancel. The valley then looks narrower
 than it is, and a fit stops on its slope. Differences along the eigenvectors of the posterior's covariance, as long as
-the valley is wide in each, stay in it, and learn its directions anew each time.
+the valley is wide in each, stay in it, and learn its directions anew each time. A number with a flat prior moves by its
+share of the prior's range: so the valley of factors that undo each other is straight.
 """
 
 from __future__ import annotations

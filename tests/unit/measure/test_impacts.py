@@ -303,7 +303,7 @@ def test_a_swing_ends_after_the_middle_one_of_its_changes_of_sign():
     assert swings(x, 1.0) == [(0, 3, 1), (3, 6, -1)]
     assert swings(-x, 1.0) == [(0, 3, -1), (3, 6, 1)]
     assert swings(np.array([2.0, -2.0]), 1.0) == [(0, 1, 1), (1, 2, -1)]
-    # Five changes, one after three samples without, and one back that comes after the next swing has begun.
+    # Five changes, one after three samples without, and one back that comes after the next swing has started.
     assert swings(np.array([2.0, 0.5, -0.5, 0.5, -0.5, 0.5, -2.0]), 1.0) == [(0, 4, 1), (4, 7, -1)]
     assert swings(np.array([2.0, 0.5, 0.4, 0.3, -0.5, -2.0]), 1.0) == [(0, 4, 1), (4, 6, -1)]
     assert swings(np.array([2.0, 0.5, -2.0, 0.5, -2.0]), 1.0) == [(0, 2, 1), (2, 5, -1)]

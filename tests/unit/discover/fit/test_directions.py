@@ -27,7 +27,7 @@ class Product:
 
 
 def found(rounds, z=(0.4, -0.4, 0.0)):
-    """The spread about a point of the ridge, begun with a valley that is far too narrow along it."""
+    """The spread about a point, from a first covariance that is far too small where two numbers undo each other."""
     product, parameters, z = Product(), (FREE,) * 3, np.array(z)
     r = product.at(parameters, [z])[0]
     covariance = softened(np.diag([SAMPLES, SAMPLES, SAMPLES]) + np.eye(3))
