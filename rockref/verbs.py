@@ -41,9 +41,9 @@ def compare(
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.discover.compare.sentences import findings
+    from rockref.report.comparison_page import write_report
     from rockref.report.figures import whole_run
     from rockref.report.next_command import BASELINE
-    from rockref.report.output import write_report
 
     loaded = _experiment(experiment)
     listed = [models] if isinstance(models, str | Path) or not isinstance(models, Sequence) else list(models)

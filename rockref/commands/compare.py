@@ -78,8 +78,9 @@ def compare(
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.measure import load_experiment
+    from rockref.report.comparison_page import write_report
     from rockref.report.next_command import BASELINE, after_comparison
-    from rockref.report.output import usable_folder, write_report
+    from rockref.report.output import usable_folder
 
     loaded = load_experiment(experiment)
     files = iter(named_models([text for text in model or () if text != BASELINE], effect))

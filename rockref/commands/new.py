@@ -205,7 +205,7 @@ def _tell(campaign: "Campaign") -> None:
     from rockref.commands._terminal import console
     from rockref.measure.importing.units import SPOKEN
     from rockref.report.first_swing import swing_in_text
-    from rockref.report.page import Table
+    from rockref.report.table import Table
     from rockref.report.text import print_table, say
 
     out, first = console(), campaign.runs[0]

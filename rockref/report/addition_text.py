@@ -9,7 +9,7 @@ from rockref.discover.compare.stretches import AXES
 from rockref.report import tables
 from rockref.report.diagnosis_text import GAP
 from rockref.report.fit_text import effect_lines, estimates_table
-from rockref.report.page import Table
+from rockref.report.table import Table
 from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 from rockref.discover.compare.models import Comparison
 from rockref.report import blocks, tables
@@ -10,6 +11,8 @@ from rockref.report.block_drawing import block_drawing
 from rockref.report.comparison_card import card_of_comparison
 from rockref.report.comparison_text import error_lines
 from rockref.report.curves import Curves
+from rockref.report.figures import write_figures
+from rockref.report.output import made_folder
 from rockref.report.page import MAX_BYTES, Page
 
 # decided: room for what comes after the curves: energy, shapes, motion, provenance.
@@ -100,3 +103,13 @@ def cost(drawn: Curves) -> int:
     panels = drawn.data["panels"]
     lines = sum(len(line["y"]["data"]) for p in panels for line in p.get("lines", ()))
     return len(drawn.picture) + lines + 40 * sum(len(s["on"]) for p in panels for s in p.get("strips", ()))
+
+
+def write_report(c: Comparison, folder: Path) -> list[Path]:
+    """Write ``index.html`` and the figures of the first run; return the paths, page first. Raises InputError.
+
+    The folder is made if it is not there.
+    """
+    drawn = comparison_page(c)
+    page = drawn.write(made_folder(folder) / "index.html")
+    return [page, *write_figures(c, folder)]

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from rockref.report.drawing import Panel, chart, key
 from rockref.report.encoding import packed
-
-if TYPE_CHECKING:
-    from rockref.report.page import Table
+from rockref.report.table import Table
 
 
 @dataclass(frozen=True, eq=False)

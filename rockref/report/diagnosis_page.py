@@ -21,7 +21,8 @@ from rockref.report.card import card_of_diagnosis, fitted_baseline
 from rockref.report.comparison_page import add_runs
 from rockref.report.drawing import Line, Panel, chart, key
 from rockref.report.falling import levels
-from rockref.report.page import Page, Table
+from rockref.report.page import Page
+from rockref.report.table import Table
 
 #: Bytes for the curves of the runs; decided: the page stays below half of what it may have.
 ROOM = 600_000

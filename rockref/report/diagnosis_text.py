@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from rockref.effects import catalogue
 from rockref.report import tables
 from rockref.report.fit_text import quantity
-from rockref.report.page import Table
 from rockref.report.spoken import spoken_amplitudes
+from rockref.report.table import Table
 from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:

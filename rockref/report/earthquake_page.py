@@ -15,9 +15,10 @@ from rockref.model.storage import write_text
 from rockref.report import style
 from rockref.report.figures import new_figure, rendered
 from rockref.report.output import made_folder, usable_folder
-from rockref.report.page import Page, Table
+from rockref.report.page import Page
 from rockref.report.shaken_page import DPI
 from rockref.report.shaken_text import interval
+from rockref.report.table import Table
 from rockref.shake import defects
 from rockref.shake.statistics.campaign import least_difference
 

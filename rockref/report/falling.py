@@ -9,7 +9,8 @@ import numpy as np
 from rockref.discover.compare.stretches import AXES
 from rockref.report import style
 from rockref.report.drawing import Line, Panel, chart, key
-from rockref.report.page import Page, Table
+from rockref.report.page import Page
+from rockref.report.table import Table
 
 
 def levels(name: str, values: Sequence[float], dash: tuple[int, ...]) -> Line:

@@ -16,7 +16,7 @@ from rockref.discover.compare.stretches import AXES
 from rockref.model.channel import DEGREES
 from rockref.model.storage import write_bytes
 from rockref.report import style, tables
-from rockref.report.blocks import contact_strips, housner_line
+from rockref.report.run_lines import contact_strips, housner_line
 
 # decided: the source zooms a little beyond the main impacts on either side.
 BEYOND = 0.03

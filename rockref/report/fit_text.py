@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from rockref.discover.evidence.evidence import Number
 from rockref.discover.fit_baseline import BaselineFit
 from rockref.discover.fit_gates import Gate
-from rockref.report.page import Table
 from rockref.report.spoken import spoken
+from rockref.report.table import Table
 from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:

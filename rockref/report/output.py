@@ -1,14 +1,11 @@
-"""The files of a report: the page and the figures, in one folder."""
+"""The folder of a report: whether it can be used, before the work; made, after it."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
 
-from rockref.discover.compare.models import Comparison
 from rockref.model.errors import InputError
-from rockref.report.comparison_page import comparison_page
-from rockref.report.figures import write_figures
 
 
 def made_folder(path: Path) -> Path:
@@ -31,13 +28,3 @@ def usable_folder(path: Path) -> Path:
     if not os.access(there, os.W_OK | os.X_OK):
         raise InputError("E-WRITE", str(path), f"{there} must not be written to", "Name another folder.")
     return path
-
-
-def write_report(c: Comparison, folder: Path) -> list[Path]:
-    """Write ``index.html`` and the figures of the first run; return the paths, page first. Raises InputError.
-
-    The folder is made if it is not there.
-    """
-    drawn = comparison_page(c)
-    page = drawn.write(made_folder(folder) / "index.html")
-    return [page, *write_figures(c, folder)]

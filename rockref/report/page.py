@@ -21,23 +21,10 @@ from rockref.model.storage import write_bytes
 from rockref.report.curves import Curves
 from rockref.report.equation import equation_svg
 from rockref.report.player import Player
+from rockref.report.table import Table
 
 #: decided: what every browser opens at once and every mailbox takes.
 MAX_BYTES = 2_000_000
-
-
-@dataclass(frozen=True)
-class Table:
-    """A table of texts: ``caption``, ``columns``, ``rows`` (the first text of a row heads it); ``note`` below it.
-
-    ``prose`` is for words, which are set left and may break; numbers are set right.
-    """
-
-    caption: str
-    columns: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    note: str = ""
-    prose: bool = False
 
 
 @dataclass

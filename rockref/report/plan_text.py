@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rockref.discover.plan import Plan
-from rockref.report.page import Table
 from rockref.report.spoken import figures, spoken
+from rockref.report.table import Table
 from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:

@@ -11,8 +11,9 @@ from rockref.report.block_drawing import block_drawing
 from rockref.report.curves import curves
 from rockref.report.drawing import Line, Panel
 from rockref.report.output import made_folder
-from rockref.report.page import Page, Table
+from rockref.report.page import Page
 from rockref.report.response_table import as_measured
+from rockref.report.table import Table
 
 # decided: what a screen shows of a curve; a rate of more rows is thinned evenly.
 MOST_ROWS = 4000

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rockref.model.parameters import TABLE_3_1
-from rockref.report.page import Table
+from rockref.report.table import Table
 from rockref.report.text import print_table
 from rockref.studies.sensitivity_study import AXES
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from rockref.report.page import Table
+from rockref.report.table import Table
 from rockref.report.text import print_table, say
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from typing import Any
 
 from rockref.model.parameters import TABLE_3_1
 from rockref.report import identification_text, sensitivity_text
-from rockref.report.page import Page, Table
+from rockref.report.page import Page
+from rockref.report.table import Table
 
 
 def source_page(results: dict[str, Any], pictures: dict[str, bytes], provenance: dict[str, Any]) -> Page:

@@ -10,7 +10,7 @@ from rockref.discover.compare.models import Comparison, RunComparison
 from rockref.discover.compare.sentences_shape import LEDGER_SHARE
 from rockref.discover.compare.stretches import AXES, STRETCH_WORDS, STRETCHES
 from rockref.model.channel import DEGREES
-from rockref.report.page import Table
+from rockref.report.table import Table
 
 #: Stretches by the main impacts that bound them, and units, where a line is short.
 STRETCH_SHORT = {"before": "to 1st impact", "between": "1st to 2nd", "after": "after 2nd"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from typing import TYPE_CHECKING, Any
 
-from rockref.report.page import Table
+from rockref.report.table import Table
 
 if TYPE_CHECKING:
     from rich.console import Console

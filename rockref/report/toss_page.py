@@ -10,7 +10,8 @@ from rockref.discover.tosses.diagnose import sentences
 from rockref.model.storage import write_bytes
 from rockref.report import toss_text
 from rockref.report.figures import rendered
-from rockref.report.page import Page, Table
+from rockref.report.page import Page
+from rockref.report.table import Table
 
 INK, SECOND, PALE = "#1f4e79", "#c05a00", "#9aa5b1"
 #: Dots an inch of the pictures; decided: ten inches make 1100, as wide as the page is read, and a tenth of a megabyte.

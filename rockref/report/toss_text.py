@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rockref.discover.tosses.compare import PUBLISHED
 from rockref.discover.tosses.ledger import GAIN
 from rockref.report.diagnosis_text import confusion_table
-from rockref.report.page import Table
+from rockref.report.table import Table
 from rockref.report.text import print_table
 
 if TYPE_CHECKING:

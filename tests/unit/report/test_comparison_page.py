@@ -10,7 +10,7 @@ from rich.console import Console
 from rockref import Model
 from rockref.discover.compare.models import compare
 from rockref.effects.catalogue import parse
-from rockref.report import blocks, figures, tables
+from rockref.report import blocks, figures, run_lines, tables
 from rockref.report.comparison_card import card_of_comparison
 from rockref.report.comparison_page import add_runs, comparison_page
 from rockref.report.comparison_text import print_comparison
@@ -68,7 +68,7 @@ def test_curves_hold_the_record(c):
 
 def test_contact_lines_are_those_of_the_response(c):
     r = c.results[0][2]
-    strips = dict(blocks.contact_strips(r))
+    strips = dict(run_lines.contact_strips(r))
     assert set(strips) == set(r.aligned.response.problem.points.names)
     # The turned block rests on corners 3 and 4 from the release until some 40 ms before the first main impact.
     first = c.measured[2].features.impacts.times[0]
@@ -79,7 +79,7 @@ def test_contact_lines_are_those_of_the_response(c):
 
 def test_housner_swings_with_the_block(c):
     for k, sign in ((0, 1.0), (2, -1.0)):
-        line = blocks.housner_line(c, k, 0.4)
+        line = run_lines.housner_line(c, k, 0.4)
         measured = np.interp(0.4, c.measured[k].run.t, c.measured[k].run.crv[:, 0]) / DEGREE
         assert sign * line.y[-1] > 0.0
         # Up to the first impact the planar block is the block; the gyroscope shows two per cent more.

@@ -10,8 +10,9 @@ from rockref.model.errors import InputError
 from rockref.report import page as page_module
 from rockref.report.curves import curves
 from rockref.report.drawing import Line, Panel, chart
-from rockref.report.page import Page, Table
+from rockref.report.page import Page
 from rockref.report.player import Player
+from rockref.report.table import Table
 from tests.unit.report.page_checks import faults_of
 
 NASTY = '</script><script>alert(1)</script> & "x" <b>\''

@@ -14,8 +14,9 @@ from rockref.report.demo import Story, the_error, the_missing_effect
 from rockref.report.diagnosis_text import MEANINGS, print_diagnosis
 from rockref.report.fit_text import print_fit
 from rockref.report.identification_text import print_identification
-from rockref.report.page import Page, Table
+from rockref.report.page import Page
 from rockref.report.plan_text import print_plan
+from rockref.report.table import Table
 from rockref.report.text import print_table, say_command
 from tests.unit.discover import fakes
 from tests.unit.report.made_up import IDENTIFICATION
