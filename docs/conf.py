@@ -41,7 +41,7 @@ def setup(app):
     """Draw the pictures of the effects and make the page of the lab; they are not kept with the text."""
     from pathlib import Path
 
-    from rockref.report.gallery import write_pictures
+    from rockref.report.views.gallery import write_pictures
 
     Path(app.srcdir, "_lab").mkdir(exist_ok=True)  # sphinx asks for it before it builds anything
     app.connect("builder-inited", lambda app: write_pictures(Path(app.srcdir, "reference", "effects")))

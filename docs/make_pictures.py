@@ -14,7 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 
 from rockref import simulate  # noqa: E402
-from rockref.report.block_drawing import block_drawing  # noqa: E402
+from rockref.report.charts.block_drawing import block_drawing  # noqa: E402
 from tests.golden import table_3_1_files as golden  # noqa: E402
 
 STEPS = (5e-5, 2.5e-5, 1e-5, 5e-6, 2.5e-6, 1e-6, 5e-7, 2e-7, 1e-7)

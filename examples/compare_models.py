@@ -9,7 +9,7 @@ from rockref import Model
 from rockref.discover.compare.models import compare
 from rockref.discover.compare.sentences import findings
 from rockref.measure import load_experiment
-from rockref.report.comparison_page import comparison_page
+from rockref.report.views.comparison_page import comparison_page
 
 EXPERIMENT = Path(__file__).resolve().parents[1] / "data/experiments/mystery-09"
 

@@ -41,9 +41,9 @@ def compare(
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.discover.compare.sentences import findings
-    from rockref.report.comparison_page import write_report
-    from rockref.report.figures import whole_run
-    from rockref.report.next_command import BASELINE
+    from rockref.report.charts.figures import whole_run
+    from rockref.report.terminal.next_command import BASELINE
+    from rockref.report.views.comparison_page import write_report
 
     loaded = _experiment(experiment)
     listed = [models] if isinstance(models, str | Path) or not isinstance(models, Sequence) else list(models)
@@ -75,7 +75,7 @@ def fit(
     `effects` are ids to fit along. Raises InputError, NumericalError.
     """
     from rockref.discover.fit_baseline import fit_baseline
-    from rockref.report.fit_text import print_fit
+    from rockref.report.terminal.fit_text import print_fit
 
     along, seed = tuple(_words(effects)), _seed(seed)
     folder, start = _folder(experiment), _optional(model)
@@ -98,9 +98,9 @@ def diagnose(
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
     from rockref.engines import compiled_ahead
-    from rockref.report.diagnosis_page import write_diagnosis
-    from rockref.report.diagnosis_text import print_diagnosis
     from rockref.report.output import made_folder
+    from rockref.report.terminal.diagnosis_text import print_diagnosis
+    from rockref.report.views.diagnosis_page import write_diagnosis
 
     own, seed = _words(effects), _seed(seed)
     start = _optional(model)
@@ -129,9 +129,9 @@ def add(
     Raises InputError, NumericalError.
     """
     from rockref.discover.add_effect import add_effect
-    from rockref.report.addition_page import write_addition
-    from rockref.report.addition_text import print_addition
     from rockref.report.output import made_folder
+    from rockref.report.terminal.addition_text import print_addition
+    from rockref.report.views.addition_page import write_addition
 
     (effect,), seed, start = _words(effect, "effect"), _seed(seed), _optional(model)
     found = add_effect(effect, _folder(experiment), start, seed, None, progress=progress)
@@ -158,7 +158,7 @@ def plan(
     """
     from rockref.discover.plan import plan as run_plan
     from rockref.discover.plan import releases_from
-    from rockref.report.plan_text import sentences
+    from rockref.report.terminal.plan_text import sentences
 
     own, seed = _words(effects), _seed(seed)
     if not isinstance(runs, str):

@@ -104,7 +104,7 @@ def told(
     It is told even where a file cannot be written: minutes of work are not lost.
     """
     from rockref.commands._terminal import console
-    from rockref.report.text import say_command
+    from rockref.report.terminal.text import say_command
 
     written: list[Path] = []
     try:

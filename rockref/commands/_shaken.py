@@ -17,8 +17,8 @@ def compare_shaken(
     from rockref.commands._progress import stages
     from rockref.commands._terminal import console
     from rockref.report.output import made_folder, usable_folder
-    from rockref.report.shaken_text import print_shaken
-    from rockref.report.text import say_command
+    from rockref.report.terminal.shaken_text import print_shaken
+    from rockref.report.terminal.text import say_command
     from rockref.shake.comparison import RUNS, compare_shaken
     from rockref.shake.experiment import load_shaken
 
@@ -30,7 +30,7 @@ def compare_shaken(
         found = compare_shaken(loaded, models, names, runs=runs or RUNS, step=step or 1e-5, say=say)
     record, written = found.to_dict(), []
     if folder is not None:
-        from rockref.report.shaken_page import write_shaken
+        from rockref.report.views.shaken_page import write_shaken
 
         written.append(write_shaken(found, made_folder(folder)))
     say_remarks(loaded.notices)

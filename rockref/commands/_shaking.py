@@ -40,7 +40,7 @@ def simulate_shaken(
     from rockref.commands._models import known_files, named_model, of_file, with_effects
     from rockref.commands._results import in_json
     from rockref.engines import run
-    from rockref.report.response_table import check_name, write_response
+    from rockref.report.tables.response_table import check_name, write_response
     from rockref.shake.ensemble import AFTER, run_all
 
     refuse_options({key: value for key, value in others.items() if value not in (None, False, "auto")})

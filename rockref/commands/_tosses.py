@@ -35,7 +35,7 @@ def compare_tosses(
     from rockref.commands._models import labels, named_models
     from rockref.commands._terminal import console
     from rockref.discover.tosses.compare import compare
-    from rockref.report.toss_text import print_toss_comparison
+    from rockref.report.terminal.toss_text import print_toss_comparison
 
     folder = usable(report)
     tosses = read(path)
@@ -45,7 +45,7 @@ def compare_tosses(
     written = []
     if folder is not None:
         from rockref.report.output import made_folder
-        from rockref.report.toss_page import write_toss_comparison
+        from rockref.report.views.toss_page import write_toss_comparison
 
         written.append(write_toss_comparison(record, made_folder(folder)))
     if as_json:
@@ -64,7 +64,7 @@ def diagnose_tosses(
     from rockref.commands._progress import stages
     from rockref.discover.tosses.diagnose import diagnose
     from rockref.model.errors import InputError
-    from rockref.report.toss_text import print_toss_diagnosis
+    from rockref.report.terminal.toss_text import print_toss_diagnosis
 
     usable_files(output, save_model)
     folder = usable(report)
@@ -81,7 +81,7 @@ def diagnose_tosses(
         written += keep(text, output, found.model, save_model)
         if folder is not None:
             from rockref.report.output import made_folder
-            from rockref.report.toss_page import write_toss_diagnosis
+            from rockref.report.views.toss_page import write_toss_diagnosis
 
             written.append(write_toss_diagnosis(record, made_folder(folder)))
     if record["verdict"] == "not_trustworthy":
@@ -95,7 +95,7 @@ def fit_to_tosses(
     from rockref.commands._models import models_and_others
     from rockref.commands._progress import stages
     from rockref.discover.tosses.fitting import fit_tosses
-    from rockref.report.toss_text import print_toss_fit
+    from rockref.report.terminal.toss_text import print_toss_fit
 
     usable_files(output)
     tosses = read(path)
@@ -124,7 +124,7 @@ def add_to_model_of_tosses(
     from rockref.commands._models import known_files, named_models
     from rockref.commands._progress import stages
     from rockref.discover.tosses.fitting import add_to_tosses
-    from rockref.report.toss_text import print_toss_addition
+    from rockref.report.terminal.toss_text import print_toss_addition
 
     usable_files(output)
     folder = usable(report)
@@ -139,7 +139,7 @@ def add_to_model_of_tosses(
         if folder is not None:
             from rockref.discover.tosses.compare import compare
             from rockref.report.output import made_folder
-            from rockref.report.toss_page import write_toss_comparison
+            from rockref.report.views.toss_page import write_toss_comparison
 
             models, names = [found.before.model, found.after.model], [f"without {effect}", f"with {effect}"]
             written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(folder)))

@@ -65,9 +65,9 @@ def add(
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.discover import add_effect as engine
     from rockref.discover.fit_baseline import known_effects
-    from rockref.report.addition_text import print_addition
-    from rockref.report.next_command import after_addition
     from rockref.report.output import made_folder, usable_folder
+    from rockref.report.terminal.addition_text import print_addition
+    from rockref.report.terminal.next_command import after_addition
 
     known_files([effect])
     given = next(iter(named_models([model] if model else [], own)), None)
@@ -87,6 +87,6 @@ def add(
         found.model.save(output)
         written.append(output)
         if folder is not None:
-            from rockref.report.addition_page import write_addition
+            from rockref.report.views.addition_page import write_addition
 
             written.append(write_addition(found, made_folder(folder)))

@@ -78,9 +78,9 @@ def compare(
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.measure import load_experiment
-    from rockref.report.comparison_page import write_report
-    from rockref.report.next_command import BASELINE, after_comparison
     from rockref.report.output import usable_folder
+    from rockref.report.terminal.next_command import BASELINE, after_comparison
+    from rockref.report.views.comparison_page import write_report
 
     loaded = load_experiment(experiment)
     files = iter(named_models([text for text in model or () if text != BASELINE], effect))
@@ -95,8 +95,8 @@ def compare(
         typer.echo(in_json(comparison.to_dict() | {"written": [str(path) for path in written]}))
     else:
         from rockref.commands._terminal import console
-        from rockref.report.comparison_text import print_comparison
-        from rockref.report.text import say_command
+        from rockref.report.terminal.comparison_text import print_comparison
+        from rockref.report.terminal.text import say_command
 
         print_comparison(console(), comparison, full)
         say_written(written)

@@ -39,8 +39,8 @@ def demo(
     from rockref.engines import chosen, compiled_ahead
     from rockref.lab.page import write_page
     from rockref.measure import load_experiment
-    from rockref.report.demo import EXPERIMENTS, find_experiments, tell
     from rockref.report.output import made_folder
+    from rockref.workflows.demo import EXPERIMENTS, find_experiments, tell
 
     began = time.monotonic()
     if old is not None:

@@ -69,9 +69,9 @@ def diagnose(
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
     from rockref.engines import compiled_ahead
-    from rockref.report.diagnosis_text import print_diagnosis
-    from rockref.report.next_command import after_diagnosis
     from rockref.report.output import made_folder, usable_folder
+    from rockref.report.terminal.diagnosis_text import print_diagnosis
+    from rockref.report.terminal.next_command import after_diagnosis
 
     models, candidates = models_and_others([model] if model else [], effect)
     given = models[0] if models else None
@@ -88,7 +88,7 @@ def diagnose(
     with kept(store), told(as_json, lambda written: text, words, then) as written:
         written += keep(text, output, found.model, save_model)
         if folder is not None:
-            from rockref.report.diagnosis_page import write_diagnosis
+            from rockref.report.views.diagnosis_page import write_diagnosis
 
             with stages("the page"):
                 written.append(write_diagnosis(found, made_folder(folder)))

@@ -39,7 +39,7 @@ def effects(
     from rockref.effects.catalogue import OF_TOSSES, QUESTIONS, parse
     from rockref.effects.tracking.none import TrackedAsDrawn
     from rockref.model.errors import InputError
-    from rockref.report import gallery
+    from rockref.report.views import gallery
 
     if name is None:
         if picture is not None:
@@ -75,7 +75,7 @@ def effects(
 def text(effect: "Effect") -> str:
     """Return what is shown of an effect, as lines."""
     from rockref.effects.catalogue import OF_TOSSES
-    from rockref.report import gallery
+    from rockref.report.views import gallery
 
     about = gallery.card(type(effect))
     asked = about["question"] + (", tosses only" if effect.id in OF_TOSSES else "")

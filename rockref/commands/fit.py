@@ -70,9 +70,9 @@ def fit(
     from rockref.commands._progress import stages
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.discover import fit_baseline as engine
-    from rockref.report.fit_text import print_fit
-    from rockref.report.next_command import after_fit
     from rockref.report.output import usable_folder
+    from rockref.report.terminal.fit_text import print_fit
+    from rockref.report.terminal.next_command import after_fit
 
     usable_files(output)
     folder = usable_folder(report) if report is not None else None

@@ -83,16 +83,16 @@ def identify(
         found.save(files["model"])
     written = list(files.values())
     if page_folder is not None:
-        from rockref.report.identification_page import write_identification
+        from rockref.report.views.identification_page import write_identification
 
         written.append(write_identification(result, made_folder(page_folder)))
     if as_json:
         typer.echo(text)
     else:
         from rockref.commands._terminal import console
-        from rockref.report.identification_text import print_identification
-        from rockref.report.next_command import after_identification
-        from rockref.report.text import say_command
+        from rockref.report.terminal.identification_text import print_identification
+        from rockref.report.terminal.next_command import after_identification
+        from rockref.report.terminal.text import say_command
 
         print_identification(console(), result, full)
         say_written(written)

@@ -90,9 +90,9 @@ def new(
     from rockref.commands._terminal import console
     from rockref.measure.importing import write_campaign
     from rockref.model.storage import write_bytes
-    from rockref.report.first_swing import first_swing_png
-    from rockref.report.next_command import after_import
-    from rockref.report.text import say_command
+    from rockref.report.charts.first_swing import first_swing_png
+    from rockref.report.terminal.next_command import after_import
+    from rockref.report.terminal.text import say_command
 
     asking = not yes and not as_json and sys.stdin.isatty()
     paths = _files(logs)
@@ -204,9 +204,9 @@ def _tell(campaign: "Campaign") -> None:
 
     from rockref.commands._terminal import console
     from rockref.measure.importing.units import SPOKEN
-    from rockref.report.first_swing import swing_in_text
-    from rockref.report.table import Table
-    from rockref.report.text import print_table, say
+    from rockref.report.charts.first_swing import swing_in_text
+    from rockref.report.tables.table import Table
+    from rockref.report.terminal.text import print_table, say
 
     out, first = console(), campaign.runs[0]
     unit = SPOKEN.get(campaign.unit, campaign.unit)

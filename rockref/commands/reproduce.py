@@ -103,9 +103,9 @@ def source(asked: Request) -> Path:
     """Reproduce the eight-point model's own studies; `data` is the experiment that is identified (default: the
     control)."""
     from rockref.model.errors import InputError
-    from rockref.report.demo import find_experiments
-    from rockref.report.reproduction import QUICK, Budget
-    from rockref.report.reproduction import reproduce as make
+    from rockref.workflows.demo import find_experiments
+    from rockref.workflows.reproduce_source import QUICK, Budget
+    from rockref.workflows.reproduce_source import reproduce as make
 
     experiment = asked.data
     if experiment is None:
@@ -120,7 +120,7 @@ def cube(asked: Request) -> Path:
     """Compare measured tosses of a cube with models; `data` is their folder (default: what ROCKREF_CUBE_TOSSES
     names)."""
     from rockref.model.errors import InputError
-    from rockref.report.cube_story import reproduce_cube
+    from rockref.workflows.reproduce_cube import reproduce_cube
 
     if asked.only:
         raise InputError(
@@ -132,7 +132,7 @@ def cube(asked: Request) -> Path:
 
 def earthquake(asked: Request) -> Path:
     """Simulate the calibrated block and its symmetric twin under artificial bidirectional signals at ten levels."""
-    from rockref.report.earthquake_page import reproduce_earthquake
+    from rockref.workflows.reproduce_earthquake import reproduce_earthquake
 
     only_for("other studies", only=bool(asked.only), data=asked.data is not None)
     return reproduce_earthquake(asked.folder, asked.signals, asked.step, asked.quick, asked.workers, asked.say)

@@ -48,10 +48,10 @@ def sensitivity(
     from rockref.commands._progress import stages
     from rockref.commands._terminal import console
     from rockref.model.storage import write_bytes, write_text
-    from rockref.report.figures import rendered
+    from rockref.report.charts.figures import rendered
+    from rockref.report.charts.sensitivity_figures import sensitivity_figures
     from rockref.report.output import made_folder, usable_folder
-    from rockref.report.sensitivity_figures import sensitivity_figures
-    from rockref.report.sensitivity_text import print_sensitivity
+    from rockref.report.terminal.sensitivity_text import print_sensitivity
     from rockref.studies.sensitivity import STEPS
     from rockref.studies.sensitivity_study import record, study
 

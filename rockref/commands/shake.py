@@ -83,7 +83,7 @@ def shake(
         raise Interrupted(f"interrupted. What is done is kept in {output}: the same command goes on.") from None
     files = folder.write_table(rows)
     if page is not None:
-        from rockref.report.ensemble_page import write_ensemble
+        from rockref.report.views.ensemble_page import write_ensemble
 
         files.append(write_ensemble(rows, chosen, made_folder(page)))
     facts = summary(rows)

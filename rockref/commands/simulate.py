@@ -75,8 +75,8 @@ def simulate(
     from rockref.commands._models import known_files, named_model, of_file, with_effects
     from rockref.commands._progress import progress
     from rockref.report.output import usable_folder
-    from rockref.report.response_page import write_response_page
-    from rockref.report.response_table import as_measured, check_name, overturned_at, write_response
+    from rockref.report.tables.response_table import as_measured, check_name, overturned_at, write_response
+    from rockref.report.views.response_page import write_response_page
 
     model, output = _old_spellings(given, model, out, output)
     if output is not None:

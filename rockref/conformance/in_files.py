@@ -185,4 +185,4 @@ def _source(function: str) -> str:
 
 def _style() -> str:
     """Return the style that all pages share."""
-    return (resources.files("rockref") / "report" / "assets" / "style.css").read_text(encoding="utf-8")
+    return (resources.files("rockref") / "report" / "html" / "assets" / "style.css").read_text(encoding="utf-8")

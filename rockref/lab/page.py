@@ -31,7 +31,7 @@ def asset(name: str) -> str:
 
 def vendored(name: str) -> str:
     """Return the text of a file of others, which travels with the package."""
-    return (resources.files("rockref.report") / "vendor" / name).read_text(encoding="utf-8")
+    return (resources.files("rockref.report.html") / "vendor" / name).read_text(encoding="utf-8")
 
 
 def as_json(value: Any) -> str:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from rockref.report.diagnosis_page import compared, diagnosis_page
-from rockref.report.trial import OPTIMUM
+from rockref.report.html.trial import OPTIMUM
+from rockref.report.views.diagnosis_page import compared, diagnosis_page
 from tests.acceptance.browser import Browser, find_browser
 from tests.unit.discover import fakes
 from tests.unit.report.page_checks import faults_of

@@ -13,7 +13,7 @@ from rockref.discover.tosses.fitting import add_to_tosses
 from rockref.discover.tosses.predict import predict
 from rockref.measure.flight import side_by_side
 from rockref.measure.tosses import load_tosses
-from rockref.report.cube_story import VARIABLE
+from rockref.workflows.reproduce_cube import VARIABLE
 
 FOLDER = os.environ.get(VARIABLE)
 pytestmark = pytest.mark.skipif(not FOLDER, reason=f"{VARIABLE} names no folder of tosses; the data are not shipped")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rockref.report.demo import EXPERIMENTS
+from rockref.workflows.demo import EXPERIMENTS
 from tests.acceptance.browser import Browser, find_browser
 from tests.unit.report.page_checks import faults_of
 

@@ -145,7 +145,7 @@ def test_one_way_order_of_folders():
     assert done.returncode == 0, done.stdout
 
 
-FOLDERS = "model jobs effects engines conformance measure identify studies discover report commands".split()
+FOLDERS = "model jobs effects engines conformance measure identify studies discover report workflows commands".split()
 
 
 @pytest.mark.parametrize("folder", FOLDERS)

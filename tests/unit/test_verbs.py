@@ -95,7 +95,9 @@ def test_a_fit_hands_on_what_it_was_given(monkeypatch, short):
 
     asked = []
     monkeypatch.setattr("rockref.discover.fit_baseline.fit_baseline", lambda *a, **k: asked.append((a, k)) or Found())
-    monkeypatch.setattr("rockref.report.fit_text.print_fit", lambda console, found: console.print("A good fit."))
+    monkeypatch.setattr(
+        "rockref.report.terminal.fit_text.print_fit", lambda console, found: console.print("A good fit.")
+    )
     result = rockref.fit(rockref.load(short), effects="gyro_scale", seed=3)
     assert asked == [((short, ("gyro_scale",), None, 3, None), {"check": True, "progress": None})]
     assert result.summary() == "A good fit." and result.model == Model() and result.to_dict() == {"loss": 1.0}

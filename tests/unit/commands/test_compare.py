@@ -123,7 +123,7 @@ def printed(comparison, width, terminal, full=True):
 
     from rich.console import Console
 
-    from rockref.report.comparison_text import print_comparison
+    from rockref.report.terminal.comparison_text import print_comparison
 
     file = io.StringIO()
     print_comparison(Console(file=file, width=width, force_terminal=terminal, color_system=None), comparison, full)
@@ -141,15 +141,15 @@ def of_two_models(short):
 @pytest.mark.parametrize(("width", "terminal"), [(80, True), (80, False), (40, True), (120, False), (200, True)])
 def test_every_number_of_the_tables_is_there(of_two_models, width, terminal):
     """In whatever width, as a word of its own: nothing is cut, no number is broken."""
-    from rockref.report import tables
+    from rockref.report.tables import comparison_tables
 
     shown = printed(of_two_models, width, terminal)
     assert "\u2026" not in shown
     words = set(shown.split())
-    made = [tables.runs_table(of_two_models), tables.energy_table(of_two_models)]
+    made = [comparison_tables.runs_table(of_two_models), comparison_tables.energy_table(of_two_models)]
     for model in (0, 1):
-        made += [tables.departures_table(of_two_models, model)]
-        made += [tables.errors_table(of_two_models, model, use) for use in ("fit", "holdout")]
+        made += [comparison_tables.departures_table(of_two_models, model)]
+        made += [comparison_tables.errors_table(of_two_models, model, use) for use in ("fit", "holdout")]
     for table in made:
         for row in table.rows:
             assert {word for cell in row for word in cell.split()} <= words, table.caption

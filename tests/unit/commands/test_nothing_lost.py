@@ -59,7 +59,7 @@ def test_json_is_printed_whole(capsys, monkeypatch, tmp_path, found, command):
 
 
 def test_a_page_that_cannot_be_drawn_loses_neither_the_verdict_nor_the_file(capsys, monkeypatch, tmp_path, found):
-    from rockref.report import diagnosis_page
+    from rockref.report.views import diagnosis_page
 
     def too_large(*a):
         raise InputError("E-PAGE-SIZE", "index.html", "is too large", "Give fewer runs.")

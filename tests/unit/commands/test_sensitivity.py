@@ -62,7 +62,7 @@ class TestOfAMadeUpStudy:
 
         figures = {"growth": Figure(), "angles": Figure()}
         monkeypatch.setattr("rockref.studies.sensitivity_study.study", study)
-        monkeypatch.setattr("rockref.report.sensitivity_figures.sensitivity_figures", lambda found: figures)
+        monkeypatch.setattr("rockref.report.charts.sensitivity_figures.sensitivity_figures", lambda found: figures)
         return calls
 
     def test_words_tables_and_a_line_for_every_file(self, capsys, calls, tmp_path):

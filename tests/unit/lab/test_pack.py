@@ -13,7 +13,7 @@ from rockref.lab.page import as_json
 from rockref.measure import load_experiment
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
-from rockref.report.encoding import unpacked
+from rockref.report.html.encoding import unpacked
 
 EXPERIMENT = Path(__file__).resolve().parents[3] / "data/experiments/mystery-04"
 

@@ -8,7 +8,7 @@ import pytest
 from rockref import Model
 from rockref.model.errors import InputError
 from rockref.model.parameters import TABLE_3_1
-from rockref.report.sensitivity_text import digits_table, sentences
+from rockref.report.terminal.sensitivity_text import digits_table, sentences
 from rockref.studies.agreement import difference, horizon
 from rockref.studies.predictability import growth, slope
 from rockref.studies.sensitivity import (

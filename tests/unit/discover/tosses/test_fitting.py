@@ -111,7 +111,7 @@ def test_what_the_model_has_is_not_added_again(folder):
 )
 def test_what_cannot_be_written_is_refused_before_the_work(capsys, folder, tmp_path, monkeypatch, words, work):
     monkeypatch.setattr(f"rockref.discover.tosses.{work}", lambda *a, **k: pytest.fail("the work was begun"))
-    monkeypatch.setattr("rockref.report.cube_story.compare", lambda *a, **k: pytest.fail("the work was begun"))
+    monkeypatch.setattr("rockref.workflows.reproduce_cube.compare", lambda *a, **k: pytest.fail("the work was begun"))
     (tmp_path / "file").write_text("here is no folder")
     places = {"FOLDER": folder, "PLACE": tmp_path / "file" / "out"}
     ended, _, error = run(capsys, *(places.get(word, word) for word in words))

@@ -11,7 +11,7 @@ from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.measure.flight import side_by_side
 from rockref.measure.toss_energy import rises, stated_energy
 from rockref.measure.tosses import Toss, load_tosses
-from rockref.report.toss_text import sliding_table, stretches_table, with_error
+from rockref.report.terminal.toss_text import sliding_table, stretches_table, with_error
 from tests.tosses import RATE, made, stated, write_tosses
 
 

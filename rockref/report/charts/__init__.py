@@ -1,0 +1,1 @@
+"""Pictures: SVG text drawn here, and Matplotlib figures."""

@@ -1,0 +1,188 @@
+"""A comparison as tables of texts, for the terminal and for the page alike."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rockref.discover.compare.models import Comparison, RunComparison
+from rockref.discover.compare.sentences_shape import LEDGER_SHARE
+from rockref.discover.compare.stretches import AXES, STRETCH_WORDS, STRETCHES
+from rockref.model.channel import DEGREES
+from rockref.report.tables.table import Table
+
+#: Stretches by the main impacts that bound them, and units, where a line is short.
+STRETCH_SHORT = {"before": "to 1st impact", "between": "1st to 2nd", "after": "after 2nd"}
+UNITS = ("(deg/s)", "/ noise", "/ spread")
+
+
+def number(value: float | None, digits: int = 2, unit: str = "", plus: bool = False) -> str:
+    """Return a number as text, an en dash for what is not known."""
+    if value is None or not math.isfinite(value):
+        return "\u2013"
+    return f"{value:{'+' if plus else ''}.{digits}f}{unit}"
+
+
+def run_name(comparison: Comparison, k: int) -> str:
+    """Return "01 (fit)" for the run at this place."""
+    run = comparison.measured[k].run
+    return f"{run.id} ({run.use})"
+
+
+def runs_table(c: Comparison) -> Table:
+    """Return what was measured, run by run."""
+    rows = []
+    for k, m in enumerate(c.measured):
+        times = m.features.impacts.times
+        rows.append(
+            [
+                run_name(c, k),
+                number(m.run.release_tilt, 3),
+                number(math.degrees(m.run.block_turned), 0),
+                number(float(times[0]) if len(times) else None, 4),
+                number(float(times[1]) if len(times) > 1 else None, 4),
+                str(len(times)),
+                " / ".join(number(v, 3) for v in m.noise * DEGREES),
+                {True: "borrowed", False: "own"}[m.borrowed] if m.repeats is not None else "none",
+            ]
+        )
+    return Table(
+        f"Runs of {c.experiment.name}",
+        (
+            "run",
+            "tilt (rad)",
+            "turned (deg)",
+            "1st main impact (s)",
+            "2nd (s)",
+            "main impacts",
+            "noise X / Y / Z (deg/s)",
+            "repeats",
+        ),
+        rows,
+        "Repeats: whether runs with the same release give the run-to-run spread, or those of another release lend it.",
+    )
+
+
+def errors_table(c: Comparison, model: int, use: str | None = None) -> Table:
+    """Return error of one model by stretch and axis in three units: fit and holdout runs side by side, or those of one
+    use (narrow, for a terminal)."""
+    uses = [one for one in ("fit", "holdout") if c.of(one) and use in (None, one)]
+    names = STRETCH_WORDS if use is None else STRETCH_SHORT
+    columns = ["stretch", "axis"]
+    for one in uses:
+        columns += [f"{one} (deg/s)", f"{one} / noise", f"{one} / spread"] if use is None else list(UNITS)
+    rows = []
+    for stretch in STRETCHES:
+        for axis in AXES:
+            row = [names[stretch], axis]
+            for one in uses:
+                row += [
+                    number(DEGREES * c.rms(model, stretch, axis, one), 3),
+                    number(mean_of(c, model, one, stretch, axis, "in_noise"), 1),
+                    number(mean_of(c, model, one, stretch, axis, "in_spread"), 1),
+                ]
+            rows.append(row)
+    note = (
+        "Quadratic means over the runs, after the release tilt was moved within its uncertainty to meet the first main "
+        "impact. / noise: 1 is a perfect model. / spread: standard deviations between repeats, which differ by 1.4."
+    )
+    of_use = "" if use is None else f", {use} runs"
+    # Below the last table of the model, once.
+    last = use is None or use == "holdout" or not c.of("holdout")
+    return Table(f"Error of {c.names[model]}{of_use}", columns, rows, note if last else "")
+
+
+def mean_of(c: Comparison, model: int, use: str | None, stretch: str, axis: str, name: str) -> float | None:
+    """Return the quadratic mean over runs of one attribute of the errors, or None."""
+    errors = [c.results[model][k].error(stretch, axis) for k in c.of(use)]
+    values = [v for e in errors if e is not None and (v := getattr(e, name)) is not None]
+    return float(np.sqrt(np.mean(np.square(values)))) if values else None
+
+
+def departures_table(c: Comparison, model: int) -> Table:
+    """Run by run: instants, and where the model leaves the band."""
+    rows = []
+    fell = any(r.overturned for r in c.results[model])
+    for k, r in enumerate(c.results[model]):
+        d = r.leaves_band
+        rows.append(
+            [
+                run_name(c, k),
+                number(1e3 * r.tilt_offset, 2, plus=True),
+                number(1e3 * r.impacts[0].error if r.impacts else None, 1, plus=True),
+                number(1e3 * r.impacts[1].aligned_error if len(r.impacts) > 1 else None, 1, plus=True),
+                "never" if d is None else number(d.time, 3),
+                "" if d is None else d.axis,
+                "" if d is None else ", ".join(name for name, _ in d.points),
+                *([("yes" if r.overturned else "no")] if fell else []),
+            ]
+        )
+    columns = [
+        "run",
+        "tilt moved by (mrad)",
+        "1st impact (ms)",
+        "1st to 2nd (ms)",
+        "leaves the band (s)",
+        "axis",
+        "points touching",
+        *(["fell over"] if fell else []),
+    ]
+    note = (
+        "1st impact: model minus measured at the stated tilt. 1st to 2nd: the same after the tilt was moved. "
+        "Band: three times what noise and another run would differ by, over 50 ms."
+    )
+    return Table(f"Run by run: {c.names[model]}", columns, rows, note)
+
+
+def impacts_table(c: Comparison, model: int, k: int) -> Table:
+    """Return the main impacts of one run: times and losses."""
+    r: RunComparison = c.results[model][k]
+    rows = [
+        [
+            str(p.number),
+            number(p.measured, 4),
+            number(p.model, 4),
+            number(1e3 * p.aligned_error, 1, plus=True),
+            number(1e3 * p.loss_measured, 1),
+            number(1e3 * p.loss_model, 1),
+        ]
+        for p in r.impacts
+    ]
+    columns = (
+        "main impact",
+        "measured (s)",
+        "model (s)",
+        "aligned error (ms)",
+        "measured loss (mJ)",
+        "model loss (mJ)",
+    )
+    return Table(f"Main impacts of run {run_name(c, k)}: {c.names[model]}", columns, rows)
+
+
+def energy_table(c: Comparison) -> Table:
+    """Return shares of energy lost, measured and modelled, means over runs."""
+    rows = []
+    parts = (("cycle", "per cycle"), ("impact", "per main impact"), ("free", "in a free arc"))
+    for part, words in parts:
+        row = [words]
+        measured = [getattr(r.losses_measured, part) for r in c.results[0]]
+        row += _mean_and_scatter(measured)
+        for results in c.results:
+            row += _mean_and_scatter([getattr(r.losses_model, part) for r in results])
+        rows.append(row)
+    columns = ["share of the energy lost (%)", "measured", "scatter"]
+    for name in c.names:
+        columns += [name, "scatter"]
+    note = (
+        "Means over the runs and standard deviations between them. Per impact and in a free arc the ledger itself is "
+        f"sure to {100 * LEDGER_SHARE['impact']:.1f} points: what it gives too much to one is missing in the other."
+    )
+    return Table("Energy lost", columns, rows, note)
+
+
+def _mean_and_scatter(values: list[float]) -> list[str]:
+    known = 100.0 * np.array([v for v in values if math.isfinite(v)])
+    if not len(known):
+        return ["\u2013", "\u2013"]
+    return [number(float(known.mean()), 2), number(float(known.std(ddof=1)), 2) if len(known) > 1 else "\u2013"]

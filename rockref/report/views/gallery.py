@@ -1,0 +1,247 @@
+"""The effects, one after another: what each says of itself, and a picture of the crv with and without it.
+
+The command `rockref effects`, and the page of the documentation, are made from here.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import sys
+import textwrap
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rockref import api
+from rockref.effects.base import HOOKS, POSITIVE, Effect, Quantity
+from rockref.effects.catalogue import OF_TOSSES, QUESTIONS, measured
+from rockref.model.channel import DEGREES
+from rockref.model.storage import write_bytes, write_text
+from rockref.report.charts import style
+from rockref.report.charts.figures import new_figure, rendered
+
+#: What each question asks, as a heading.
+TITLES = {
+    "contact": "How does the plate push back?",
+    "friction": "How does the plate hold the feet?",
+    "shape": "What is the block?",
+    "loads": "What else pulls and pushes?",
+    "support": "What does the plate stand on?",
+    "release": "How does the block start?",
+    "sensor": "What does the gyroscope make of it?",
+}
+#: Where effects act that change no term of the step.
+WHERE_POSES_ARE_READ = "measured poses, where they become poses of the body over the plate"
+#: The heading of what only tosses know.
+TOSSES = "What else shows in measured tosses?"
+#: The effect that makes eight points of four: it is shown on, and needs, the four-point model.
+ON_FOUR_POINTS = "foot_defects"
+#: Small pictures in a row of the page's overview.
+ABREAST = 4
+#: Characters in a line of a picture's title; decided: what fits above it in letters of eight points.
+TITLE = 110
+#: Pictures last until a little after the second main impact [s], while one can still follow both curves.
+DURATION = 1.5
+
+
+def acts_at(kind: type[Effect]) -> list[str]:
+    """Return names of the hooks that the effect overrides, in the order of the step."""
+    return [name for name in HOOKS if getattr(kind, name) is not getattr(Effect, name)]
+
+
+def card(kind: type[Effect]) -> dict[str, Any]:
+    """Return what an effect says of itself, in plain text and numbers."""
+    parameters = {
+        name: {
+            "meaning": q.meaning,
+            "unit": q.unit,
+            "absent": number(q.absent),
+            "typical": number(q.typical),
+            "plausible": [number(q.low), number(q.high)],
+            "sign": q.sign,
+            "sign_in_words": sign_in_words(kind, name),
+            "allowed": allowed(q),
+        }
+        for name, q in kind.quantities.items()
+    }
+    return {
+        "id": kind.id,
+        "question": kind.question,
+        "sentence": kind.sentence,
+        "form": inspect.cleandoc(kind.__doc__ or ""),
+        "equation": kind.equation,
+        "source": kind.source,
+        "parameters": parameters,
+        "acts_at": acts_at(kind),
+        "confounder": kind.confounder,
+        "experiment": kind.experiment,
+        "example": words(kind.typical()),
+        "command": command(kind.typical()),
+    }
+
+
+def sign_in_words(kind: type[Effect], name: str) -> str:
+    """Return on which side of its absent value a parameter is physical."""
+    q = kind.quantities[name]
+    finite = q.absent is not None and math.isfinite(q.absent)
+    if q.sign == "+":
+        brings_in = kind.switches is None or name in kind.switches
+        return f"physical only above {q.absent:g}" if brings_in and finite else "positive"
+    if finite and q.least == q.absent:
+        return f"{q.absent:g} or more"
+    if finite and q.most == q.absent:
+        return f"{q.absent:g} or less"
+    if q.least >= 0:
+        return f"on either side of {q.absent:g}" if finite else "of any size"
+    return "of either sign"
+
+
+def allowed(q: Quantity) -> str:
+    """Return what is not refused, in words: the hard limits."""
+    least = "above 0" if q.least == POSITIVE else f"at least {q.least:g}" if math.isfinite(q.least) else ""
+    most = f"at most {q.most:g}" if math.isfinite(q.most) else ""
+    return ", ".join(part for part in (least, most) if part) or "all finite numbers"
+
+
+def command(effect: Effect) -> str:
+    """Return what to type to use the effect: of what only tosses know a fit, else a simulation, with the model it
+    needs."""
+    if effect.id in OF_TOSSES:
+        return f"rockref fit FOLDER_OF_TOSSES --effect {effect.id}"
+    model = "four_points " if effect.id == ON_FOUR_POINTS else ""
+    return f"rockref simulate {model}--effect {words(effect)}"
+
+
+def number(value: float | None) -> float | str | None:
+    """Return a number as JSON can hold it."""
+    return "inf" if value is not None and math.isinf(value) else value
+
+
+def words(effect: Effect) -> str:
+    """Return the effect as it is written on the command line; what stands at its absent value needs no word."""
+    shown = {name: value for name, value in effect.values().items() if value != effect.quantities[name].absent}
+    values = ",".join(f"{name}={value:g}" for name, value in shown.items())
+    return f"{effect.file or effect.id}:{values}" if values else effect.file or effect.id
+
+
+def curves(
+    effect: Effect, duration: float = DURATION, progress: Callable[[float], None] | None = None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return times (N,) [s], and crv (N, 3) [deg/s] without and with the effect, for the block of Table 3.1.
+
+    `foot_defects` is shown against the four-point model, to which it belongs. A clock that is slow shows more of the
+    motion in the same time: it is simulated for that much longer.
+    """
+    base = api.Model.four_points() if effect.id == ON_FOUR_POINTS else api.Model.table_3_1()
+    without = api.simulate(base, duration=duration, engine="auto")
+    longer = duration * max(1.0, float(effect.values()["rate"])) if effect.id == "clock_error" else duration
+    with_it = api.simulate(base.replace(effects=(effect,)), duration=longer, engine="auto", progress=progress)
+    shown = measured([effect], with_it.t, with_it.W)[: len(without.t)]
+    return without.t, without.W * DEGREES, shown * DEGREES
+
+
+def picture(effect: Effect, duration: float = DURATION, progress: Callable[[float], None] | None = None) -> Any:
+    """Return a figure: the three rates, without the effect in grey and with it in colour; beside them what it
+    changes."""
+    t, without, with_it = curves(effect, duration, progress)
+    figure = new_figure(9.6, 5.6)
+    axes = figure.subplots(3, 2, sharex=True, width_ratios=(5, 3))
+    law = "without (four points)" if effect.id == ON_FOUR_POINTS else "without"
+    for row, name, a, b in zip(axes, style.AXIS_NAMES, without.T, with_it.T, strict=True):
+        row[0].plot(t, a, color=style.GREY, linewidth=0.9, label=law)
+        row[0].plot(t, b, color=style.colour(0), linewidth=0.9, label="with")
+        row[1].plot(t, b - a, color=style.colour(1), linewidth=0.9)
+        row[0].set_ylabel(f"{name}\n(deg/s)", fontsize=9)
+        for ax in row:
+            ax.margins(y=0.08)
+            ax.axhline(0.0, color=style.BAND, linewidth=0.6, zorder=0)
+            ax.set_xlim(0.0, float(t[-1]))
+    for ax in axes[-1]:
+        ax.set_xlabel("time (s)")
+    axes[0, 0].legend(loc="upper right", ncols=2, frameon=False, fontsize=8)
+    axes[0, 1].set_title("with minus without", fontsize=8)
+    title = textwrap.wrap(words(effect).replace(",", ", "), TITLE, break_on_hyphens=False)
+    figure.suptitle("\n".join(title), fontsize=8, x=0.02, ha="left")
+    return figure
+
+
+def write_picture(
+    effect: Effect, path: Path, duration: float = DURATION, progress: Callable[[float], None] | None = None
+) -> None:
+    """Write the picture as .png or .svg, whole or not at all. Raises InputError (E-WRITE)."""
+    write_bytes(path, rendered(picture(effect, duration, progress), path.suffix.lstrip(".").lower()))
+
+
+def page() -> str:
+    """Return the page of the documentation, in Markdown."""
+    parts = [
+        "# Effects",
+        "What may be added to the law. `rockref effects NAME` prints the same; `rockref simulate --effect WORDS` and",
+        "a model file use it. Pictures show the block of Table 3.1, without the effect in grey and with it, at its",
+        "typical size, in colour; on the right is the difference, with minus without, on a scale of its own. For",
+        "`foot_defects`, which makes eight points of four, grey is the four-point model. They are drawn when the site",
+        "is built (`make docs`).",
+        "",
+        "*Absent* is the value at which a parameter changes nothing; *typical* the size at which an effect is shown,",
+        "and at which a search begins; *plausible* the range outside which a value is used with a remark; beyond its",
+        "hard limits it is refused. *Acts at* names the methods of [an effect's class](../howto/own_effect.md).",
+    ]
+    parts += ["", *thumbnails([kind.id for answers in QUESTIONS.values() for kind in answers[1:]])]
+    for question, answers in QUESTIONS.items():
+        parts += ["", f"## {TITLES[question]}", "", f"The law: {answers[0].sentence}", "", f"$${answers[0].equation}$$"]
+        for kind in answers[1:]:
+            parts += ["", *section(kind), "", f"![crv with and without {kind.id}](effects/{kind.id}.png)"]
+    parts += ["", f"## {TOSSES}", "", "A block that is released stands on its feet, and a gyroscope sees no pose."]
+    for kind in OF_TOSSES.values():
+        parts += ["", *section(kind)]
+    return "\n".join(parts) + "\n"
+
+
+def thumbnails(ids: Sequence[str]) -> list[str]:
+    """Return the lines of a table of pictures, each a link to its effect, `ABREAST` in a row."""
+    cells = [f"[![{id}](effects/{id}.png)](#{id}) {id}" for id in ids] + [""] * (-len(ids) % ABREAST)
+    rows = ["| " + " | ".join(cells[k : k + ABREAST]) + " |" for k in range(0, len(cells), ABREAST)]
+    return ["| " * ABREAST + "|", "| --- " * ABREAST + "|", *rows]
+
+
+def section(kind: type[Effect]) -> list[str]:
+    """Return one effect of the page, as lines."""
+    about = card(kind)
+    lines = [f"### {kind.id}", "", kind.sentence, "", f"$${kind.equation}$$", "", about["form"], ""]
+    lines += ["| parameter | meaning | unit | absent | typical | plausible | sign; hard limits |", "| --- " * 7 + "|"]
+    for name, p in about["parameters"].items():
+        low, high = p["plausible"]
+        sizes = [value_text(p["absent"]), value_text(p["typical"]), f"{low:g} to {high:g}"]
+        cells = [f"`{name}`", p["meaning"], p["unit"], *sizes]
+        lines.append("| " + " | ".join([*cells, f"{p['sign_in_words']}; {p['allowed']}"]) + " |")
+    hooks = ", ".join(f"`{hook}`" for hook in about["acts_at"]) or WHERE_POSES_ARE_READ
+    lines += ["", f"- Acts at: {hooks}."]
+    lines += [f"- Most like it: [{kind.confounder}](#{kind.confounder}). What tells them apart: {kind.experiment}"]
+    lines += [f"- Source: {kind.source}."]
+    return [*lines, "", f"`{about['command']}`"]
+
+
+def value_text(value: float | str | None) -> str:
+    """Return a value of a parameter as it is shown: six digits; None is the top of the block."""
+    return "the top" if value is None else value if isinstance(value, str) else f"{value:g}"
+
+
+def write_pictures(folder: Path) -> None:
+    """Write the picture of every effect as id.png, where it is missing or older than the code that it shows."""
+    folder.mkdir(parents=True, exist_ok=True)
+    package = Path(__file__).parents[2]
+    shown = [*package.glob("model/*.py"), *package.glob("effects/**/*.py"), Path(__file__)]
+    changed = max(path.stat().st_mtime for path in shown)
+    for answers in QUESTIONS.values():
+        for kind in answers[1:]:
+            path = folder / f"{kind.id}.png"
+            if not path.exists() or path.stat().st_mtime < changed:
+                write_picture(kind.typical(), path)
+
+
+if __name__ == "__main__":
+    # The page of the documentation: python -m rockref.report.views.gallery docs/reference/effects_gallery.md
+    write_text(sys.argv[1], page())

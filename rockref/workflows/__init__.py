@@ -1,0 +1,1 @@
+"""Commands that go through several results: the demonstration, and the reproductions."""
