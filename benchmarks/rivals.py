@@ -43,7 +43,8 @@ def said(effect: str | None, **more: Any) -> dict[str, Any]:
 
 def residual_correlation(case: Path) -> dict[str, Any]:
     """The effect whose trace, typical size on the nominal baseline, correlates best with the residual; no refit."""
-    from rockref.measure.experiment import FIT, load_experiment
+    from rockref.measure.experiment import load_experiment
+    from rockref.measure.release import FIT
 
     experiment = load_experiment(case, uses=(FIT,))
     runs = [run for run in experiment.fit_runs() if run.crv is not None]
@@ -72,8 +73,8 @@ def _traces(block: tuple, releases: tuple, gyro: Any) -> dict[str, dict[tuple, n
     """What each effect changes in the record, by release; "none": the record of the nominal baseline itself."""
     from rockref.api import Model
     from rockref.effects import catalogue
-    from rockref.measure.experiment import Run
     from rockref.measure.prediction import predict
+    from rockref.measure.release import Run
 
     mass, width, height, baseline = block
     make = Model.four_points if baseline == "four_points" else Model.table_3_1
@@ -104,7 +105,8 @@ def sparse_regression(case: Path) -> dict[str, Any]:
     113:3932-3937, doi:10.1073/pnas.1517384113; weak form: D. A. Messenger, D. M. Bortz (2021), J. Comput. Phys.
     443:110525, doi:10.1016/j.jcp.2021.110525.
     """
-    from rockref.measure.experiment import FIT, load_experiment
+    from rockref.measure.experiment import load_experiment
+    from rockref.measure.release import FIT
 
     experiment = load_experiment(case, uses=(FIT,))
     rows, targets = [], []

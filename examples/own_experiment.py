@@ -13,7 +13,7 @@ import numpy as np
 
 from rockref import Model, simulate
 from rockref.measure import load_experiment, record
-from rockref.measure.experiment import Gyro
+from rockref.measure.release import Gyro
 from rockref.measure.signal import growth_rate
 
 # The block, with scale and rule; the gyroscope's data sheet.

@@ -9,7 +9,7 @@ import typer
 from rockref.commands._results import in_json, keep, say_remarks, say_written, told, usable_files, with_files
 
 if TYPE_CHECKING:
-    from rockref.measure.tosses import Tosses
+    from rockref.measure.toss import Tosses
 
 
 def usable(report: Path | None) -> Path | None:

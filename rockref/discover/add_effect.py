@@ -41,8 +41,8 @@ from rockref.discover.listening.records import opened
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.verdict.calibration import calibration
 from rockref.effects import catalogue
-from rockref.measure.experiment import Experiment
 from rockref.measure.impacts import main_impacts
+from rockref.measure.release import Experiment
 from rockref.measure.repeatability import repeat_groups, repeatability
 from rockref.model.errors import InputError
 

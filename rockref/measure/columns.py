@@ -7,8 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rockref.measure.notice import Notice
-from rockref.measure.rawfile import shown
+from rockref.measure.notice import Notice, shown
 from rockref.model.errors import InputError
 
 DEGREE = math.pi / 180.0

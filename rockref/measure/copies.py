@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rockref.measure.noise import smallest_step
 from rockref.measure.notice import Notice
-
-if TYPE_CHECKING:
-    from rockref.measure.experiment import Run
+from rockref.measure.release import Run
 
 # decided: two runs share so many samples in a row by a copy only; noise makes each of them another number.
 LEAST_COMMON = 100

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rockref.measure.tosses import Toss
+from rockref.measure.toss import Toss
 from rockref.model.rotation import exponential, inverse, logarithm
 
 #: Fewest and most frames of a flight that are used. Decided: three are needed for a velocity with a residual; after

@@ -7,17 +7,14 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import analogue, digital
 from rockref.effects.sensor.gyro_bandwidth import DAMPING, natural_frequency
+from rockref.measure.release import Gyro
 from rockref.model.errors import InputError
-
-if TYPE_CHECKING:
-    from rockref.measure.experiment import Gyro
 
 # decided: at 2 kHz the signal between samples is a straight line to a thousandth over a contact of 1.5 ms.
 COARSEST_STEP = 5e-4

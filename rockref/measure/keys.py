@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from rockref.measure.columns import DEGREE
+from rockref.measure.release import FIT, HOLDOUT
 from rockref.measure.schema import Field, Number, Range, Section, Text, refuse_unknown
 from rockref.model.errors import InputError
 
-FIT, HOLDOUT = "fit", "holdout"
 USES = (FIT, HOLDOUT)
 KINDS = ("release", "toss")
 #: Kind of a folder of tests on a shake table, which `rockref.shake.experiment` reads.

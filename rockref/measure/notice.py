@@ -28,3 +28,8 @@ class Notice:
 
     def __str__(self) -> str:
         return f"{self.where}: {self.what}. {self.cure} [{self.code}]"
+
+
+def shown(text: str, width: int = 40) -> str:
+    """Return `text` as one short quoted piece for a message."""
+    return repr(text if len(text) <= width else text[: width - 3] + "...")

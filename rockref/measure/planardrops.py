@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from rockref.measure.contactnets import own_folder
-from rockref.measure.keys import FIT, HOLDOUT
+from rockref.measure.release import FIT, HOLDOUT
 from rockref.measure.tosses import LEAST_FRAMES, POSE, held_out
 from rockref.model.errors import InputError
 from rockref.model.storage import write_text

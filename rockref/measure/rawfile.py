@@ -25,11 +25,6 @@ class RawText:
     notices: tuple[Notice, ...]
 
 
-def shown(text: str, width: int = 40) -> str:
-    """Return `text` as one short quoted piece for a message."""
-    return repr(text if len(text) <= width else text[: width - 3] + "...")
-
-
 def read_text(
     path: Path,
     *,

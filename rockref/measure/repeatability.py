@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rockref.measure.impacts import checked_signal, main_impacts
 from rockref.measure.noise import noise_floor
+from rockref.measure.release import Run
 from rockref.measure.running import half_width, running_rms, sample_step
 from rockref.model.errors import InputError
-
-if TYPE_CHECKING:
-    from rockref.measure.experiment import Run
 
 # decided: a difference that stays above three noise widths for 50 ms is no noise and no single impact.
 HORIZON_SIGMAS, HORIZON_WINDOW = 3.0, 0.05

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rockref.measure.rawfile import read_text, shown
+from rockref.measure.notice import shown
+from rockref.measure.rawfile import read_text
 from rockref.model.errors import InputError
 
 # decided: a thousand runs of 150 characters are 150 kB.

@@ -9,8 +9,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,11 +17,9 @@ from rockref.measure.arcs import turned_angle
 from rockref.measure.columns import DEGREE, RATES
 from rockref.measure.impacts import Impacts, main_impacts
 from rockref.measure.notice import Notice
+from rockref.measure.release import Experiment, Run, SensorFault
 from rockref.measure.running import running_mean, sample_step
 from rockref.measure.signal import growth_rate, rocking_rate, rocking_time, side_of
-
-if TYPE_CHECKING:
-    from rockref.measure.experiment import Experiment, Run
 
 ZERO, LAG, HUM = "zero", "lag", "hum"
 # In simulated records of 40 blocks the rates about X, Y and Z add up, from impact to impact, to means of at most 0.004,
@@ -46,21 +42,6 @@ MAINS, OFF_MAINS, MAINS_STEP = (50.0, 60.0, 100.0, 120.0), 0.3, 0.1
 HUM_WINDOW, HUM_DEGREE = 0.12, 4
 # In simulated records without hum a line stands out by at most 4.0 of its errors. decided: 6.5, and half of the noise.
 HUM_SIGMAS, HUM_NOISE = 6.5, 0.5
-
-
-@dataclass(frozen=True)
-class SensorFault:
-    """One fault of the sensor in one run, or in all (then `run` is empty).
-
-    Attributes: ``kind`` (``zero``, ``lag``, ``hum``); ``run``; ``axis`` 0 to 2; ``size``: change of the zero in rad/s,
-    lag in s, amplitude of the hum in rad/s; ``place``: time of the change in s, or frequency of the hum in Hz, or 0.
-    """
-
-    kind: str
-    run: str
-    axis: int
-    size: float
-    place: float = 0.0
 
 
 def sensor_faults(experiment: Experiment, runs: Sequence[Run]) -> tuple[list[SensorFault], list[Notice]]:

@@ -5,18 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rockref.measure.columns import RATES
 from rockref.measure.noise import smallest_step
+from rockref.measure.release import Experiment, Gyro, Run
 from rockref.measure.running import sample_step
 from rockref.measure.table import Table
 from rockref.model.problem import GRAVITY
-
-if TYPE_CHECKING:
-    from rockref.measure.experiment import Experiment, Gyro, Run
 
 #: sqrt(R/g) of the block of Table 3.1 [s], on whose records the stretches of time of the checks were decided.
 REFERENCE_SCALE = math.sqrt(0.5 * math.hypot(0.100, 0.688) / GRAVITY)

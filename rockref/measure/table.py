@@ -12,8 +12,8 @@ import numpy as np
 
 from rockref.measure.columns import QUANTITIES, UNITS, Column, parse_header
 from rockref.measure.dialect import are_units, is_number, separator_line, split_line
-from rockref.measure.notice import Notice
-from rockref.measure.rawfile import MAX_PACKED_BYTES, MAX_TEXT_BYTES, read_text, shown
+from rockref.measure.notice import Notice, shown
+from rockref.measure.rawfile import MAX_PACKED_BYTES, MAX_TEXT_BYTES, read_text
 from rockref.model.errors import InputError
 
 # decided: a quarter of an hour at 2 kHz; 64 MiB of text could otherwise hold sixty million rows of nothing.

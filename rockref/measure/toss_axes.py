@@ -7,15 +7,12 @@ lies on it.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rockref.measure.toss import Toss
 from rockref.model.errors import InputError
 from rockref.model.problem import GRAVITY
-
-if TYPE_CHECKING:
-    from rockref.measure.tosses import Toss
 
 # decided: a parabola through fifty milliseconds and eight frames shows the fall to some per cent.
 LEAST_TIME, LEAST_FRAMES = 0.05, 8

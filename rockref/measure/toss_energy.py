@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rockref.measure.tosses import Toss
+from rockref.measure.toss import Toss
 
 #: Share of the energy that a toss loses altogether by which it must rise to count; decided: in free flight the energies
 #: of neighbouring frames of the public tosses rise by 2.0 % at most.

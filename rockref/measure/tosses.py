@@ -5,17 +5,19 @@ from __future__ import annotations
 import hashlib
 import io
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rockref.measure.columns import MAX_COLUMNS
-from rockref.measure.experiment import FIT, HOLDOUT, load_experiment
+from rockref.measure.experiment import load_experiment
 from rockref.measure.notice import Notice
 from rockref.measure.rawfile import read_text
+from rockref.measure.release import FIT, HOLDOUT
 from rockref.measure.schema import read_toml
+from rockref.measure.toss import Toss, Tosses
 from rockref.measure.toss_axes import check_axes
 from rockref.model.errors import InputError
 
@@ -50,50 +52,6 @@ MOST = 1e15
 LEAST_RATE, MOST_RATE = 1.0, 1e6
 #: Frames by which an interval between two may be off; decided: a lost frame makes it one, and no clock jitters by half.
 UNEVEN = 0.5
-
-
-@dataclass(frozen=True, eq=False)
-class Toss:
-    """One toss: `id`; `group` (the toss of which it is a copy, or itself); `use`, ``fit`` or ``holdout``.
-
-    t : (N,) time from the first frame [s];  x : (N, 3) tracked point [m], z up;  Lambda : (N, 3, 3) body to board.
-    v, W : (N, 3) stated velocity [m/s] and body rates [rad/s], or None.
-    """
-
-    id: str
-    group: str
-    use: str
-    t: np.ndarray = field(repr=False)
-    x: np.ndarray = field(repr=False)
-    Lambda: np.ndarray = field(repr=False)
-    v: np.ndarray | None = field(default=None, repr=False)
-    W: np.ndarray | None = field(default=None, repr=False)
-
-    @property
-    def frames(self) -> int:
-        """Return number of frames."""
-        return len(self.t)
-
-
-@dataclass(frozen=True, eq=False)
-class Tosses:
-    """All tosses of a folder: `path`, `name`, `rate` [Hz], stated `mass` [kg], `width`, `height` [m], `tosses` without
-    copies, `copies` (id of the copy, id of its original), `notices`, `sha256` of the table."""
-
-    path: Path
-    name: str
-    rate: float
-    mass: float
-    width: float
-    height: float
-    tosses: tuple[Toss, ...]
-    copies: tuple[tuple[str, str], ...] = ()
-    notices: tuple[Notice, ...] = field(default=(), repr=False)
-    sha256: str = ""
-
-    def used(self, use: str) -> tuple[Toss, ...]:
-        """Return the tosses marked ``fit`` or ``holdout``."""
-        return tuple(toss for toss in self.tosses if toss.use == use)
 
 
 def held_out(group: str) -> bool:

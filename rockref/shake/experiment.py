@@ -13,8 +13,8 @@ import numpy as np
 
 from rockref.measure.columns import DEGREE
 from rockref.measure.keys import SHAKEN
-from rockref.measure.notice import Notice
-from rockref.measure.rawfile import read_text, shown
+from rockref.measure.notice import Notice, shown
+from rockref.measure.rawfile import read_text
 from rockref.measure.schema import Field, Number, Section, Text, read_fields, read_toml
 from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError

@@ -22,8 +22,8 @@ from rockref.discover.progress import StageReport
 from rockref.discover.story import STEPS, Journey, run_story
 from rockref.measure import envelope_shape, envelopes, main_impacts
 from rockref.measure.activity import leakage, onset
-from rockref.measure.experiment import Experiment
 from rockref.measure.noise import noise_floor
+from rockref.measure.release import Experiment
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 from rockref.model.housner import housner

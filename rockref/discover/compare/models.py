@@ -27,11 +27,11 @@ from rockref.discover.compare.features import (
 )
 from rockref.discover.compare.stretches import StretchError, noise_of, stretch_errors
 from rockref.discover.progress import StageReport
-from rockref.measure.experiment import Experiment, Run
 from rockref.measure.impacts import main_impacts
 from rockref.measure.ledger import rocking_block
 from rockref.measure.noise import noise_floor
 from rockref.measure.prediction import STEP, Prediction, gyro_of, predict
+from rockref.measure.release import Experiment, Run
 from rockref.measure.repeatability import Repeatability, repeat_groups, repeatability
 from rockref.model.errors import InputError, NumericalError
 from rockref.model.problem import GRAVITY

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.measure.experiment import Gyro
 from rockref.measure.impacts import Impacts
+from rockref.measure.release import Gyro
 from rockref.measure.repeatability import Repeatability
 
 AXES = ("main", "transverse", "longitudinal")

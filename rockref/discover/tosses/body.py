@@ -12,7 +12,8 @@ from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.tracking.plate_pose import PlatePose
 from rockref.effects.tracking.tag_frame import TagFrame
 from rockref.measure.flight import Poses
-from rockref.measure.tosses import CUBE_INERTIA, CUBE_MU, CUBE_RESTITUTION, Tosses
+from rockref.measure.toss import Tosses
+from rockref.measure.tosses import CUBE_INERTIA, CUBE_MU, CUBE_RESTITUTION
 from rockref.model.problem import ContactPoints
 from rockref.model.rotation import exponential
 

@@ -14,9 +14,9 @@ from rockref.discover.tosses.ledger import ledger
 from rockref.discover.tosses.predict import CLEARANCE, predict
 from rockref.discover.tosses.stretches import by_stretch, stretch_of
 from rockref.measure import toss_balance, toss_energy, toss_sliding
-from rockref.measure.experiment import USES
 from rockref.measure.flight import Poses, flight_frames, side_by_side
-from rockref.measure.tosses import Toss, Tosses
+from rockref.measure.keys import USES
+from rockref.measure.toss import Toss, Tosses
 from rockref.model.errors import InputError
 
 #: Errors of simulators on 550 of the public tosses, identified and reported on the same ones, from the raw first frame:

@@ -7,8 +7,7 @@ import re
 import numpy as np
 
 from rockref.measure.dialect import is_number, split_line
-from rockref.measure.notice import Notice
-from rockref.measure.rawfile import shown
+from rockref.measure.notice import Notice, shown
 from rockref.model.errors import InputError
 from rockref.shake.records.channel import Channel, acceleration_factor, positive_step
 

@@ -21,7 +21,7 @@ from rockref.measure.flight import (
     raw_starts,
     side_by_side,
 )
-from rockref.measure.tosses import Toss
+from rockref.measure.toss import Toss
 from rockref.model.rotation import exponential, logarithm
 
 G = np.array([0.0, 0.0, -9.81])

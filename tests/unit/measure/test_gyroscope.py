@@ -14,7 +14,6 @@ from rockref.effects.sensor.gyro_drift import GyroDrift
 from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
 from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from rockref.effects.sensor.gyro_scale import GyroScale
-from rockref.measure.experiment import Gyro
 from rockref.measure.gyroscope import (
     DAMPING,
     add_noise,
@@ -27,6 +26,7 @@ from rockref.measure.gyroscope import (
     sample_times,
     saturate,
 )
+from rockref.measure.release import Gyro
 from rockref.model.errors import InputError
 
 STEP = 1.0 / 20000.0

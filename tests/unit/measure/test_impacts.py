@@ -6,9 +6,10 @@ Then main impacts of saw-teeth that are given sample by sample, at 1 kHz.
 import numpy as np
 import pytest
 
-from rockref.measure.experiment import Gyro, load_experiment
+from rockref.measure.experiment import load_experiment
 from rockref.measure.gyroscope import record, saturate
 from rockref.measure.impacts import checked_signal, main_impacts, swings
+from rockref.measure.release import Gyro
 from rockref.measure.running import running_mean
 from rockref.model.errors import InputError
 

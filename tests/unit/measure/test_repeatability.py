@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rockref.measure.experiment import Run, load_experiment
+from rockref.measure.experiment import load_experiment
 from rockref.measure.impacts import main_impacts
 from rockref.measure.noise import noise_floor
+from rockref.measure.release import Run
 from rockref.measure.repeatability import _aligned, repeat_groups, repeatability
 from rockref.model.errors import InputError
 

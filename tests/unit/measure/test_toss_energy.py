@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from rockref.measure.toss import Toss
 from rockref.measure.toss_energy import rises, stated_energy
-from rockref.measure.tosses import Toss
 from rockref.model.rotation import exponential
 
 

@@ -14,7 +14,8 @@ from rockref.discover.tosses.fitting import at_values
 from rockref.discover.tosses.together import Stair
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.measure.flight import side_by_side
-from rockref.measure.tosses import CUBE_MASS, CUBE_WIDTH, Toss, Tosses
+from rockref.measure.toss import Toss, Tosses
+from rockref.measure.tosses import CUBE_MASS, CUBE_WIDTH
 from rockref.model.errors import InputError
 from tests.tosses import RATE, made, stated
 
