@@ -23,9 +23,9 @@ from rockref.discover.tosses.fit import cut, picked
 from rockref.discover.tosses.predict import Prediction, starts_of
 from rockref.effects.shape.inertia_deviation import InertiaDeviation
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
-from rockref.measure.flight import Poses, side_by_side
-from rockref.measure.toss import Tosses
-from rockref.measure.tosses import load_tosses
+from rockref.measure.records.toss import Tosses
+from rockref.measure.tosses.flight import Poses, side_by_side
+from rockref.measure.tosses.load import load_tosses
 from rockref.model.rotation import from_quaternion, quaternion
 
 #: Steps a frame; three times as many change the error of the default contact by less than a hundredth of it.

@@ -9,9 +9,9 @@ import argparse
 
 import numpy as np
 
-from rockref.measure.toss import Toss
-from rockref.measure.toss_balance import Impacts, corner_ratios, energy_change
-from rockref.measure.tosses import load_tosses
+from rockref.measure.records.toss import Toss
+from rockref.measure.tosses.impact_balance import Impacts, corner_ratios, energy_change
+from rockref.measure.tosses.load import load_tosses
 
 G = 9.81
 # decided: six frames before and four to eight after an impact show velocities to a per cent.

@@ -44,7 +44,7 @@ def said(effect: str | None, **more: Any) -> dict[str, Any]:
 def residual_correlation(case: Path) -> dict[str, Any]:
     """The effect whose trace, typical size on the nominal baseline, correlates best with the residual; no refit."""
     from rockref.measure.experiment import load_experiment
-    from rockref.measure.release import FIT
+    from rockref.measure.records.release import FIT
 
     experiment = load_experiment(case, uses=(FIT,))
     runs = [run for run in experiment.fit_runs() if run.crv is not None]
@@ -74,7 +74,7 @@ def _traces(block: tuple, releases: tuple, gyro: Any) -> dict[str, dict[tuple, n
     from rockref.api import Model
     from rockref.effects import catalogue
     from rockref.measure.prediction import predict
-    from rockref.measure.release import Run
+    from rockref.measure.records.release import Run
 
     mass, width, height, baseline = block
     make = Model.four_points if baseline == "four_points" else Model.table_3_1
@@ -106,7 +106,7 @@ def sparse_regression(case: Path) -> dict[str, Any]:
     443:110525, doi:10.1016/j.jcp.2021.110525.
     """
     from rockref.measure.experiment import load_experiment
-    from rockref.measure.release import FIT
+    from rockref.measure.records.release import FIT
 
     experiment = load_experiment(case, uses=(FIT,))
     rows, targets = [], []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from rockref.measure.checklist import CHECKS, OTHERS, Check
+from rockref.measure.checks.checklist import CHECKS, OTHERS, Check
 
 PAGE = Path(__file__).resolve().parent / "reference" / "checks.md"
 CODE = re.compile(r"[EW](?:-[A-Z]+)+")

@@ -13,8 +13,8 @@ import numpy as np
 
 from rockref import Model, simulate
 from rockref.measure import load_experiment, record
-from rockref.measure.release import Gyro
-from rockref.measure.signal import growth_rate
+from rockref.measure.records.release import Gyro
+from rockref.measure.signals.signal import growth_rate
 
 # The block, with scale and rule; the gyroscope's data sheet.
 MASS, WIDTH, HEIGHT = 30.1, 0.080, 0.600

@@ -11,7 +11,7 @@ from rockref.results import Result, printed
 if TYPE_CHECKING:
     from rockref.api import Model
     from rockref.discover.progress import StageReport
-    from rockref.measure.release import Experiment
+    from rockref.measure.records.release import Experiment
 
 Progress = Callable[["StageReport"], None] | None
 
@@ -207,7 +207,7 @@ def _of_model(
 
 
 def _experiment(given: Any) -> Experiment:
-    from rockref.measure.release import Experiment
+    from rockref.measure.records.release import Experiment
 
     if isinstance(given, Experiment):
         return given if all(run.loaded for run in given.runs) else load(given.path)
@@ -215,7 +215,7 @@ def _experiment(given: Any) -> Experiment:
 
 
 def _folder(given: Any) -> Path:
-    from rockref.measure.release import Experiment
+    from rockref.measure.records.release import Experiment
     from rockref.model.errors import InputError
 
     if isinstance(given, Experiment):

@@ -14,7 +14,7 @@ import numpy as np
 
 from rockref.api import Model, simulate
 from rockref.measure.gyroscope import record
-from rockref.measure.release import Gyro
+from rockref.measure.records.release import Gyro
 
 DEGREE = math.pi / 180.0
 #: Output rate of a simulation, Hz: a whole part of the steps, above twice the fastest gyroscope's.

@@ -8,9 +8,9 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.tosses.body import frames_of, nominal_model
 from rockref.discover.tosses.predict import STEPS_A_FRAME, simulated
-from rockref.measure.flight import Poses, Starts
-from rockref.measure.toss import Tosses
-from rockref.measure.tosses import CUBE_MASS, CUBE_WIDTH
+from rockref.measure.records.toss import Tosses
+from rockref.measure.tosses.flight import Poses, Starts
+from rockref.measure.tosses.load import CUBE_MASS, CUBE_WIDTH
 from rockref.model.rotation import exponential, quaternion
 
 RATE = 148.0

@@ -122,7 +122,7 @@ def say_implausible(effects: Iterable[Effect], where: str) -> None:
 
     for effect in effects:
         for name, what, plausible in implausible(effect):
-            from rockref.measure.notice import Notice
+            from rockref.measure.records.notice import Notice
 
             cure = f"Plausible is {plausible}; it is used as it is."
             notice = Notice("W-RANGE", f"{where}: {effect.id} {name}", f"{what}, which is not plausible", cure)
@@ -151,7 +151,7 @@ def say_idle(model: Model | None, where: str | None) -> None:
     if model is None or where is None:
         return
     from rockref.discover.hypotheses.law import moved_parameters
-    from rockref.measure.notice import Notice
+    from rockref.measure.records.notice import Notice
 
     with of_file(where):
         moved = moved_parameters(model)
@@ -166,7 +166,7 @@ def say_left_out(model: Model, where: str) -> None:
     """Print a remark on standard error where a search of the law alone leaves the effects of a model out."""
     if not model.effects:
         return
-    from rockref.measure.notice import Notice
+    from rockref.measure.records.notice import Notice
 
     what = f"has {', '.join(effect.id for effect in model.effects)}, and the law alone is searched"
     print(f"rockref: {Notice('W-MOOT', where, what, 'They are left out; rockref fit takes effects.')}", file=sys.stderr)
@@ -176,7 +176,7 @@ def say_other_points(stated: str, where: Path) -> None:
     """Print a remark on standard error where an experiment states other points than are searched."""
     if stated == "eight_points":
         return
-    from rockref.measure.notice import Notice
+    from rockref.measure.records.notice import Notice
 
     what = f"states {stated} as its baseline, and eight points are searched"
     cure = "rockref fit finds the parameters of the points that are stated."

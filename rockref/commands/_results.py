@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from rockref.api import Model
-    from rockref.measure.notice import Notice
+    from rockref.measure.records.notice import Notice
 
 
 def folder_name(text: str | Path) -> Path:
@@ -127,7 +127,7 @@ def say_written(paths: Iterable[Path]) -> None:
 
 def say_old_spelling(old: str, new: str) -> None:
     """Print a remark on a spelling that still works, on standard error."""
-    from rockref.measure.notice import Notice
+    from rockref.measure.records.notice import Notice
 
     say_remarks(
         [Notice("W-SPELLING", f"rockref {old}", "is an old spelling, which still works", f"Write rockref {new}.")]

@@ -9,7 +9,7 @@ import typer
 from rockref.commands._results import in_json, keep, say_remarks, say_written, told, usable_files, with_files
 
 if TYPE_CHECKING:
-    from rockref.measure.toss import Tosses
+    from rockref.measure.records.toss import Tosses
 
 
 def usable(report: Path | None) -> Path | None:
@@ -21,7 +21,7 @@ def usable(report: Path | None) -> Path | None:
 
 def read(path: Path) -> "Tosses":
     """Return the tosses of a folder; what the reader remarked on is said."""
-    from rockref.measure.tosses import load_tosses
+    from rockref.measure.tosses.load import load_tosses
 
     tosses = load_tosses(path)
     say_remarks(tosses.notices)

@@ -49,7 +49,7 @@ def add(
     An effect is added to a model of tosses too, with --model, -o, -v and --json; the page is that of `rockref compare`.
     """
     from rockref.commands._results import say_old_spelling
-    from rockref.measure.tosses import is_toss_folder
+    from rockref.measure.tosses.load import is_toss_folder
 
     if not experiment.exists() and Path(effect).is_dir():
         experiment, effect = Path(effect), str(experiment)

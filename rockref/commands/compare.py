@@ -58,7 +58,7 @@ def compare(
       rockref compare data/experiments/mystery-01 --json > comparison.json
       rockref compare my_table --model table_3_1 --runs 20 --report report
     """
-    from rockref.measure.tosses import is_toss_folder
+    from rockref.measure.tosses.load import is_toss_folder
     from rockref.shake.experiment import is_shaken_folder
 
     if is_shaken_folder(experiment):

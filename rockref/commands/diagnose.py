@@ -55,7 +55,7 @@ def diagnose(
       rockref diagnose data/experiments/mystery-05 --effect examples/my_effect.py:EddyBrake
       rockref diagnose data/experiments/mystery-05 --json > verdict.json
     """
-    from rockref.measure.tosses import is_toss_folder
+    from rockref.measure.tosses.load import is_toss_folder
 
     if is_toss_folder(experiment):
         from rockref.commands._tosses import diagnose_tosses

@@ -50,7 +50,7 @@ def fit(
 
     A folder of tosses is fitted too, with --effect, --model, -o, -v and --json.
     """
-    from rockref.measure.tosses import is_toss_folder
+    from rockref.measure.tosses.load import is_toss_folder
 
     if is_toss_folder(experiment):
         from rockref.commands._tosses import fit_to_tosses

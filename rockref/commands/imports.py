@@ -39,8 +39,8 @@ def import_(
       git clone https://github.com/DAIRLab/ImpactModeling
       rockref import planardrops ImpactModeling -o drops
     """
-    from rockref.measure.contactnets import import_contactnets
-    from rockref.measure.planardrops import import_planardrops
+    from rockref.measure.importing.contactnets import import_contactnets
+    from rockref.measure.importing.planardrops import import_planardrops
     from rockref.model.errors import InputError
 
     if kind not in ("contactnets", "planardrops"):

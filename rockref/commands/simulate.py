@@ -139,7 +139,7 @@ def _old_spellings(given: str | None, model: str, out: Path | None, output: Path
 def say_sparse(rate: float) -> None:
     """Print a remark on standard error where main impacts and largest rates are taken from few rows a second."""
     from rockref.commands._results import say_remarks
-    from rockref.measure.notice import Notice
+    from rockref.measure.records.notice import Notice
 
     what = f"{rate:g} rows a second: main impacts and largest rates are taken from the rows, and may be off or missing"
     say_remarks([Notice("W-ROWS", "--rate", what, f"Ask for {LEAST_RATE:g} or more.")])

@@ -41,9 +41,9 @@ from rockref.discover.listening.records import opened
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.verdict.calibration import calibration
 from rockref.effects import catalogue
-from rockref.measure.impacts import main_impacts
-from rockref.measure.release import Experiment
-from rockref.measure.repeatability import repeat_groups, repeatability
+from rockref.measure.records.release import Experiment
+from rockref.measure.signals.impacts import main_impacts
+from rockref.measure.signals.repeatability import repeat_groups, repeatability
 from rockref.model.errors import InputError
 
 #: Stages of an addition, each with its share of the time (decided: as the stages of a diagnosis that do the same).

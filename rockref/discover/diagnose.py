@@ -32,7 +32,7 @@ from rockref.discover.verdict.rules import Verdict, alternatives, decide
 from rockref.discover.verdict.sentences import sentence
 from rockref.effects import catalogue
 from rockref.engines import compiled_ahead
-from rockref.measure.release import Experiment
+from rockref.measure.records.release import Experiment
 
 #: Hypotheses whose evidence is stored, and sets of effects that are asked of the held-out runs beside the baseline.
 STORED, ASKED = 8, 3

@@ -26,8 +26,8 @@ from rockref.discover.fit.fitter import FittedModel
 from rockref.discover.fit.problem import FitProblem
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.effects import catalogue
-from rockref.measure.notice import Notice
-from rockref.measure.release import Experiment
+from rockref.measure.records.notice import Notice
+from rockref.measure.records.release import Experiment
 from rockref.model.errors import InputError
 from rockref.model.storage import read_bytes, write_text
 

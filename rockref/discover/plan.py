@@ -33,7 +33,7 @@ from rockref.effects.natural import natural_units
 from rockref.effects.prior import to_scale
 from rockref.measure.experiment import TILT_UNCERTAINTY
 from rockref.measure.gyroscope import record
-from rockref.measure.release import Experiment, Gyro, Run
+from rockref.measure.records.release import Experiment, Gyro, Run
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 

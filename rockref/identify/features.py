@@ -1,7 +1,7 @@
 """What the cost looks at: the main impacts, and between the first two the envelopes and spectra of two crv.
 
 The same as `rockref.measure` gives, with a spectrum made for ten thousand runs: at the frequencies of
-`rockref.measure.spectra` a zero-padded fast transform has its lines, and costs a hundredth of the sums.
+`rockref.measure.signals.spectra` a zero-padded fast transform has its lines, and costs a hundredth of the sums.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.measure.envelopes import envelopes
-from rockref.measure.impacts import main_impacts
-from rockref.measure.running import sample_step
-from rockref.measure.spectra import FREQUENCIES, amplitude_spectrum
+from rockref.measure.signals.envelopes import envelopes
+from rockref.measure.signals.impacts import main_impacts
+from rockref.measure.signals.running import sample_step
+from rockref.measure.signals.spectra import FREQUENCIES, amplitude_spectrum
 
 #: Distance of the lines of the padded transform [Hz]: every second one is a line of `FREQUENCIES`.
 LINE = 0.625

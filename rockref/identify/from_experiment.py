@@ -18,7 +18,7 @@ from rockref.identify.search import Progress, Settings
 from rockref.identify.target import Target, chosen_runs, targets_of
 from rockref.jobs.campaign import Campaign
 from rockref.measure.experiment import load_experiment
-from rockref.measure.notice import Notice
+from rockref.measure.records.notice import Notice
 from rockref.model.errors import InputError
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.identify.features import Features, features
 from rockref.measure.gyroscope import record
-from rockref.measure.release import Experiment, Gyro, Run
+from rockref.measure.records.release import Experiment, Gyro, Run
 from rockref.model.errors import InputError
 
 #: The gyroscope of a twin experiment, where none is stated: that of the practice experiments.

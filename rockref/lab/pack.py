@@ -15,9 +15,9 @@ from rockref.lab import golden, layout
 from rockref.lab.wasm import binary
 from rockref.measure import main_impacts
 from rockref.measure.experiment import TILT_UNCERTAINTY
-from rockref.measure.noise import noise_floor
-from rockref.measure.release import Experiment, Run
-from rockref.measure.repeatability import Repeatability, repeat_groups, repeatability
+from rockref.measure.records.release import Experiment, Run
+from rockref.measure.signals.noise import noise_floor
+from rockref.measure.signals.repeatability import Repeatability, repeat_groups, repeatability
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 from rockref.model.geometry import EXTERNAL, INTERNAL

@@ -10,7 +10,7 @@ from typing import Any
 
 from rockref.api import Model
 from rockref.lab.pack import pack
-from rockref.measure.release import Experiment
+from rockref.measure.records.release import Experiment
 from rockref.model.errors import InputError
 from rockref.model.storage import write_bytes
 

@@ -12,18 +12,28 @@ from typing import Any
 
 import numpy as np
 
-from rockref.measure.checklist import checked
-from rockref.measure.columns import DEGREE, POSE, RATES
-from rockref.measure.copies import note_copies
-from rockref.measure.datasheet import completed
-from rockref.measure.keys import BLOCK, GYRO, PRIOR, RELEASE, SHAKEN, USES, check_complete, run_fields, top_fields
-from rockref.measure.notice import Notice, shown
-from rockref.measure.release import FIT, HOLDOUT, Experiment, Gyro, Run
-from rockref.measure.schema import read_fields, read_toml
-from rockref.measure.sensor import sensor_faults
-from rockref.measure.signal import Signal
-from rockref.measure.table import read_table
-from rockref.measure.timebase import check_forward, regular_samples
+from rockref.measure.checks.checklist import checked
+from rockref.measure.checks.copies import note_copies
+from rockref.measure.checks.datasheet import completed
+from rockref.measure.checks.sensor import sensor_faults
+from rockref.measure.reading.columns import DEGREE, POSE, RATES
+from rockref.measure.reading.keys import (
+    BLOCK,
+    GYRO,
+    PRIOR,
+    RELEASE,
+    SHAKEN,
+    USES,
+    check_complete,
+    run_fields,
+    top_fields,
+)
+from rockref.measure.reading.schema import read_fields, read_toml
+from rockref.measure.reading.table import read_table
+from rockref.measure.reading.timebase import check_forward, regular_samples
+from rockref.measure.records.notice import Notice, shown
+from rockref.measure.records.release import FIT, HOLDOUT, Experiment, Gyro, Run
+from rockref.measure.signals.signal import Signal
 from rockref.model.errors import InputError
 
 # kg/m3: osmium, the densest element, has 22590 (CRC Handbook of Chemistry and Physics).

@@ -13,7 +13,7 @@ import numpy as np
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import analogue, digital
 from rockref.effects.sensor.gyro_bandwidth import DAMPING, natural_frequency
-from rockref.measure.release import Gyro
+from rockref.measure.records.release import Gyro
 from rockref.model.errors import InputError
 
 # decided: at 2 kHz the signal between samples is a straight line to a thousandth over a contact of 1.5 ms.

@@ -12,7 +12,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.engines import chosen, run
 from rockref.measure.gyroscope import expected, limited, sample
-from rockref.measure.release import Experiment, Gyro, Run
+from rockref.measure.records.release import Experiment, Gyro, Run
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem, stack
 from rockref.model.response import Response

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from rockref.measure.columns import DEGREE
-from rockref.measure.keys import SHAKEN
-from rockref.measure.notice import Notice, shown
-from rockref.measure.rawfile import read_text
-from rockref.measure.schema import Field, Number, Section, Text, read_fields, read_toml
+from rockref.measure.reading.columns import DEGREE
+from rockref.measure.reading.keys import SHAKEN
+from rockref.measure.reading.rawfile import read_text
+from rockref.measure.reading.schema import Field, Number, Section, Text, read_fields, read_toml
+from rockref.measure.records.notice import Notice, shown
 from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
 from rockref.model.problem import GRAVITY

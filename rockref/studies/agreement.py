@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rockref.measure.running import half_width, running_rms
+from rockref.measure.signals.running import half_width, running_rms
 
 #: Two responses agree while their difference, as a quadratic mean over `WINDOW` [s], is below this share of the
 #: quadratic mean of the motion about the same axis. Decided: a tenth is what one sees in a figure of a page's width.

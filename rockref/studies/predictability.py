@@ -8,7 +8,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.identify.candidates import OUTPUT_RATE, STEP, rates
-from rockref.measure.impacts import main_impacts
+from rockref.measure.signals.impacts import main_impacts
 from rockref.model.errors import InputError
 from rockref.model.rotation import exponential, product
 

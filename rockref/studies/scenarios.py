@@ -20,7 +20,7 @@ from rockref.identify.models import model_of
 from rockref.identify.search import Settings, search
 from rockref.identify.target import Target
 from rockref.jobs.campaign import Campaign, campaign
-from rockref.measure.phases import phases
+from rockref.measure.signals.phases import phases
 
 #: What is tried: nothing, each alone, and combinations.
 SCENARIOS: tuple[tuple[str, ...], ...] = (

@@ -14,7 +14,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.identify.candidates import OUTPUT_RATE, STEP, rates
-from rockref.measure.impacts import main_impacts
+from rockref.measure.signals.impacts import main_impacts
 from rockref.model.errors import InputError
 from rockref.model.parameters import GENES_12, TABLE_3_1, chromosome_12, from_chromosome_12
 from rockref.model.simulate import check

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.measure import features
-from rockref.measure.envelopes import envelope_shape, envelopes
-from rockref.measure.phases import phases
+from rockref.measure.signals import features
+from rockref.measure.signals.envelopes import envelope_shape, envelopes
+from rockref.measure.signals.phases import phases
 from rockref.model.channel import DEGREES
 from rockref.model.housner import housner
 from rockref.model.response import Response

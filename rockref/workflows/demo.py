@@ -21,9 +21,9 @@ from rockref.discover.diagnosis_record import plain
 from rockref.discover.progress import StageReport
 from rockref.discover.story import STEPS, Journey, run_story
 from rockref.measure import envelope_shape, envelopes, main_impacts
-from rockref.measure.activity import leakage, onset
-from rockref.measure.noise import noise_floor
-from rockref.measure.release import Experiment
+from rockref.measure.records.release import Experiment
+from rockref.measure.signals.activity import leakage, onset
+from rockref.measure.signals.noise import noise_floor
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 from rockref.model.housner import housner

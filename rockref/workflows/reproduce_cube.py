@@ -11,8 +11,8 @@ from rockref.discover.diagnosis_record import plain
 from rockref.discover.tosses.compare import compare
 from rockref.discover.tosses.diagnose import diagnose
 from rockref.jobs.folder_lock import alone_in
-from rockref.measure.toss import Tosses
-from rockref.measure.tosses import load_tosses
+from rockref.measure.records.toss import Tosses
+from rockref.measure.tosses.load import load_tosses
 from rockref.model.storage import write_bytes, write_text
 from rockref.report.html.page import Page
 from rockref.report.output import made_folder, usable_folder

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from rockref import Model, cli
+from tests.unit.measure.checks.test_release import BAD as SIGNALS
 from tests.unit.measure.conftest import HEAD, RUN, signal_500hz, table_text
-from tests.unit.measure.test_checks import BAD as SIGNALS
+from tests.unit.measure.reading.test_table import BAD as TABLES
 from tests.unit.measure.test_experiment import TOML
-from tests.unit.measure.test_table import BAD as TABLES
 
 GOOD = HEAD + RUN.format(id="01", file="run01.csv", use="fit", turned=0)
 GOOD += RUN.format(id="02", file="run02.csv", use="holdout", turned=180)

@@ -11,8 +11,8 @@ from rockref.discover.tosses.diagnose import diagnose
 from rockref.discover.tosses.errors import errors
 from rockref.discover.tosses.fitting import add_to_tosses
 from rockref.discover.tosses.predict import predict
-from rockref.measure.flight import side_by_side
-from rockref.measure.tosses import load_tosses
+from rockref.measure.tosses.flight import side_by_side
+from rockref.measure.tosses.load import load_tosses
 from rockref.workflows.reproduce_cube import VARIABLE
 
 FOLDER = os.environ.get(VARIABLE)
@@ -62,7 +62,7 @@ def test_a_flat_face_rubs_more_than_a_corner_and_less_when_slow(seen):
 
 
 def test_a_tip_rebounds_by_half_as_much_as_the_corner_of_a_face(seen):
-    """A plain damper has it the other way round, see `tests/unit/measure/test_toss_balance.py`."""
+    """A plain damper has it the other way round, see `tests/unit/measure/tosses/test_impact_balance.py`."""
     corner = seen["measured_centre"]["corner"]["values"]
     face, tip = (corner[f"restitution_on_a_{place}"] for place in ("face", "tip"))
     assert tip["value"] < 0.6 * face["value"]

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import rockref
-from rockref.measure import features
-from rockref.measure.envelopes import envelope_shape, envelopes
-from rockref.measure.phases import phases
+from rockref.measure.signals import features
+from rockref.measure.signals.envelopes import envelope_shape, envelopes
+from rockref.measure.signals.phases import phases
 from rockref.model.housner import first_impact, frequency_parameter, housner
 
 MODEL = rockref.Model.table_3_1()

@@ -36,9 +36,9 @@ from rockref.conformance.vectors import Vector
 from rockref.conformance.verdict import as_json, verdict
 from rockref.effects import catalogue
 from rockref.measure.experiment import load_experiment
-from rockref.measure.table import read_table
-from rockref.measure.tensorfile import read_tensor
-from rockref.measure.tosses import is_toss_folder, load_tosses
+from rockref.measure.reading.table import read_table
+from rockref.measure.reading.tensorfile import read_tensor
+from rockref.measure.tosses.load import is_toss_folder, load_tosses
 from rockref.model.errors import InputError, NumericalError
 from tests.fuzz.watch import watched
 

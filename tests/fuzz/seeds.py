@@ -20,7 +20,7 @@ from rockref.conformance.law_backend import NumpyEngine
 from rockref.effects.catalogue import EFFECTS
 from rockref.model.rotation import exponential, quaternion
 from tests.fuzz.readers import RUN, questions
-from tests.unit.measure.test_contactnets import archive, older
+from tests.unit.measure.importing.test_contactnets import archive, older
 
 ROOT = Path(__file__).resolve().parents[2]
 SHIPPED = ROOT / "data" / "experiments"

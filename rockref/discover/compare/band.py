@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.discover.compare.stretches import AXES
-from rockref.measure.repeatability import HORIZON_SIGMAS, HORIZON_WINDOW, Repeatability
-from rockref.measure.running import half_width, running_rms
+from rockref.measure.signals.repeatability import HORIZON_SIGMAS, HORIZON_WINDOW, Repeatability
+from rockref.measure.signals.running import half_width, running_rms
 from rockref.model.response import Response
 
 # decided: two contacts of 1.5 ms and the 2 ms of the gyroscope's filter; short enough to tell one impact from the next.

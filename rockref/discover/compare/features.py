@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.measure.activity import ONSET_SIGMAS, Leakage, leakage, onset
-from rockref.measure.arcs import Arcs, arcs
-from rockref.measure.envelopes import Envelope, EnvelopeShape, envelope_shape, envelopes
-from rockref.measure.impacts import Impacts, main_impacts
-from rockref.measure.ledger import Ledger, RockingBlock, energy_ledger
-from rockref.measure.noise import NoiseFloor
-from rockref.measure.spectra import Spectrum, amplitude_spectrum
+from rockref.measure.signals.activity import ONSET_SIGMAS, Leakage, leakage, onset
+from rockref.measure.signals.arcs import Arcs, arcs
+from rockref.measure.signals.envelopes import Envelope, EnvelopeShape, envelope_shape, envelopes
+from rockref.measure.signals.impacts import Impacts, main_impacts
+from rockref.measure.signals.ledger import Ledger, RockingBlock, energy_ledger
+from rockref.measure.signals.noise import NoiseFloor
+from rockref.measure.signals.spectra import Spectrum, amplitude_spectrum
 
 # decided: an impact that comes more than half a swing early or late belongs to another swing.
 SAME_SWING = 0.5

@@ -27,12 +27,12 @@ from rockref.discover.compare.features import (
 )
 from rockref.discover.compare.stretches import StretchError, noise_of, stretch_errors
 from rockref.discover.progress import StageReport
-from rockref.measure.impacts import main_impacts
-from rockref.measure.ledger import rocking_block
-from rockref.measure.noise import noise_floor
 from rockref.measure.prediction import STEP, Prediction, gyro_of, predict
-from rockref.measure.release import Experiment, Run
-from rockref.measure.repeatability import Repeatability, repeat_groups, repeatability
+from rockref.measure.records.release import Experiment, Run
+from rockref.measure.signals.impacts import main_impacts
+from rockref.measure.signals.ledger import rocking_block
+from rockref.measure.signals.noise import noise_floor
+from rockref.measure.signals.repeatability import Repeatability, repeat_groups, repeatability
 from rockref.model.errors import InputError, NumericalError
 from rockref.model.problem import GRAVITY
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.measure.impacts import Impacts
-from rockref.measure.release import Gyro
-from rockref.measure.repeatability import Repeatability
+from rockref.measure.records.release import Gyro
+from rockref.measure.signals.impacts import Impacts
+from rockref.measure.signals.repeatability import Repeatability
 
 AXES = ("main", "transverse", "longitudinal")
 STRETCHES = ("before", "between", "after")

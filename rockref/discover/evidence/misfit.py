@@ -11,7 +11,7 @@ from rockref.discover.evidence.parity import coherence, locked_to, parity, repea
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE, loss
 from rockref.discover.listening.listener import record_of
-from rockref.measure.impacts import main_impacts
+from rockref.measure.signals.impacts import main_impacts
 
 #: A misfit before the first main impact that is so many times that after it belongs to the release (decided).
 RELEASE = 1.5

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rockref.discover.listening.listener import Listener
-from rockref.measure.impacts import Impacts
+from rockref.measure.signals.impacts import Impacts
 
 #: Fewest samples on one side of upright, in one direction, that make a slope, and most (decided: its error falls as
 #: n^(-3/2); the first swing, on one side and inwards only, would outweigh all others if it were one piece).

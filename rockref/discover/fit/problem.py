@@ -18,7 +18,7 @@ from rockref.discover.listening.listener import Job, Listener, record_of
 from rockref.discover.progress import StageCounter
 from rockref.effects.natural import NaturalUnits, natural_units
 from rockref.measure.experiment import TILT_UNCERTAINTY
-from rockref.measure.release import Experiment, Run
+from rockref.measure.records.release import Experiment, Run
 from rockref.model.parameters import BLOCK, Parameters
 
 #: Seconds of each run that are used, for the source's block.

@@ -14,7 +14,7 @@ import numpy as np
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import S1, Stage
 from rockref.discover.listening.listener import record_of
-from rockref.measure.impacts import main_impacts
+from rockref.measure.signals.impacts import main_impacts
 
 #: Draws, and how many of the best go on at each horizon; decided on simulated blocks of other feet.
 DRAWS, SURVIVORS = 1024, (6, 3, 2)

@@ -18,8 +18,8 @@ from rockref.engines.compiled.batch import batch_of
 from rockref.engines.compiled.lanes import LANES
 from rockref.engines.listening import Listening, run_listening
 from rockref.measure.gyroscope import expected, limited, sample
-from rockref.measure.noise import noise_floor
-from rockref.measure.release import Experiment, Gyro, Run
+from rockref.measure.records.release import Experiment, Gyro, Run
+from rockref.measure.signals.noise import noise_floor
 from rockref.model.errors import InputError
 
 #: The time for which a memory states its steps [s].

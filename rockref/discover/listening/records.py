@@ -8,8 +8,8 @@ from pathlib import Path
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
 from rockref.measure.experiment import load_experiment
-from rockref.measure.impacts import main_impacts
-from rockref.measure.release import FIT, HOLDOUT, Experiment, Run
+from rockref.measure.records.release import FIT, HOLDOUT, Experiment, Run
+from rockref.measure.signals.impacts import main_impacts
 from rockref.model.errors import InputError
 
 #: Samples a second below which nothing is heard of an impact (decided: its clatter has a period of 20 ms and more).

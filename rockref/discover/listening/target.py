@@ -10,7 +10,7 @@ import numpy as np
 
 from rockref.discover.listening.attitude import attitudes
 from rockref.effects.base import Effect
-from rockref.measure.release import Gyro, Run
+from rockref.measure.records.release import Gyro, Run
 
 #: Least rate of the ticks [Hz]; decided: between ticks of 0.5 ms rates are straight to a thousandth over a contact of
 #: 1.5 ms (as `rockref.measure.gyroscope` has it).

@@ -11,9 +11,9 @@ from rockref.effects.base import Effect
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.tracking.plate_pose import PlatePose
 from rockref.effects.tracking.tag_frame import TagFrame
-from rockref.measure.flight import Poses
-from rockref.measure.toss import Tosses
-from rockref.measure.tosses import CUBE_INERTIA, CUBE_MU, CUBE_RESTITUTION
+from rockref.measure.records.toss import Tosses
+from rockref.measure.tosses.flight import Poses
+from rockref.measure.tosses.load import CUBE_INERTIA, CUBE_MU, CUBE_RESTITUTION
 from rockref.model.problem import ContactPoints
 from rockref.model.rotation import exponential
 

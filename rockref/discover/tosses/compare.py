@@ -13,10 +13,10 @@ from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.ledger import ledger
 from rockref.discover.tosses.predict import CLEARANCE, predict
 from rockref.discover.tosses.stretches import by_stretch, stretch_of
-from rockref.measure import toss_balance, toss_energy, toss_sliding
-from rockref.measure.flight import Poses, flight_frames, side_by_side
-from rockref.measure.keys import USES
-from rockref.measure.toss import Toss, Tosses
+from rockref.measure.reading.keys import USES
+from rockref.measure.records.toss import Toss, Tosses
+from rockref.measure.tosses import flat_sliding, impact_balance, stated_energy
+from rockref.measure.tosses.flight import Poses, flight_frames, side_by_side
 from rockref.model.errors import InputError
 
 #: Errors of simulators on 550 of the public tosses, identified and reported on the same ones, from the raw first frame:
@@ -107,7 +107,7 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
     x, Lambda = frames.to_body(found.x, np.nan_to_num(found.Lambda))
     both = {"measured": seen, "model": poses._replace(x=x, Lambda=Lambda)}
     g = float(model.body()[0].g)
-    sliding = {k: toss_sliding.sliding_friction(v, P, g).to_dict()["values"] for k, v in both.items()}
+    sliding = {k: flat_sliding.sliding_friction(v, P, g).to_dict()["values"] for k, v in both.items()}
     return Row(name, use, start, e, stretches, sliding)
 
 
@@ -123,11 +123,11 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
     x, Lambda = frames.to_body(poses.x, poses.Lambda)
     own = poses._replace(x=x, Lambda=Lambda)
     P = nominal_corners(model)
-    arcs = toss_balance.flight_arcs(own, flight_frames(own, P, CLEARANCE))
+    arcs = impact_balance.flight_arcs(own, flight_frames(own, P, CLEARANCE))
     found: dict[str, Any] = {"flight_arcs": arcs.to_dict()}
     if not arcs.values:
         return found
-    found["sliding"] = toss_sliding.sliding_friction(own, P, -arcs.values["g_z"][0]).to_dict()
+    found["sliding"] = flat_sliding.sliding_friction(own, P, -arcs.values["g_z"][0]).to_dict()
     centre = np.array([arcs.values[f"centre_{a}"][0] for a in "xyz"])
     g = np.array([arcs.values[f"g_{a}"][0] for a in "xyz"])
     mass = float(model.mass)
@@ -135,16 +135,16 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
     for name, c in (("stated_centre", 0 * centre), ("measured_centre", centre)):
         moved = own._replace(x=x + Lambda @ c)
         try:
-            k = toss_balance.first_impacts(moved, P - c, np.diag(stated), g, CLEARANCE / 2)
+            k = impact_balance.first_impacts(moved, P - c, np.diag(stated), g, CLEARANCE / 2)
         except InputError:
             continue
-        balance = toss_balance.impulse_balance(k)
-        change = toss_balance.energy_change(k, stated)
+        balance = impact_balance.impulse_balance(k)
+        change = impact_balance.energy_change(k, stated)
         found[name] = {
             "impulse_balance": balance.to_dict(),
             "inertia_kg_m2": {a: balance.values[f"inertia_{a}"][0] * mass for a in ("xx", "yy", "zz")},
-            "corner": toss_balance.corner_ratios(k).to_dict(),
-            "shape": toss_balance.corner_shape(k, toss_sliding.rest_height(own, P)).to_dict(),
+            "corner": impact_balance.corner_ratios(k).to_dict(),
+            "shape": impact_balance.corner_shape(k, flat_sliding.rest_height(own, P)).to_dict(),
             "energy_change": {
                 "median": float(np.median(change)), "largest": float(np.max(change)), "gains": int((change > 0).sum()),
                 "tosses": len(change),
@@ -153,7 +153,7 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
     if "measured_centre" in found:
         J = np.array(list(found["measured_centre"]["inertia_kg_m2"].values())) / mass
         first = flight_frames(own, P, CLEARANCE)
-        found["energy_of_stated_velocities"] = toss_energy.rises(chosen, first, centre, J, -g[2])
+        found["energy_of_stated_velocities"] = stated_energy.rises(chosen, first, centre, J, -g[2])
     return found
 
 

@@ -21,9 +21,9 @@ from rockref.discover.tosses.parameters import CANDIDATES, apply
 from rockref.discover.tosses.predict import predict
 from rockref.discover.tosses.together import STAGES, Stair, all_together, way_down
 from rockref.effects import catalogue
-from rockref.measure.flight import Poses, side_by_side
-from rockref.measure.release import FIT, HOLDOUT
-from rockref.measure.toss import Tosses
+from rockref.measure.records.release import FIT, HOLDOUT
+from rockref.measure.records.toss import Tosses
+from rockref.measure.tosses.flight import Poses, side_by_side
 from rockref.model.errors import InputError
 
 #: Most iterations of the law's own fit and of the last polish; an iteration that gains no more ends a fit.

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rockref.discover.tosses.predict import Prediction
-from rockref.measure.flight import Poses
+from rockref.measure.tosses.flight import Poses
 
 #: What a prediction that lost its numbers counts as: a width and a half turn.
 LOST = 1.5, 180.0

@@ -12,7 +12,7 @@ from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.tosses import descent
 from rockref.discover.tosses.parameters import apply, parameters
 from rockref.discover.tosses.predict import Prediction, predict
-from rockref.measure.flight import Poses
+from rockref.measure.tosses.flight import Poses
 from rockref.model.rotation import logarithm
 
 #: Steps a frame while fitting; the gate `step_small` tests what comes out.

@@ -19,9 +19,9 @@ from rockref.discover.tosses.gates import paired, step_small
 from rockref.discover.tosses.parameters import CANDIDATES
 from rockref.discover.tosses.predict import STARTS, predict
 from rockref.effects import catalogue
-from rockref.measure.flight import Poses, side_by_side
-from rockref.measure.release import FIT, HOLDOUT
-from rockref.measure.toss import Tosses
+from rockref.measure.records.release import FIT, HOLDOUT
+from rockref.measure.records.toss import Tosses
+from rockref.measure.tosses.flight import Poses, side_by_side
 from rockref.model.errors import InputError
 
 #: Most iterations of a fit; one that gains no more ends it.

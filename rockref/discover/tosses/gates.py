@@ -11,7 +11,7 @@ from rockref.discover.tosses import descent
 from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.fit import TossFit, drawn_starts
 from rockref.discover.tosses.predict import STEPS_A_FRAME, predict, simulated
-from rockref.measure.flight import Poses, displaced
+from rockref.measure.tosses.flight import Poses, displaced
 
 #: Resamples of the paired bootstrap, and the share of its interval, of all comparisons together.
 RESAMPLES, INTERVAL = 10000, 0.90

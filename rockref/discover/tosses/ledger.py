@@ -10,7 +10,7 @@ from rockref.api import Model
 from rockref.discover.tosses.body import in_the_step
 from rockref.discover.tosses.predict import Prediction, gravity_of
 from rockref.discover.tosses.stretches import STRETCHES
-from rockref.measure.flight import Poses
+from rockref.measure.tosses.flight import Poses
 from rockref.model.rotation import logarithm
 
 #: Share of what a toss loses altogether by which its energy must rise over a stretch to count as a gain; decided:

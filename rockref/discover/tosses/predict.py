@@ -10,7 +10,7 @@ from rockref.api import Model
 from rockref.discover.tosses.body import Frames, frames_of, in_the_step, throw_frame
 from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.engines import has_numba
-from rockref.measure.flight import MOST, Poses, Starts, ballistic_starts, displaced, flight_frames, raw_starts
+from rockref.measure.tosses.flight import MOST, Poses, Starts, ballistic_starts, displaced, flight_frames, raw_starts
 from rockref.model.problem import Problem, State, as_arrays
 from rockref.model.simulate import check, largest_step
 

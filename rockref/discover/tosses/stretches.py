@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from rockref.discover.tosses.errors import Errors
-from rockref.measure.flight import Poses
+from rockref.measure.tosses.flight import Poses
 
 #: The parts of a toss in their order.
 STRETCHES = ("flight", "first impact", "second and third impact", "further impacts", "sliding", "rest")

@@ -18,7 +18,7 @@ from rockref.discover.tosses import descent
 from rockref.discover.tosses.first_guess import guessed
 from rockref.discover.tosses.fit import HORIZONS, TossFit, cut
 from rockref.discover.verdict.detection import eliminated
-from rockref.measure.flight import Poses
+from rockref.measure.tosses.flight import Poses
 
 #: Frames over which the joint fit looks, one stage after the other, and most iterations of each: the first impact, the
 #: second, the third, all that moves. Decided by trial on the public fit tosses: the error of whole tosses alone has too

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
-from rockref.measure.datasheet import BANDWIDTH_SHARE
+from rockref.measure.checks.datasheet import BANDWIDTH_SHARE
 from rockref.measure.importing.axes import ALONE, Axes, find_axes, other_way_up
 from rockref.measure.importing.channels import find_channels
 from rockref.measure.importing.layout import read_log
 from rockref.measure.importing.motion import Motion, find_motion
 from rockref.measure.importing.recording import recording
 from rockref.measure.importing.units import RATE_UNITS, rate_unit
-from rockref.measure.noise import noise_floor, smallest_step
-from rockref.measure.notice import Notice
+from rockref.measure.records.notice import Notice
+from rockref.measure.signals.noise import noise_floor, smallest_step
 from rockref.model.errors import InputError
 
 # decided: tilts within one standing wire's uncertainty are meant to be the same one: 1 mm in 0.67 m.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from rockref.measure.importing.layout import Log
 from rockref.measure.importing.units import RATE_NAMES, TIME_NAMES
-from rockref.measure.notice import shown
+from rockref.measure.records.notice import shown
 from rockref.model.errors import InputError
 
 Three = tuple[int, int, int]

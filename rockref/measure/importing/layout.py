@@ -10,8 +10,8 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
-from rockref.measure.notice import Notice, shown
-from rockref.measure.rawfile import MAX_TEXT_BYTES, RawText, read_text
+from rockref.measure.reading.rawfile import MAX_TEXT_BYTES, RawText, read_text
+from rockref.measure.records.notice import Notice, shown
 from rockref.model.errors import InputError
 
 #: Delimiter and decimal mark, the likeliest first where a text fits several. None is any white space.

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from rockref.measure.impacts import main_impacts
 from rockref.measure.importing.recording import Recording
-from rockref.measure.running import half_width, running_mean, sample_step
-from rockref.measure.signal import growth_rate
+from rockref.measure.signals.impacts import main_impacts
+from rockref.measure.signals.running import half_width, running_mean, sample_step
+from rockref.measure.signals.signal import growth_rate
 from rockref.model.errors import InputError
 
 # decided: in 50 ms a block that moves leaves the scatter of one that stands, and 25 samples at 500 Hz show it.

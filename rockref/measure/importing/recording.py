@@ -10,7 +10,7 @@ import numpy as np
 from rockref.measure.importing.channels import Channels
 from rockref.measure.importing.layout import MAX_LOST_SHARE, Log
 from rockref.measure.importing.units import time_tick
-from rockref.measure.notice import Notice
+from rockref.measure.records.notice import Notice
 from rockref.model.errors import InputError
 
 # A counter of 32 bits that starts anew.

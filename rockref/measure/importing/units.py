@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.measure.columns import DEGREE
+from rockref.measure.reading.columns import DEGREE
 from rockref.model.errors import InputError
 
 

@@ -12,12 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from rockref.measure.columns import DEGREE
 from rockref.measure.experiment import load_experiment
 from rockref.measure.importing.campaign import Campaign, ImportedRun
 from rockref.measure.importing.units import SPOKEN
-from rockref.measure.notice import Notice
-from rockref.measure.release import Experiment
+from rockref.measure.reading.columns import DEGREE
+from rockref.measure.records.notice import Notice
+from rockref.measure.records.release import Experiment
 from rockref.model.errors import InputError
 
 HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"

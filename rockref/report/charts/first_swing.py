@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.measure.importing.campaign import Campaign, ImportedRun
-from rockref.measure.signal import growth_rate
+from rockref.measure.signals.signal import growth_rate
 from rockref.report.charts import style
 from rockref.report.charts.figures import new_figure, rendered
 

@@ -13,7 +13,7 @@ from rockref.discover.compare.models import Comparison
 from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import AXES, STRETCH_WORDS, STRETCHES, stretch_masks
 from rockref.engines import machine
-from rockref.measure.impacts import Impacts
+from rockref.measure.signals.impacts import Impacts
 from rockref.model.channel import DEGREES
 from rockref.report.charts import style
 from rockref.report.charts.drawing import Line, Panel, chart, key

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.measure.notice import Notice, shown
+from rockref.measure.records.notice import Notice, shown
 from rockref.model.errors import InputError
 
 #: Standard gravity [m/s2], by which records in g are scaled (3rd CGPM, 1901).

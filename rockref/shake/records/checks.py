@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rockref.measure.notice import Notice
+from rockref.measure.records.notice import Notice
 from rockref.shake.records.channel import STANDARD_GRAVITY
 
 AXIS = ("x", "y", "z")

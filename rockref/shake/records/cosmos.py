@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from rockref.measure.notice import Notice, shown
+from rockref.measure.records.notice import Notice, shown
 from rockref.model.errors import InputError
 from rockref.shake.records.channel import (
     STANDARD_GRAVITY,

@@ -6,8 +6,8 @@ import re
 
 import numpy as np
 
-from rockref.measure.dialect import is_number, split_line
-from rockref.measure.notice import Notice, shown
+from rockref.measure.reading.dialect import is_number, split_line
+from rockref.measure.records.notice import Notice, shown
 from rockref.model.errors import InputError
 from rockref.shake.records.channel import Channel, acceleration_factor, positive_step
 

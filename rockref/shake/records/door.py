@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from rockref.measure.notice import Notice
-from rockref.measure.rawfile import read_text
+from rockref.measure.reading.rawfile import read_text
+from rockref.measure.records.notice import Notice
 from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
 from rockref.shake.records.at2 import is_at2, read_at2

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from datetime import UTC, datetime
 
-from rockref.measure.notice import shown
+from rockref.measure.records.notice import shown
 from rockref.model.errors import InputError
 from rockref.shake.records.channel import (
     NUMBER,

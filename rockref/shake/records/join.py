@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rockref.measure.notice import Notice
+from rockref.measure.records.notice import Notice
 from rockref.model.errors import InputError
 from rockref.shake.records.channel import Channel
 

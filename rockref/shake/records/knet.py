@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rockref.measure.notice import Notice
+from rockref.measure.records.notice import Notice
 from rockref.model.errors import InputError
 from rockref.shake.records.channel import Channel, direction_of, positive_step
 

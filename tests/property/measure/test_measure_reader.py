@@ -12,7 +12,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rockref.measure.experiment import load_experiment
-from rockref.measure.table import read_table
+from rockref.measure.reading.table import read_table
 from rockref.model.errors import InputError
 
 NEEDED = ("t", "wx", "wy", "wz")

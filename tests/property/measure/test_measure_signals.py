@@ -8,14 +8,14 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rockref.measure.activity import leakage, out_of_plane
-from rockref.measure.envelopes import envelopes
 from rockref.measure.gyroscope import low_pass, quantise, saturate
-from rockref.measure.impacts import main_impacts
-from rockref.measure.ledger import AFTER, FIT_WINDOW, energy_ledger, rocking_block
-from rockref.measure.noise import noise_floor
-from rockref.measure.phases import phases
-from rockref.measure.spectra import amplitude_spectrum
+from rockref.measure.signals.activity import leakage, out_of_plane
+from rockref.measure.signals.envelopes import envelopes
+from rockref.measure.signals.impacts import main_impacts
+from rockref.measure.signals.ledger import AFTER, FIT_WINDOW, energy_ledger, rocking_block
+from rockref.measure.signals.noise import noise_floor
+from rockref.measure.signals.phases import phases
+from rockref.measure.signals.spectra import amplitude_spectrum
 
 WIDTH, HEIGHT = 0.1, 0.688
 ALPHA, RADIUS = math.atan2(WIDTH, HEIGHT), 0.5 * math.hypot(WIDTH, HEIGHT)

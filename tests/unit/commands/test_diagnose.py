@@ -9,7 +9,7 @@ import pytest
 from rockref import cli
 from rockref.discover import diagnose as engine
 from rockref.discover.diagnosis_record import KEYS, plain, read
-from rockref.measure.notice import Notice
+from rockref.measure.records.notice import Notice
 from rockref.model.errors import InputError
 from tests.unit.discover import fakes
 

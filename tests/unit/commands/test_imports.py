@@ -3,7 +3,7 @@
 import pytest
 
 from rockref import cli
-from rockref.measure import contactnets
+from rockref.measure.importing import contactnets
 
 
 @pytest.fixture

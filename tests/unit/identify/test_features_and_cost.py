@@ -7,7 +7,7 @@ from rockref.identify.candidates import evaluate, feature_costs, records
 from rockref.identify.cost import MISSING, WEIGHTS, Terms, cost_terms, total
 from rockref.identify.features import Features, features, spectrum
 from rockref.identify.genes import chromosome, space_12
-from rockref.measure.spectra import amplitude_spectrum
+from rockref.measure.signals.spectra import amplitude_spectrum
 
 
 def test_a_record_costs_nothing_against_itself(twin):

@@ -95,7 +95,7 @@ class TestListening:
     @pytest.fixture(scope="class")
     def record(self):
         from rockref.measure.gyroscope import record
-        from rockref.measure.release import Gyro
+        from rockref.measure.records.release import Gyro
 
         response = rockref.simulate(Model.table_3_1(), 1.05, output_rate=4000.0, engine="auto")
         rng = np.random.default_rng(1)

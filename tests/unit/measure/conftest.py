@@ -64,7 +64,7 @@ def rocking():
 def sensed():
     """Return the function that makes what a gyroscope records of it: (t, crv) with noise from a seed."""
     from rockref.measure.gyroscope import record
-    from rockref.measure.release import Gyro
+    from rockref.measure.records.release import Gyro
 
     def make(motion: Rocking, duration: float = 3.0, seed: int | None = 0, noise: float = 8.7e-4, shift: float = 0.0):
         fine = np.arange(0.0, duration, 1.0 / 20000.0)

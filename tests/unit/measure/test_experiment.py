@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from rockref.measure.experiment import load_experiment
-from rockref.measure.noise import noise_floor
-from rockref.measure.repeatability import repeat_groups
+from rockref.measure.signals.noise import noise_floor
+from rockref.measure.signals.repeatability import repeat_groups
 from rockref.model import storage
 from rockref.model.errors import InputError
 from tests.shipped import two_runs

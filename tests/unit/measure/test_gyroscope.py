@@ -26,7 +26,7 @@ from rockref.measure.gyroscope import (
     sample_times,
     saturate,
 )
-from rockref.measure.release import Gyro
+from rockref.measure.records.release import Gyro
 from rockref.model.errors import InputError
 
 STEP = 1.0 / 20000.0

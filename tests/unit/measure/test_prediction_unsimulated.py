@@ -12,7 +12,7 @@ from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from rockref.effects.sensor.gyro_scale import GyroScale
 from rockref.measure import prediction
 from rockref.measure.prediction import FINE_RATE, STEP, Prediction, gyro_of, problem_of, solve
-from rockref.measure.release import Experiment, Gyro, Run
+from rockref.measure.records.release import Experiment, Gyro, Run
 from rockref.model.errors import InputError
 
 GYRO = Gyro(1000.0, 1e-3, 300.0, 0.0)

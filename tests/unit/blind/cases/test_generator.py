@@ -10,7 +10,7 @@ from rockref.blind.simulator.release import simulate
 from rockref.blind.simulator.slots import P
 from rockref.blind.simulator.world import CORNERS, DEGREE, TABLE, Sensor, build, draw_parameters
 from rockref.measure.experiment import load_experiment
-from rockref.measure.impacts import main_impacts
+from rockref.measure.signals.impacts import main_impacts
 
 NOMINAL = dict(TABLE)
 

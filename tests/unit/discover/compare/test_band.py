@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rockref.discover.compare.band import active_points, band, departures, running_error
-from rockref.measure.repeatability import Repeatability
+from rockref.measure.signals.repeatability import Repeatability
 
 T = np.arange(2000) / 1000.0
 

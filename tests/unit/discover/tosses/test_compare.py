@@ -10,8 +10,8 @@ from rockref.discover.tosses import compare as comparing
 from rockref.discover.tosses.body import nominal_model
 from rockref.discover.tosses.compare import compare, measured
 from rockref.discover.tosses.first_guess import first_guesses
-from rockref.measure.toss import Toss, Tosses
-from rockref.measure.tosses import CUBE_MASS, CUBE_WIDTH
+from rockref.measure.records.toss import Toss, Tosses
+from rockref.measure.tosses.load import CUBE_MASS, CUBE_WIDTH
 from rockref.model.errors import InputError
 from tests.tosses import RATE, made, stated
 

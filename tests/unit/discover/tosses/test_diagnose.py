@@ -13,9 +13,9 @@ from rockref.discover.tosses.fit import TossFit
 from rockref.discover.tosses.fitting import at_values
 from rockref.discover.tosses.together import Stair
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
-from rockref.measure.flight import side_by_side
-from rockref.measure.toss import Toss, Tosses
-from rockref.measure.tosses import CUBE_MASS, CUBE_WIDTH
+from rockref.measure.records.toss import Toss, Tosses
+from rockref.measure.tosses.flight import side_by_side
+from rockref.measure.tosses.load import CUBE_MASS, CUBE_WIDTH
 from rockref.model.errors import InputError
 from tests.tosses import RATE, made, stated
 

@@ -13,7 +13,7 @@ from rockref.discover.tosses.fit import TossFit
 from rockref.discover.tosses.fitting import add_to_tosses, at_values, fit_tosses, unfitted
 from rockref.discover.tosses.parameters import effect_parameters
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
-from rockref.measure.tosses import load_tosses
+from rockref.measure.tosses.load import load_tosses
 from rockref.model.errors import InputError
 from tests.tosses import made, stated, write_tosses
 

@@ -8,10 +8,10 @@ from rockref.discover.tosses.compare import compare
 from rockref.discover.tosses.ledger import energies, losses
 from rockref.discover.tosses.parameters import apply, law_parameters
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
-from rockref.measure.flight import side_by_side
-from rockref.measure.toss import Toss
-from rockref.measure.toss_energy import rises, stated_energy
-from rockref.measure.tosses import load_tosses
+from rockref.measure.records.toss import Toss
+from rockref.measure.tosses.flight import side_by_side
+from rockref.measure.tosses.load import load_tosses
+from rockref.measure.tosses.stated_energy import rises, stated_energy
 from rockref.report.terminal.toss_text import sliding_table, stretches_table, with_error
 from tests.tosses import RATE, made, stated, write_tosses
 

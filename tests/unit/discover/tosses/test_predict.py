@@ -14,8 +14,8 @@ from rockref.effects.shape.mass_eccentricity import MassEccentricity
 from rockref.effects.shape.rounded_corners import RoundedCorners
 from rockref.effects.tracking.plate_pose import PlatePose
 from rockref.effects.tracking.tag_frame import TagFrame
-from rockref.measure.flight import side_by_side
-from rockref.measure.tosses import load_tosses
+from rockref.measure.tosses.flight import side_by_side
+from rockref.measure.tosses.load import load_tosses
 from rockref.model.rotation import exponential
 from tests.tosses import made, stated, write_tosses
 

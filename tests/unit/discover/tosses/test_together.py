@@ -9,7 +9,7 @@ from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.tosses import together
 from rockref.discover.tosses.descent import Slopes
 from rockref.discover.tosses.together import LUCK, Stair, luck, needed, taken_away, way_down, way_up
-from rockref.measure.flight import Poses
+from rockref.measure.tosses.flight import Poses
 
 #: Columns: one number of the law and those of three effects; b is nearly a copy of a, c explains nothing.
 COLUMNS = {

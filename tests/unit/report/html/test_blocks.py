@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.measure.impacts import Impacts
-from rockref.measure.notice import Notice
+from rockref.measure.records.notice import Notice
+from rockref.measure.signals.impacts import Impacts
 from rockref.report.html import blocks
 from rockref.report.html.page import Page
 

@@ -1,0 +1,1 @@
+"""Plain data: an experiment and its runs, tosses, remarks."""

@@ -1,0 +1,1 @@
+"""What a record shows by itself: main impacts, arcs, envelopes, spectra, noise, energy."""

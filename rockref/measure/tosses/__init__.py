@@ -1,0 +1,1 @@
+"""Tosses of a rigid block: reading, free flight, balances over the first impact."""

@@ -1,0 +1,126 @@
+"""Time stamps as loggers write them: nothing is missing where rows over duration agree; sampling times are found."""
+
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+import pytest
+
+from rockref.measure.reading.table import Table
+from rockref.measure.reading.timebase import regular_samples
+from rockref.model.errors import InputError
+
+SECONDS = 3.0
+
+
+def motion(t):
+    """A smooth rate of some 30 deg/s that changes as fast as a rocking block's, rad/s."""
+    return 0.5 * np.sin(2.0 * np.pi * t / 0.6) + 0.05 * np.sin(2.0 * np.pi * t / 0.11)
+
+
+def recorded(stamps, taken, noise=1e-4):
+    """A table whose rows were sampled at `taken` s and carry `stamps` s."""
+    wx = motion(np.asarray(taken)) + noise * np.random.default_rng(0).standard_normal(len(taken))
+    columns = {"t": np.asarray(stamps, dtype=np.float64), "wx": wx}
+    return Table(Path("run.csv"), MappingProxyType(columns), MappingProxyType({"t": "t_s", "wx": "wx_deg_s"}), "", ())
+
+
+def even(rate):
+    return np.arange(int(SECONDS * rate)) / rate
+
+
+def late(t, rows, length):
+    """Rows that wait for `length` s are stamped one after the other before the next one."""
+    t = t.copy()
+    for row in rows:
+        group = np.arange(row, row + round(length * 1000))
+        t[group] = t[group[-1] + 1] - 2e-5 * np.arange(len(group), 0, -1)
+    return t
+
+
+def bunched(t, count, *, equal=False):
+    """Rows that are read `count` at a time, stamped as they are read."""
+    place = np.arange(len(t))
+    return t[place // count * count] + (0.0 if equal else 2e-5) * (place % count)
+
+
+TRUE = even(1000)
+PLACE = np.random.default_rng(1).uniform(-0.5, 0.5, len(TRUE))
+PAIRS = even(64.516)
+STAMPS = {
+    **{f"whole milliseconds at {rate} Hz": (np.floor(even(rate) * 1e3 + 1e-9) / 1e3, even(rate), rate)
+       for rate in (400, 416, 667, 700, 750, 800, 833, 900, 952, 998, 1100, 2000, 8000)},
+    "nearest milliseconds at 870 Hz": (np.round(even(870) * 1e3) / 1e3, even(870), 870),
+    **{f"stalls of {ms} ms": (late(TRUE, range(100, 2700, 250), ms * 1e-3), TRUE, 1000) for ms in (2, 3, 5, 8, 60)},
+    **{f"bunches of {count}": (bunched(TRUE, count), TRUE, 1000) for count in (2, 3, 4, 16, 100)},
+    "pairs of equal stamps": (bunched(TRUE, 2, equal=True), TRUE, 1000),
+    "intervals of 4 and 27 ms": (PAIRS - 11.5e-3 * (np.arange(len(PAIRS)) % 2), PAIRS, 64.516),
+    "latency": (np.maximum.accumulate(TRUE + np.random.default_rng(2).exponential(5e-4, 3000)), TRUE, 1000),
+    "latency that overtakes": (TRUE + np.random.default_rng(2).exponential(1e-3, 3000), TRUE, 1000),
+    "jitter of the stamps": (TRUE + 0.9e-3 * PLACE, TRUE, 1000),
+    "jitter of the samples": (TRUE + 0.9e-3 * PLACE, TRUE + 0.9e-3 * PLACE, 1000),
+    "little jitter of the samples": (TRUE + 0.1e-3 * PLACE, TRUE + 0.1e-3 * PLACE, 1000),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", STAMPS)
+def test_every_row_stays_and_its_sampling_time_is_found(case):
+    stamps, taken, rate = STAMPS[case]
+    t, _, filled, notices = regular_samples(recorded(stamps, taken), rate)
+    assert filled == ()
+    assert {n.code for n in notices} <= {"W-JITTER"}
+    # A fifth of a sample: the time of the release is known to a rounding of the stamps only.
+    assert np.abs(t - taken).max() < 0.2 / rate
+
+
+def test_a_rate_that_is_off_is_told_rightly_behind_milliseconds():
+    """998 samples a second where 1000 are stated: no sample is missing."""
+    t, _, filled, notices = regular_samples(recorded(np.floor(even(998) * 1e3 + 1e-9) / 1e3, even(998)), 1000)
+    assert filled == () and [n.code for n in notices] == ["W-RATE", "W-JITTER"]
+    assert "samples come at 998.0" in notices[0].what
+    with pytest.raises(InputError, match="samples come at 952.0.* not at 1000 Hz") as caught:
+        regular_samples(recorded(np.floor(even(952) * 1e3 + 1e-9) / 1e3, even(952)), 1000)
+    assert caught.value.code == "E-RATE"
+
+
+GONE = np.delete(np.arange(len(TRUE)), [300, 301, 302, 1000])
+
+
+@pytest.mark.parametrize(
+    "stamps",
+    [TRUE, TRUE + 0.3e-3 * PLACE, late(TRUE, range(110, 2700, 250), 3e-3), np.round(TRUE, 3)],
+    ids=["clean", "jitter", "stalls", "milliseconds"],
+)
+def test_holes_are_found_among_other_faults(stamps):
+    _, _, filled, notices = regular_samples(recorded(stamps[GONE], TRUE[GONE]), 1000)
+    assert filled == (300, 301, 302, 1000)
+    assert "W-GAP-FILLED" in {n.code for n in notices}
+
+
+def test_a_lost_bunch_is_a_hole():
+    """Between two readings a whole one is lost: it is the only interval between readings that is longer."""
+    stamps = bunched(TRUE, 4)
+    keep = np.delete(np.arange(len(TRUE)), range(800, 804))
+    with pytest.raises(InputError, match="4 samples are missing between 0.79606 and 0.804 s") as caught:
+        regular_samples(recorded(stamps[keep], TRUE[keep]), 1000)
+    assert caught.value.code == "E-GAP"
+
+
+BACK = {
+    "a counter of 16 bits": (np.mod(TRUE, 0.65536), "The counter wraps: add 0.65536 s"),
+    "a counter that wraps once": (np.mod(TRUE, 2.097152), "The counter wraps: add 2.09715 s"),
+    "a clock that is set back": (np.where(TRUE > 1.5, TRUE - 0.3, TRUE), "The clock was set back there"),
+    "two rows that changed places": (TRUE[np.r_[0:500, 501, 500, 502:3000]], "Sort the rows"),
+    "a row twice": (TRUE[np.sort(np.r_[0:3000, 700])], "The row stands there twice: remove one"),
+    "a stamp twice": (np.where(np.arange(3000) == 700, TRUE[699], TRUE), "export the time in finer units"),
+    "a clock that stands": (np.zeros(3000), "The clock stands still"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", BACK)
+def test_each_way_back_has_its_own_advice(case):
+    stamps, advice = BACK[case]
+    taken = stamps if case == "a row twice" else TRUE[: len(stamps)]
+    with pytest.raises(InputError) as caught:
+        regular_samples(recorded(stamps, taken, noise=0.0), 1000)
+    assert caught.value.code == "E-TIME" and advice in caught.value.cure

@@ -1,0 +1,235 @@
+"""The time column runs forward, at the stated rate, without holes."""
+
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+import pytest
+
+from rockref.measure.reading.table import Table
+from rockref.measure.reading.timebase import regular_samples
+from rockref.model.errors import InputError
+
+
+def table(t):
+    t = np.asarray(t, dtype=np.float64)
+    columns = {"t": t, "wx": 10.0 * t}
+    return Table(Path("run.csv"), MappingProxyType(columns), MappingProxyType({"t": "t_s", "wx": "wx_deg_s"}), "", ())
+
+
+CLEAN = np.arange(1000) / 1000.0
+
+
+def test_clean_time_passes_untouched():
+    source = table(CLEAN)
+    t, columns, filled, notices = regular_samples(source, 1000.0)
+    assert t is source.columns["t"]
+    assert list(columns) == ["wx"]
+    assert filled == () and notices == []
+
+
+def changed(row, value):
+    t = CLEAN.copy()
+    t[row] = value
+    return t
+
+
+@pytest.mark.parametrize(
+    ("t", "rate", "code", "where", "words"),
+    [
+        (changed(500, 0.1), 1000.0, "E-TIME", "line 502", "from 0.499 to 0.1"),
+        (changed(500, 0.499), 1000.0, "E-TIME", "line 502", "from 0.499 to 0.499"),
+        (CLEAN[::-1], 1000.0, "E-TIME", "line 3", "from 0.999"),
+        (CLEAN * 2.0, 1000.0, "E-RATE", "t_s", "500 Hz"),
+        (CLEAN / 2.0, 1000.0, "E-RATE", "t_s", "2000 Hz"),
+        (CLEAN * 1000.0, 1000.0, "E-RATE", "t_s", "1 Hz"),
+        (CLEAN * 1.03, 1000.0, "E-RATE", "t_s", "not at 1000 Hz"),
+        (
+            np.delete(CLEAN, slice(300, 304)),
+            1000.0,
+            "E-GAP",
+            "line 302",
+            "4 samples are missing between 0.299",
+        ),
+        (
+            np.delete(CLEAN, np.arange(5, 995, 50) + np.arange(20) ** 2 % 17),
+            1000.0,
+            "E-GAP",
+            "t_s",
+            "20 of 1000 samples",
+        ),
+        (CLEAN + 0.2, 1000.0, "E-START", "t_s", "starts at 0.2"),
+        (CLEAN - 0.2, 1000.0, "E-START", "t_s", "starts at -0.2"),
+        (CLEAN[:1], 1000.0, "E-SHORT", "run.csv", "one row"),
+    ],
+)
+def test_faulty_time_is_refused_with_its_line(t, rate, code, where, words):
+    with pytest.raises(InputError) as caught:
+        regular_samples(table(t), rate)
+    assert caught.value.code == code
+    assert where in caught.value.where
+    assert words in caught.value.what
+
+
+@pytest.mark.parametrize(
+    ("t", "code"),
+    [
+        (CLEAN * 1.005, "W-RATE"),
+        (CLEAN + 0.01, "W-START"),
+        (changed(500, 0.4993), "W-JITTER"),
+    ],
+)
+def test_what_can_be_worked_with_is_said(t, code):
+    got, _, filled, notices = regular_samples(table(t), 1000.0)
+    assert [n.code for n in notices] == [code]
+    assert np.array_equal(got, t)
+    assert filled == ()
+
+
+def test_short_holes_are_filled_on_the_line_between_their_ends():
+    t, columns, filled, notices = regular_samples(table(np.delete(CLEAN, [200, 201, 202, 700])), 1000.0)
+    assert filled == (200, 201, 202, 700)
+    assert np.allclose(t, CLEAN, rtol=0.0, atol=1e-15)
+    assert np.allclose(columns["wx"], 10.0 * CLEAN, rtol=0.0, atol=1e-14)
+    assert [n.code for n in notices] == ["W-GAP-FILLED"]
+    assert "4 samples were missing, the first at 0.2 s" in notices[0].what
+
+
+def test_stamps_rounded_to_the_millisecond_are_no_gaps():
+    t = np.round(np.arange(1200) / 600.0, 3)
+    _, _, filled, notices = regular_samples(table(t), 600.0)
+    assert filled == () and notices == []
+
+
+def stamped(late, count=1000):
+    """Every eightieth stamp of a good clock of 1 kHz is late by so many seconds."""
+    t = np.arange(count) / 1000.0
+    t[40::80] += late
+    return t
+
+
+@pytest.mark.parametrize("late", [-0.0007, 0.0007])
+def test_stamps_that_are_early_or_late_are_no_other_rate(late):
+    """Twelve stamps of a thousand are off by seven tenths of a sample: no sample is missing, and none is too many."""
+    t, _, filled, notices = regular_samples(table(stamped(late)), 1000.0)
+    assert filled == () and len(t) == 1000
+    words = "intervals between samples differ from 1/1000 s by up to 70 %. The time stamps were kept as they are."
+    assert [str(n) for n in notices] == [f"run.csv, column t_s: {words} [W-JITTER]"]
+
+
+@pytest.mark.parametrize(("late", "said"), [(0.00058, []), (0.00062, ["W-JITTER"])])
+def test_a_stamp_may_be_off_by_six_tenths_of_a_sample(late, said):
+    assert [n.code for n in regular_samples(table(stamped(late)), 1000.0)[3]] == said
+
+
+@pytest.mark.parametrize(
+    ("stretch", "codes"),
+    [
+        (1.0011, []),
+        (1.0013, ["W-RATE"]),
+        (0.9989, []),
+        (0.9987, ["W-RATE"]),
+        (1.0109, ["W-RATE"]),
+        (0.9892, ["W-RATE"]),
+    ],
+)
+def test_the_rate_may_be_off_by_a_hundredth_and_what_one_stamp_is_worth(stretch, codes):
+    """Two ten thousandths are not said, beside the thousandth that one stamp is; a hundredth is not refused."""
+    assert [n.code for n in regular_samples(table(stretch * CLEAN), 1000.0)[3]] == codes
+
+
+@pytest.mark.parametrize("stretch", [1.0113, 0.9889])
+def test_more_than_a_hundredth_is_another_rate(stretch):
+    with pytest.raises(InputError) as caught:
+        regular_samples(table(stretch * CLEAN), 1000.0)
+    what = f"samples come at {1000.0 / stretch:.6g} Hz, not at 1000 Hz"
+    cure = "Correct sample_rate_hz, or the unit of the time column."
+    assert str(caught.value) == f"run.csv, column t_s: {what}. {cure} [E-RATE]"
+
+
+def test_a_fifth_is_another_rate_whatever_the_holes():
+    """Most intervals are 1.25 samples: it is the median that says so, before anything else."""
+    with pytest.raises(InputError) as caught:
+        regular_samples(table(1.26 * CLEAN), 1000.0)
+    assert caught.value.what == "samples come at 793.651 Hz, not at 1000 Hz"
+    assert caught.value.cure == "Correct sample_rate_hz, or the unit of the time column."
+
+
+def test_what_is_said_of_another_rate():
+    notices = regular_samples(table(1.005 * CLEAN), 1000.0)[3]
+    what = "samples come at 995.025 Hz, not at 1000 Hz. The time stamps were believed, not the stated rate."
+    assert [str(n) for n in notices] == [f"run.csv, column t_s: {what} [W-RATE]"]
+
+
+@pytest.mark.parametrize("gone", [[1], [998], [1, 2, 3], [500, 501, 502], [996, 997, 998], [1, 998]])
+def test_holes_are_filled_wherever_they_are(gone):
+    t, columns, filled, notices = regular_samples(table(np.delete(CLEAN, gone)), 1000.0)
+    assert filled == tuple(gone)
+    assert np.allclose(t, CLEAN, rtol=0.0, atol=1e-15) and np.allclose(
+        columns["wx"], 10.0 * CLEAN, rtol=0.0, atol=1e-14
+    )
+    what = f"{len(gone)} samples were missing, the first at {CLEAN[gone[0]]:g} s"
+    cure = "They were filled in by linear interpolation."
+    assert [str(n) for n in notices] == [f"run.csv, column t_s: {what}. {cure} [W-GAP-FILLED]"]
+
+
+def test_a_hole_beside_a_late_stamp_is_filled_once():
+    t = CLEAN.copy()
+    t[500] += 0.0004
+    assert regular_samples(table(np.delete(t, [501])), 1000.0)[2] == (501,)
+    assert regular_samples(table(np.delete(t, [499])), 1000.0)[2] == (499,)
+
+
+def holed(count):
+    """A clock of so many samples, of which ten are missing, one by one."""
+    return table(np.delete(np.arange(count) / 1000.0, np.arange(50, 450, 40)))
+
+
+def test_one_sample_in_a_hundred_may_be_missing():
+    """Of those that are there: ten beside a thousand, and not beside one less."""
+    assert len(regular_samples(holed(1010), 1000.0)[2]) == 10
+    with pytest.raises(InputError) as caught:
+        regular_samples(holed(1009), 1000.0)
+    cure = "Use a run without holes, or cut the record before it."
+    assert str(caught.value) == f"run.csv, column t_s: 10 of 1009 samples are missing. {cure} [E-GAP]"
+
+
+def test_what_is_said_of_a_wide_hole():
+    with pytest.raises(InputError) as caught:
+        regular_samples(table(np.delete(CLEAN, [300, 301, 302, 303, 600, 601, 602, 603])), 1000.0)
+    what = "4 samples are missing between 0.299 and 0.304 s"
+    cure = "Use a run without holes, or cut the record before it."
+    assert str(caught.value) == f"run.csv, line 302, column t_s: {what}. {cure} [E-GAP]"
+
+
+@pytest.mark.parametrize(("start", "codes"), [(-0.0005, []), (0.0015, []), (0.0016, ["W-START"]), (0.1, ["W-START"])])
+def test_time_begins_at_the_release(start, codes):
+    assert [n.code for n in regular_samples(table(CLEAN + start), 1000.0)[3]] == codes
+
+
+@pytest.mark.parametrize("start", [-0.0006, 0.1001])
+def test_time_that_begins_elsewhere_is_refused(start):
+    with pytest.raises(InputError) as caught:
+        regular_samples(table(CLEAN + start), 1000.0)
+    cure = "Time is counted from the release: shift the column, and cut what was recorded before it."
+    assert str(caught.value) == f"run.csv, column t_s: time starts at {start:g} s. {cure} [E-START]"
+
+
+def test_what_is_said_of_a_late_start():
+    notices = regular_samples(table(CLEAN + 0.01), 1000.0)[3]
+    said = "run.csv, column t_s: time starts at 0.01 s. The first samples are missing. [W-START]"
+    assert [str(n) for n in notices] == [said]
+
+
+def test_two_rows_are_enough_for_a_clock_and_one_is_not():
+    assert len(regular_samples(table([0.0, 0.001]), 1000.0)[0]) == 2
+    with pytest.raises(InputError) as caught:
+        regular_samples(table([0.0]), 1000.0)
+    assert str(caught.value) == "run.csv: one row holds no motion. Export the run again. [E-SHORT]"
+
+
+def test_what_is_said_of_time_that_runs_back():
+    with pytest.raises(InputError) as caught:
+        regular_samples(table(changed(500, 0.1)), 1000.0)
+    what, cure = "time goes from 0.499 to 0.1 s", "Sort the rows, or remove what was recorded twice."
+    assert str(caught.value) == f"run.csv, line 502, column t_s: {what}. {cure} [E-TIME]"
