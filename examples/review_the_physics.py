@@ -10,7 +10,7 @@ import numpy as np
 
 from rockref import Model, simulate
 from rockref.model.contact import norm, radial_return, sticks, threshold, trial_force
-from rockref.model.energy import balance
+from rockref.model.energy_balance import balance
 from rockref.model.housner import first_impact, frequency_parameter
 from rockref.model.problem import State
 from rockref.model.release import tipping_angle

@@ -38,7 +38,7 @@ from rockref.discover.selection.tone import tone
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.rules import contradicting_run
 from rockref.effects import catalogue
-from rockref.effects.prior import to_scale
+from rockref.effects.scale import to_scale
 from rockref.measure.records.release import Experiment
 
 #: Starts of a fit whose gates are asked for, at most; decided: two that end in one place are enough, and of two that do

@@ -30,7 +30,7 @@ from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.detection import cosines, eliminated, limit
 from rockref.effects.base import Effect
 from rockref.effects.natural import natural_units
-from rockref.effects.prior import to_scale
+from rockref.effects.scale import to_scale
 from rockref.measure.experiment import TILT_UNCERTAINTY
 from rockref.measure.gyroscope import record
 from rockref.measure.records.release import Experiment, Gyro, Run

@@ -71,7 +71,7 @@ class Effect:
     `experiment` (what would tell them apart), `stage` (where in the measured channel it stands), `only_on` (the points
     that a model must have, "four_points"; empty: any), `not_shaken` (why it cannot act on a plate that moves,
     after "it"; empty: it can).
-    For fits: `priors` (what `rockref.effects.prior` does not get from a Quantity), `seeds` (values, the others typical,
+    For fits: `priors` (what `rockref.effects.scale` does not get from a Quantity), `seeds` (values, the others typical,
     to start from beside zero, where a small step shows nothing), `of_run` (a size and its phase that every run has of
     its own: a fit finds their cosine and sine parts), `not_with_block` (quantities of a film or a floor, which do
     not grow with the block: `rockref.effects.natural`).

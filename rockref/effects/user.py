@@ -16,8 +16,9 @@ from types import ModuleType
 
 from rockref.effects.base import HOOKS, STAGES, UNDO_HOOKS, Effect, Quantity
 from rockref.effects.guard import guard, line_in
-from rockref.effects.prior import ROLES, SCALES, Prior, prior_of
+from rockref.effects.prior import ROLES, SCALES, Prior
 from rockref.effects.probe import probe, probe_absent
+from rockref.effects.scale import prior_of
 from rockref.model.errors import InputError
 
 HELP = "See examples/my_effect.py."

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rockref
-from rockref.model.energy import balance
+from rockref.model.energy_balance import balance
 
 MODEL = rockref.Model.table_3_1()
 STEPS = (2e-5, 1e-5, 5e-6)

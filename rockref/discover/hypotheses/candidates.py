@@ -14,7 +14,8 @@ from rockref.discover.hypotheses.parameter import Parameter as PriorParameter
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
 from rockref.effects.natural import SOURCE, NaturalUnits, factor_of, natural_units
-from rockref.effects.prior import ROLES, TYPICALLY_NONE, Prior, from_scale, prior_of
+from rockref.effects.prior import ROLES, TYPICALLY_NONE, Prior
+from rockref.effects.scale import from_scale, prior_of
 
 #: Candidates that no window can judge by a derivative: what has a phase of its own in every run, and what cuts samples.
 LEFT_OUT = tuple(kind.id for kind in catalogue.IN_STEP_ORDER if kind.of_run or kind.stage == "samples")

@@ -11,7 +11,7 @@ from rockref.discover.hypotheses.counted import Parameter as Counted
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.effects import catalogue
 from rockref.effects.natural import SOURCE, NaturalUnits, factor_of
-from rockref.effects.prior import from_scale, prior_of, to_scale
+from rockref.effects.scale import from_scale, prior_of, to_scale
 
 
 def effect_parameters(

@@ -15,7 +15,7 @@ from rockref.discover.hypotheses.effects import effect_parameters, own_value
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.effects import catalogue
 from rockref.effects.natural import natural_units
-from rockref.effects.prior import to_scale
+from rockref.effects.scale import to_scale
 from rockref.measure.prediction import gyro_of, predict
 from rockref.model.channel import DEGREES
 from rockref.report.charts import style

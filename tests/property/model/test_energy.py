@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings, target
 
 from rockref.model import integrator
-from rockref.model.energy import balance
+from rockref.model.energy_balance import balance
 from rockref.model.problem import as_arrays
 from rockref.model.rotation import apply, dot
 from rockref.model.simulate import simulate

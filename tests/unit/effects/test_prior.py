@@ -8,7 +8,8 @@ import pytest
 
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.catalogue import EFFECTS, OF_TOSSES
-from rockref.effects.prior import RIGID, ROLES, SCALES, Prior, from_scale, prior_of, to_scale
+from rockref.effects.prior import RIGID, ROLES, SCALES, Prior
+from rockref.effects.scale import from_scale, prior_of, to_scale
 
 KINDS = EFFECTS | OF_TOSSES
 NUMBERS = [(kind, name) for kind in KINDS.values() for name in kind.quantities]

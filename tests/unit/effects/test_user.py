@@ -7,8 +7,8 @@ import pytest
 
 from rockref import InputError, Model, cli, simulate
 from rockref.effects import catalogue
-from rockref.effects.prior import prior_of
 from rockref.effects.probe import probe_absent, sample_problem
+from rockref.effects.scale import prior_of
 from rockref.effects.user import load_user
 from rockref.model.integrator import evaluate_contact
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rockref
-from rockref.model import energy
+from rockref.model import energy, energy_balance
 from rockref.model.errors import InputError
 from rockref.model.problem import stack
 from tests import physics
@@ -43,7 +43,7 @@ def test_sums_of_energies():
 
 def test_balance_of_a_bounce():
     """Without gravity the block loses what the restitution tells, all of it by the normal damper."""
-    b = energy.balance(every_step(physics.mass_on_a_foot(v=(0, 0, -0.1), g=0.0, duration=0.005)))
+    b = energy_balance.balance(every_step(physics.mass_on_a_foot(v=(0, 0, -0.1), g=0.0, duration=0.005)))
     lost = b.mechanical[0] - b.mechanical[-1]
     # the residual, m h^2/8 a_0^2 = 9.3e-7 J with a_0 = C v / m = 37 m/s2
     assert b.dissipated[-1] == pytest.approx(lost, abs=1e-6)
@@ -60,19 +60,19 @@ def test_residual_of_a_body_that_does_not_turn_is_known():
     a = F / physics.MASS - [0, 0, 9.81]
     expected = physics.MASS * 1e-10 / 8 * (np.sum(a * a, axis=-1) - a[0] @ a[0])
     # energies of 3 J rounded at 4e-16, in 400 steps
-    assert np.max(np.abs(energy.balance(response).residual - expected)) < 1e-13
+    assert np.max(np.abs(energy_balance.balance(response).residual - expected)) < 1e-13
 
 
 def test_a_row_for_every_step_is_needed():
     with pytest.raises(InputError) as refused:
-        energy.balance(rockref.simulate(physics.mass_on_a_foot().replace(output_rate=1000.0), engine="numpy"))
+        energy_balance.balance(rockref.simulate(physics.mass_on_a_foot().replace(output_rate=1000.0), engine="numpy"))
     assert (refused.value.code, refused.value.where) == ("E-RATE", "output_rate")
 
 
 def test_the_account_does_not_mind_when_the_run_began():
     problem = physics.mass_on_a_foot(z=-1e-6, v=(0.3, 0, -0.1), duration=1e-3)
-    early = energy.balance(every_step(problem))
-    late = energy.balance(every_step(problem.replace(start=replace(problem.start, t=7.0))))
+    early = energy_balance.balance(every_step(problem))
+    late = energy_balance.balance(every_step(problem.replace(start=replace(problem.start, t=7.0))))
     assert late.t[0] == 7
     assert late.t == pytest.approx(7 + early.t, rel=1e-15)
     assert np.array_equal(late.residual, early.residual)
@@ -80,12 +80,12 @@ def test_the_account_does_not_mind_when_the_run_began():
 
 def test_one_block_only():
     with pytest.raises(InputError) as refused:
-        energy.balance(rockref.simulate(stack([physics.mass_on_a_foot(duration=1e-4)] * 2), engine="numpy"))
+        energy_balance.balance(rockref.simulate(stack([physics.mass_on_a_foot(duration=1e-4)] * 2), engine="numpy"))
     assert refused.value.code == "E-BATCH"
 
 
 def test_from_start():
     for dtype in (np.float32, np.float64, np.longdouble):
-        sums = energy.from_start(np.array([1, 2, 3], dtype))
+        sums = energy_balance.from_start(np.array([1, 2, 3], dtype))
         assert np.array_equal(sums, [0, 1, 3, 6])
         assert sums.dtype == dtype

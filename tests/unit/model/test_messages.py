@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import rockref
-from rockref.model import energy, geometry, housner, parameters, problem, release, rotation, simulate, storage
+from rockref.model import energy_balance, geometry, housner, parameters, problem, release, rotation, simulate, storage
 from rockref.model.errors import InputError
 from tests import physics
 
@@ -166,9 +166,9 @@ REFUSALS = [
     (lambda: two().contacts(), f"contacts: {ONE_BLOCK}"),
     (lambda: two().to_frame(), f"to_frame: {ONE_BLOCK}"),
     (lambda: two().columns(), f"columns: {ONE_BLOCK}"),
-    (lambda: energy.balance(two()), f"balance: {ONE_BLOCK}"),
+    (lambda: energy_balance.balance(two()), f"balance: {ONE_BLOCK}"),
     (
-        lambda: energy.balance(run(FOOT.replace(output_rate=2000.0))),
+        lambda: energy_balance.balance(run(FOOT.replace(output_rate=2000.0))),
         "output_rate: 2000 Hz skips steps. Record 100000 rows a second. [E-RATE]",
     ),
     # release

@@ -22,7 +22,7 @@ from rockref.discover.hypotheses.candidates import (
     within_base,
 )
 from rockref.effects import catalogue
-from rockref.effects.prior import prior_of, to_scale
+from rockref.effects.scale import prior_of, to_scale
 from tests.unit.discover.hypotheses.counted import PARAMETERS
 
 TABLE = Model.table_3_1()
