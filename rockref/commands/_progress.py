@@ -110,7 +110,7 @@ def _one_line(title: str) -> Iterator[Tell]:
 @contextmanager
 def _compiling_told(tell: Callable[[], None]) -> Iterator[None]:
     """Have it told once that the engine is being compiled, where that happens meanwhile."""
-    from rockref.engines import compile_watchers
+    from rockref.engines.watchers import compile_watchers
 
     told = False
 

@@ -6,7 +6,7 @@ import importlib.util
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 import numpy as np
@@ -17,9 +17,6 @@ from rockref.model.problem import Problem, precision
 from rockref.model.response import Response
 
 ENGINES = ("numpy", "numba", "auto")
-
-#: Called, without arguments, when the compiled engine begins to compile, which it does once on a machine.
-compile_watchers: list[Callable[[], None]] = []
 
 
 def has_numba() -> bool:

@@ -10,6 +10,7 @@ import tomllib
 from pathlib import Path
 from types import FunctionType
 
+import grimp
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -145,6 +146,20 @@ def test_one_way_order_of_folders():
     assert done.returncode == 0, done.stdout
 
 
+#: Modules that still import one another: a step of their own.
+IN_CIRCLES = ("rockref.discover.compare.", "rockref.conformance.")
+
+
+def test_no_circles_among_modules():
+    """Not in functions either, nor for the type checker alone; a package imports none that imports the package."""
+    graph = grimp.build_graph("rockref", cache_dir=None)
+    left = {m: graph.find_modules_directly_imported_by(m) for m in graph.modules if not m.startswith(IN_CIRCLES)}
+    while free := [module for module, imported in left.items() if not imported & left.keys()]:
+        for module in free:
+            del left[module]
+    assert sorted(left) == []
+
+
 FOLDERS = "model jobs effects engines conformance measure identify studies discover report workflows commands".split()
 
 
@@ -236,12 +251,15 @@ def test_no_word_of_a_private_language():
 NO_VERBS = re.compile(
     r"(The|An?|What|Whether|One|All|How|Which|Every|Each|Where|When|By|As|This|It|They|If) |[(`a-z\[]"
 )
-WITH_VERBS = ("model", "effects", "jobs", "identify", "studies", "blind/cases", "blind/scoring", "lab")
+#: Not yet: its wing is being rebuilt.
+WITHOUT_VERBS = ("conformance",)
 
 
 def test_docstrings_of_functions_begin_with_a_verb():
     found = []
-    for path in (path for room in WITH_VERBS for path in (ROOT / "rockref" / room).rglob("*.py")):
+    for path in (ROOT / "rockref").rglob("*.py"):
+        if path.relative_to(ROOT / "rockref").parts[0] in WITHOUT_VERBS:
+            continue
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.FunctionDef) and NO_VERBS.match(ast.get_docstring(node) or "Return"):
                 found.append(f"{path.relative_to(ROOT)}:{node.lineno} {node.name}")

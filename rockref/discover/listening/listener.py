@@ -16,7 +16,8 @@ from rockref.effects.base import Effect
 from rockref.engines.compiled import pack
 from rockref.engines.compiled.batch import batch_of
 from rockref.engines.compiled.lanes import LANES
-from rockref.engines.listening import Listening, run_listening
+from rockref.engines.heard import Listening
+from rockref.engines.listening import run_listening
 from rockref.measure.gyroscope import expected, limited, sample
 from rockref.measure.records.release import Experiment, Gyro, Run
 from rockref.measure.signals.noise import noise_floor

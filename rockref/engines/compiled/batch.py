@@ -10,19 +10,16 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rockref.engines.compiled import abreast, kernel, pack, slots
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled.lanes import LANES
+from rockref.engines.heard import Listening
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem
 from rockref.model.simulate import output_steps
-
-if TYPE_CHECKING:
-    from rockref.engines.listening import Listening
 
 #: Pieces per thread: enough that a piece of long runs does not leave the other cores idle at the end, few enough that
 #: handing them out costs nothing (decided).

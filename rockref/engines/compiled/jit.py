@@ -13,8 +13,8 @@ from typing import Any
 import numba
 from numba.core import event
 
-from rockref.engines import compile_watchers
 from rockref.engines.on_disk import on_disk
+from rockref.engines.watchers import compile_watchers
 
 _options: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
 
@@ -25,7 +25,7 @@ called = numba.njit(**_options)
 
 
 def marked(function: Any, *marks: Any) -> Any:
-    """The function with these marks in its name, and so in the symbols of its machine code.
+    """Return the function with these marks in its name, and so in the symbols of its machine code.
 
     Loops that were compiled in different processes and kept on disk may come together in one. Symbols of one name are
     then one function, the first that came (seen: the first force evaluation of another variant, with forces off by

@@ -10,7 +10,7 @@ from rockref import Model
 from rockref.commands import _progress
 from rockref.commands._progress import COMPILING, PATIENCE, of_search, progress, stages
 from rockref.discover.progress import StageReport
-from rockref.engines import compile_watchers
+from rockref.engines.watchers import compile_watchers
 from rockref.identify.genes import chromosome, space_12
 from rockref.identify.search import Progress
 from tests.unit.commands import terminal

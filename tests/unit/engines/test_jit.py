@@ -65,9 +65,9 @@ def test_variants_that_were_compiled_in_different_processes_live_in_one(tmp_path
 #: A run, another, and what was told meanwhile.
 TOLD = """
 import rockref
-from rockref import engines
+from rockref.engines.watchers import compile_watchers
 told = []
-engines.compile_watchers.append(lambda: told.append(1))
+compile_watchers.append(lambda: told.append(1))
 for _ in range(2):
     rockref.simulate(rockref.Model.table_3_1(), 1e-4, output_rate=1e4, engine="numba")
     print(len(told) > 0)

@@ -13,7 +13,8 @@ from rockref.effects.catalogue import EFFECTS, OF_TOSSES
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import engine, slots
 from rockref.engines.compiled.batch import from_problems, run_batch
-from rockref.engines.listening import Listening, run_listening
+from rockref.engines.heard import Listening
+from rockref.engines.listening import run_listening
 from rockref.model.errors import InputError
 from tests.property.engines.problems import similar_problem
 
