@@ -100,7 +100,8 @@ def listening(repeat: int) -> float:
     """Processor time of listening runs over that of plain ones, in lanes."""
     from rockref.engines.compiled.batch import from_problems, run_batch
     from rockref.engines.compiled.lanes import LANES
-    from rockref.engines.listening import Listening, run_listening
+    from rockref.engines.heard import Listening
+    from rockref.engines.listening import run_listening
 
     batch, K = from_problems(several(2 * LANES)), STEPS // EVERY
     few = replace(batch, wanted=np.arange(0, EVERY * K, EVERY))

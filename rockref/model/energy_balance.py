@@ -46,17 +46,17 @@ class Balance(NamedTuple):
 
     @property
     def dissipated_normal(self) -> np.ndarray:
-        """Work taken by the normal forces and not stored [J]."""
+        """Return work taken by the normal forces and not stored [J]."""
         return self.work_normal - (self.stored_normal - self.stored_normal[0])
 
     @property
     def dissipated_friction(self) -> np.ndarray:
-        """Work taken by the friction forces and not stored [J]."""
+        """Return work taken by the friction forces and not stored [J]."""
         return self.work_friction - (self.stored_friction - self.stored_friction[0])
 
     @property
     def dissipated(self) -> np.ndarray:
-        """Work taken by the contacts and not stored in their springs [J]."""
+        """Return work taken by the contacts and not stored in their springs [J]."""
         return self.dissipated_normal + self.dissipated_friction
 
     @property

@@ -18,12 +18,12 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def kept(function: Callable[..., Any]) -> Callable[..., Any]:
-    """The same, kept on disk. What it calls in other files is not watched: close it over their :func:`fingerprint`."""
+    """Compile, and keep on disk. What it calls in other files is not watched: close it over their `fingerprint`."""
     return _compile(function, cache=True)
 
 
 def fingerprint(*names: str) -> int:
-    """A number that changes with the text of any of these modules of this folder."""
+    """Return a number that changes with the text of any of these modules of this folder."""
     here = Path(__file__).parent
     return int.from_bytes(hashlib.sha256(b"".join((here / f"{n}.py").read_bytes() for n in names)).digest()[:7], "big")
 

@@ -20,7 +20,7 @@ DEPTH_0, SPEED_0 = G["depth_0"], G["speed_0"]
 
 @compiled
 def spring(depth, K, g):
-    """Elastic force [N] of a point at this depth [m], on first loading."""
+    """Return the elastic force [N] of a point at this depth [m], on first loading."""
     if g[HERTZ_P] == 0.0:
         return K * depth
     if g[HERTZ_FORM] == 0.0:
@@ -32,7 +32,7 @@ def spring(depth, K, g):
 
 @compiled
 def normal_force(depth, rate, deepest, creep, p, g):
-    """Force [N] of the plate on a point at `depth` [m] >= 0, closing at `rate` [m/s]; never a pull."""
+    """Return the force [N] of the plate on a point at `depth` [m] >= 0, closing at `rate` [m/s]; never a pull."""
     K = p[KN]
     elastic = spring(depth, K, g)
     kappa = g[HYSTERESIS]
@@ -56,7 +56,7 @@ def normal_force(depth, rate, deepest, creep, p, g):
 
 @compiled
 def pull(depth, g):
-    """Attraction [N] of a point at this depth [m]; negative depth is height."""
+    """Return the attraction [N] of a point at this depth [m]; negative depth is height."""
     if g[PULL_FORM] == 0.0:
         return g[PULL] * min(max(1.0 + depth / g[PULL_RANGE], 0.0), 1.0)
     # Another fading, exponential; the same work on the way out (range/2).
@@ -65,7 +65,7 @@ def pull(depth, g):
 
 @compiled
 def threshold(N, speed, p, g):
-    """Largest friction force [N] at normal force N [N] and sliding speed [m/s]."""
+    """Return the largest friction force [N] at normal force N [N] and sliding speed [m/s]."""
     mu = p[MU]
     if g[STRIBECK] != 0.0:
         relative = speed / g[STRIBECK_V]
@@ -85,7 +85,7 @@ def threshold(N, speed, p, g):
 
 @compiled
 def friction(sx, sy, vx, vy, N, p, g):
-    """Friction of a point: force (x, y) [N] and the stretch (x, y) [m] that is left.
+    """Return the friction of a point: force (x, y) [N] and the stretch (x, y) [m] that is left.
 
     sx, sy : sliding displacement summed over this contact [m]; vx, vy : sliding velocity [m/s]. Where spring and damper
     would exceed the threshold the force is cut to it and the stretch set to what carries the cut force.
@@ -103,7 +103,7 @@ def friction(sx, sy, vx, vy, N, p, g):
 
 @compiled
 def film(vx, vy, g):
-    """Force over sliding velocity [N s/m] of a film under a touching point."""
+    """Return force over sliding velocity [N s/m] of a film under a touching point."""
     if g[VISCOUS_FORM] == 0.0:
         return g[VISCOUS]
     # Another rheology, shear thinning with power 0.8; equal at the reference speed.

@@ -12,7 +12,7 @@ from rockref.blind.simulator.world import World
 
 
 def depth_under(load: float, K: float, world: World) -> float:
-    """Depth [m] at which a point carries `load` [N] at rest: bisection on spring less pull."""
+    """Return depth [m] at which a point carries `load` [N] at rest: bisection on spring less pull."""
     low, high = 0.0, 1e-2
     for _ in range(80):
         middle = 0.5 * (low + high)
@@ -22,7 +22,7 @@ def depth_under(load: float, K: float, world: World) -> float:
 
 
 def matrix(tilt: float, roll: float, turned: bool) -> np.ndarray:
-    """Body to plate: a lean toward +y by `tilt`, after a roll about body Y, after a half turn about the vertical."""
+    """Return body to plate: lean toward +y by `tilt`, after a roll about body Y, after a half turn about Z."""
     c, s = math.cos(tilt), math.sin(tilt)
     lean = np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
     if turned:
@@ -32,7 +32,7 @@ def matrix(tilt: float, roll: float, turned: bool) -> np.ndarray:
 
 
 def stand(world: World, tilt: float, turned: bool) -> tuple[np.ndarray, np.ndarray, tuple[int, int]]:
-    """Centre of mass (3,) [m], matrix (3, 3), and the two pivot points, at `tilt` [rad] before the release."""
+    """Return centre of mass (3,) [m], matrix (3, 3) and the two pivot points, at `tilt` [rad] before the release."""
     weight = (world.mass + world["hung_m"]) * world["gravity"]
     radius = world.props[:, P["radius"]]
     centres = world.points + np.column_stack([np.zeros((len(radius), 2)), radius])
@@ -61,7 +61,7 @@ def stand(world: World, tilt: float, turned: bool) -> tuple[np.ndarray, np.ndarr
 
 
 def quaternion(R: np.ndarray) -> np.ndarray:
-    """Unit quaternion (4,), scalar first, of a rotation matrix (3, 3): the largest component by the diagonal."""
+    """Return unit quaternion (4,), scalar first, of a rotation matrix (3, 3): the largest component by the diagonal."""
     four = np.array([
         1 + R[0, 0] + R[1, 1] + R[2, 2], 1 + R[0, 0] - R[1, 1] - R[2, 2],
         1 - R[0, 0] + R[1, 1] - R[2, 2], 1 - R[0, 0] - R[1, 1] + R[2, 2],

@@ -44,7 +44,7 @@ def follower(u, out, frequency, dt):
 
 
 def low_pass(u: np.ndarray, frequency: float, order: int = 2, ratio: float = math.sqrt(0.5)) -> np.ndarray:
-    """Low-pass of u (N, 3), sampled FINE times a second; -3 dB at `frequency` Hz for the default ratio."""
+    """Filter u (N, 3), sampled FINE times a second, by a low-pass; -3 dB at `frequency` Hz for the default ratio."""
     out = np.empty_like(u)
     if order == 1:
         follower(u, out, frequency, 1.0 / FINE)
@@ -54,7 +54,7 @@ def low_pass(u: np.ndarray, frequency: float, order: int = 2, ratio: float = mat
 
 
 def cubic(u: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """u (N, 3) at fractional rows `at` (M,), by the cubic through the four nearest rows."""
+    """Return u (N, 3) at fractional rows `at` (M,), by the cubic through the four nearest rows."""
     i = np.clip(np.floor(at).astype(int), 1, len(u) - 3)
     s = (at - i)[:, None]
     a, b, c, d = u[i - 1], u[i], u[i + 1], u[i + 2]
@@ -67,19 +67,19 @@ def cubic(u: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def seconds_needed(sensor: Sensor, seconds: float) -> float:
-    """True time [s] that a record of `seconds` covers."""
+    """Return true time [s] that a record of `seconds` covers."""
     return true_time(sensor, np.array([seconds]))[0] + 0.005
 
 
 def true_time(sensor: Sensor, t: np.ndarray) -> np.ndarray:
-    """True time [s] of rows that the recorder dates t (N,) [s]."""
+    """Return true time [s] of rows that the recorder dates t (N,) [s]."""
     return sensor.clock * t + 0.5 * sensor.clock_bend * t * t
 
 
 def record(
     rates: np.ndarray, sensor: Sensor, seconds: float, rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The table that the recorder keeps: t (N,) [s] and rates (N, 3) [rad/s], of rates (M, 3) at FINE lines a second.
+    """Return the recorder's table, t (N,) [s] and rates (N, 3) [rad/s], of rates (M, 3) at FINE lines a second.
 
     Mounting, ringing of the mount, scale, low-pass, its own low-pass, clock, lost packets, bias and drift, noise,
     saturation, resolution.
@@ -104,7 +104,7 @@ def record(
 
 
 def _lose(u: np.ndarray, sensor: Sensor, rng: np.random.Generator) -> np.ndarray:
-    """Packets that come late: the rows of a packet repeat the packet before it."""
+    """Delay packets: the rows of a late packet repeat the packet before it."""
     out = u.copy()
     for first in range(sensor.packet, len(u) - sensor.packet + 1, sensor.packet):
         if rng.random() < sensor.lost_packets:

@@ -15,7 +15,7 @@ SECONDS = 5.0
 def simulate(
     world: World, tilt: float, turned: bool = False, seconds: float = SECONDS, step: float = STEP
 ) -> np.ndarray:
-    """Body rates (N, 3) [rad/s] at `recorder.FINE` lines a second of a block released at `tilt` [rad]."""
+    """Return body rates (N, 3) [rad/s] at `recorder.FINE` lines a second of a block released at `tilt` [rad]."""
     x, R, pivots = posture.stand(world, tilt, turned)
     q = posture.quaternion(R)
     w = world.kick.copy()

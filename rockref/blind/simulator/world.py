@@ -99,7 +99,7 @@ class World:
         self.g[G[name]] = value
 
     def factor(self, name: str) -> float:
-        """How much more than on the source's block is typical of this parameter of an effect, or of the effect."""
+        """Return how much more than on the source's block is typical of this effect, or of this parameter of it."""
         return self.factors.get(name, 1.0)
 
     def scale(self, column: str, factors: np.ndarray) -> None:
@@ -108,13 +108,13 @@ class World:
 
 
 def draw_parameters(rng: np.random.Generator, spread: float = 0.10) -> dict[str, float]:
-    """Table 3.1, off by `spread` (log-normal); delta_diag by half of it, theta_0 by a twenty-fifth."""
+    """Draw Table 3.1, off by `spread` (log-normal); delta_diag by half of it, theta_0 by a twenty-fifth."""
     own = {"delta_diag": spread / 2, "theta_0": spread / 25}
     return {name: value * float(np.exp(own.get(name, spread) * rng.normal())) for name, value in TABLE.items()}
 
 
 def build(p: dict[str, float], block: Block = SOURCE) -> World:
-    """The block with these parameters, on eight points."""
+    """Build the block with these parameters, on eight points."""
     half_w, half_h, w, h = block.width / 2, block.height / 2, block.width, block.height
     J = block.mass / 12 * np.diag([w**2 + h**2, w**2 + h**2, 2 * w**2])
     outer = np.column_stack([CORNERS * half_w, np.full(4, -half_h)])

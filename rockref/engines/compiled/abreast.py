@@ -27,8 +27,10 @@ steps: Any = None
 
 
 def workspace(n: int) -> tuple[np.ndarray, ...]:
-    """Arrays of lanes for a pack of runs with n points: body, centres, props, memory, forces, effects, state, attitude
-    at the start, what is heard, gains; each begins at a multiple of a register."""
+    """Return arrays of lanes for a pack of runs with n points, each from a multiple of a register on.
+
+    In order: body, centres, props, memory, forces, effects, state, attitude at the start, what is heard, gains.
+    """
     shapes = [
         (col.BODY,), (n, 3), (n, col.PROPS), (n, col.MEMORY), (n, 3), (slots.SLOTS,), (col.STATE,), (9,), (HEARD,),
         (2,),
@@ -42,13 +44,13 @@ def workspace(n: int) -> tuple[np.ndarray, ...]:
 
 
 def no_target(runs: int) -> tuple:
-    """What the loop takes from `which` to `ticks` for runs that do not listen."""
+    """Return what the loop takes from `which` to `ticks` for runs that do not listen."""
     empty = np.zeros((1, 1, 3)), np.zeros((1, 1, 3, 3)), np.zeros((1, 1, 4))
     return np.zeros(runs, np.int64), *empty, np.zeros((runs, 2)), 0, np.zeros((1, 1, 3))
 
 
 def no_rows(wanted: np.ndarray) -> tuple:
-    """What the loop takes from `all_wanted` to `written` for runs of which no rows are wanted."""
+    """Return what the loop takes from `all_wanted` to `written` for runs of which no rows are wanted."""
     empty = np.zeros((1, 1, col.STATE)), np.zeros((1, 1, 1, 3)), np.zeros((1, 1, 1, col.MEMORY))
     return wanted, False, *empty, np.zeros(len(wanted), np.int64)
 
@@ -62,7 +64,7 @@ def fill_lane(lane, source, target):
 
 @called
 def fill_lane_by_point(lane, source, target):
-    """The same for numbers by point."""
+    """Copy the numbers by point of one run into its lane."""
     for i in range(source.shape[0]):
         for j in range(source.shape[1]):
             target[i, j, lane] = source[i, j]
@@ -70,7 +72,7 @@ def fill_lane_by_point(lane, source, target):
 
 @called
 def lane_has_numbers(state, lane):
-    """Whether position, velocity and rates of one run are still finite."""
+    """Return whether position, velocity and rates of one run are still finite."""
     x, v = state[0, lane] + state[1, lane] + state[2, lane], state[3, lane] + state[4, lane] + state[5, lane]
     return math.isfinite(x + v + (state[15, lane] + state[16, lane] + state[17, lane]))
 
@@ -128,17 +130,17 @@ def hear(runs, k, cursor, which, rates, turns, heard, state, tick, ticks):
 
 
 def _make_loop(groups: int, lanes: int, source: int):
-    """The loop for packs of runs with these groups of effects; `lanes` and `source` only mark the stored code."""
+    """Make the loop for packs of runs with these groups of effects; `lanes` and `source` only mark the stored code."""
 
     def abreast(
         first, last, packs, bodies, all_centres, all_props, memories, all_forces, effects, states, h, samples,
         all_wanted, full, rows_state, rows_F, rows_memory, written, which, rates, turns, heard, all_gains, every, ticks,
         body_, centres_, props_, memory_, forces_, effects_, state_, released_, tick_, gains_, cursor,
     ):  # fmt: skip
-        """All steps of the packs `first` to `last`; plain runs where `every` is 0, else ticks of listening ones.
+        """Run all steps of the packs `first` to `last`; plain runs where `every` is 0, else ticks of listening ones.
 
         packs : (packs, LANES) the runs of each, the last one again where there are fewer.  From `bodies` to `written`
-        as in `rockref.engines.compiled.kernel`; from `which` on as in `rockref.engines.listening.Listening`, with gains
+        as in `rockref.engines.compiled.kernel`; from `which` on as in `rockref.engines.heard.Listening`, with gains
         (B, 2) and ticks (B, K, 3), rows without numbers stay as they are.  The rest: see `workspace`;
         cursor : (LANES,) the next row of each run.
         """

@@ -22,7 +22,7 @@ SURELY = 1 - 1e-12
 
 @inlined
 def length(x, y):
-    """Length of a plane vector, small ones with care."""
+    """Return length of a plane vector, small ones with care."""
     squares = x * x + y * y
     size = math.sqrt(squares)
     small = squares < SMALL
@@ -35,7 +35,7 @@ def length(x, y):
 
 @inlined
 def altered(on, e, force, xi, xi_rate, props, i, memory, above):
-    """Spring and damper with the effects on the normal force, in the order of the step."""
+    """Return spring and damper with the effects on the normal force, in the order of the step."""
     K, C = props[i, col.K_N], props[i, col.C_N]
     if on.hertz:
         reference = e[slots.HERTZ + 2]
@@ -63,7 +63,7 @@ def altered(on, e, force, xi, xi_rate, props, i, memory, above):
 
 @inlined
 def oriented(e, force, xi_rate, props, i, rx, ry, rz):
-    """The force with the damper that depends on how its corner is turned, which comes after all of `altered`."""
+    """Return the force with the damper that depends on how its corner is turned, which comes after all of `altered`."""
     z = rz + props[i, col.RADIUS]
     squares = rx * rx + ry * ry + z * z
     tip = max(1.5 * (z * z / choose(squares > 0.0, squares, 1.0)) - 0.5, 0.0)
@@ -72,7 +72,7 @@ def oriented(e, force, xi_rate, props, i, rx, ry, rz):
 
 @inlined
 def altered_friction(on, e, mu_0, mu, v_x, v_y, F_N):
-    """Both friction coefficients with the effects on them, in the order of the step."""
+    """Return both friction coefficients with the effects on them, in the order of the step."""
     if on.stribeck:
         relative = math.sqrt(v_x * v_x + v_y * v_y) / e[slots.STRIBECK + 2]
         factor = 1 + (e[slots.STRIBECK + 1] - 1) * math.exp(-(relative * relative))
@@ -86,7 +86,7 @@ def altered_friction(on, e, mu_0, mu, v_x, v_y, F_N):
 
 @inlined
 def surely_held(on, e, mu, F_N):
-    """A friction force [N] below which a point sticks whatever its altered coefficient is, and with `mu` itself too.
+    """Return the friction force [N] below which a point sticks, whatever its altered coefficient is, also with `mu`.
 
     exp and power cost more than all the rest of a point, and most points are far from sliding. The factor of Stribeck
     is at least the smaller of 1 and its ratio; that of the load, whose exponent is between -1 and 1, at least

@@ -15,7 +15,7 @@ RATES, TURN, FACTORS = 0, 3, 12
 
 @inlined
 def observed_row(r0, r1, r2, tick):
-    """A row of the attitude at the start times the observed turn."""
+    """Return a row of the attitude at the start times the observed turn."""
     return (
         r0 * tick[3] + r1 * tick[6] + r2 * tick[9],
         r0 * tick[4] + r1 * tick[7] + r2 * tick[10],
@@ -25,7 +25,7 @@ def observed_row(r0, r1, r2, tick):
 
 @inlined
 def attitude_correction(state, released, tick, gain):
-    """The rotation vector that takes a share of the way to the observed attitude."""
+    """Return the rotation vector that takes a share of the way to the observed attitude."""
     L0, L1, L2, L3, L4, L5 = state[6], state[7], state[8], state[9], state[10], state[11]
     L6, L7, L8 = state[12], state[13], state[14]
     O0, O1, O2 = observed_row(released[0], released[1], released[2], tick)
@@ -40,7 +40,7 @@ def attitude_correction(state, released, tick, gain):
 
 @inlined
 def move_anchors(centres, props, memory, state, carries, turn, place):
-    """The anchors of touching points move with their feet, which turn about the loaded place."""
+    """Move the anchors of touching points with their feet, which turn about the loaded place."""
     (t0, t1, t2), (p0, p1, p2) = turn, place
     for i in range(centres.shape[0]):
         moves = both(memory[i, col.ANCHORED] != 0.0, carries)
@@ -56,7 +56,7 @@ def move_anchors(centres, props, memory, state, carries, turn, place):
 
 @inlined
 def to_plate(state, a, b, c):
-    """Lambda times a vector in body axes."""
+    """Multiply Lambda by a vector in body axes."""
     return (
         state[6] * a + state[7] * b + state[8] * c,
         state[9] * a + state[10] * b + state[11] * c,
@@ -66,7 +66,7 @@ def to_plate(state, a, b, c):
 
 @inlined
 def move_back(state, at, carries, c0, c1, c2, p0, p1, p2):
-    """Less c x p, from column `at` of the state on."""
+    """Subtract c x p, from column `at` of the state on."""
     v0, v1, v2 = state[at], state[at + 1], state[at + 2]
     state[at] = choose(carries, v0 - (c1 * p2 - c2 * p1), v0)
     state[at + 1] = choose(carries, v1 - (c2 * p0 - c0 * p2), v1)

@@ -12,7 +12,7 @@ from rockref.engines.compiled.points import of_foot, pulled, pushed, roll_moment
 
 
 def make_evaluation(groups: int, bearing: int):
-    """The evaluation with these groups of effects; what belongs to the others is not compiled.
+    """Make the evaluation with these groups of effects; what belongs to the others is not compiled.
 
     bearing : whether it also sums normal forces and their lever arms, which the correction of a listening run needs.
     """
@@ -23,9 +23,10 @@ def make_evaluation(groups: int, bearing: int):
         body, centres, props, memory, forces, e, on, timed, shaking, sunk,
         x0, x1, x2, v0, v1, v2, L0, L1, L2, L3, L4, L5, L6, L7, L8, W0, W1, W2, turn,
     ):  # fmt: skip
-        """Acceleration (3), body moment (3), force and moment on the plate at one pose, and the sums of the normal
-        forces and of normal force times lever arm (4); forces and memories are written. shaking : acceleration of
-        the plate (3);  sunk : its q, q_rate, pitch, pitch_rate.
+        """Return acceleration (3), body moment (3), force and moment on the plate at one pose, sums over points.
+
+        The sums are of the normal forces and of normal force times lever arm (4); forces and memories are written.
+        shaking : acceleration of the plate (3);  sunk : its q, q_rate, pitch, pitch_rate.
 
         Points above the plate are passed over: their forces are zero, and adding zero changes no bit.
         """

@@ -25,19 +25,19 @@ steps: Any = None
 
 @inlined
 def has_numbers(state):
-    """Whether position, velocity and rates are still finite."""
+    """Return whether position, velocity and rates are still finite."""
     x, v, W = state[0] + state[1] + state[2], state[3] + state[4] + state[5], state[15] + state[16] + state[17]
     return math.isfinite(x + v + W)
 
 
 def _make_loop(groups: int, source: int):
-    """The loop for runs with these groups of effects; `source` only marks the stored code."""
+    """Make the loop for runs with these groups of effects; `source` only marks the stored code."""
 
     def loop(
         first, last, bodies, all_centres, all_props, memories, all_forces, effects, states, h, samples, all_wanted,
         full, all_rows_state, all_rows_F, all_rows_memory, written,
     ):  # fmt: skip
-        """All steps of the runs `first` to `last` of a batch; rows are written at the step numbers `wanted`, and none
+        """Step the runs `first` to `last` of a batch to their ends; rows are written at the numbers `wanted`, and none
         from a negative one on.
 
         all_centres : contact points, raised by their radius.  samples : (N, 3) of the plate's motion.
@@ -85,11 +85,11 @@ LOOPS = {groups: _make_variant(groups) for groups in slots.VARIANTS}
 
 
 def variant_for(effects) -> int:
-    """The groups of the variant for runs with these numbers of effects, (..., SLOTS): no more than they need."""
+    """Return the groups of the variant for runs with these numbers of effects, (..., SLOTS): no more than they need."""
     needed = sum(group for group, at in slots.GROUPS.items() if effects[..., at].any())
     return needed if needed in slots.VARIANTS else slots.ALL
 
 
 def loop_for(effects):
-    """The loop for runs with these numbers of effects, (..., SLOTS)."""
+    """Return the loop for runs with these numbers of effects, (..., SLOTS)."""
     return LOOPS[variant_for(effects)]

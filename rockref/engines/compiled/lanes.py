@@ -24,7 +24,7 @@ from numba.extending import intrinsic, lower_builtin, lower_cast, models, regist
 
 
 def _width() -> int:
-    """Doubles in a vector register of this processor; four where it has narrower ones: the compiler pairs them."""
+    """Return how many doubles a vector register holds; four where it holds fewer: the compiler pairs them."""
     features = binding.get_host_cpu_features()
     return 8 if features.get("avx512f") else 4
 
@@ -43,11 +43,11 @@ class Lanes(types.Type):
         super().__init__(name=f"lanes{LANES}")
 
     def can_convert_from(self, typingctx: Any, other: Any) -> Any:
-        """A plain number is the same in every lane."""
+        """Say that a plain number is the same in every lane."""
         return Conversion.safe if isinstance(other, _NUMBERS) else None
 
     def unify(self, typingctx: Any, other: Any) -> Any:
-        """A variable that holds a plain number and lanes holds lanes."""
+        """Make lanes of a variable that holds a plain number and lanes."""
         return self if isinstance(other, _NUMBERS) else None
 
 
@@ -74,32 +74,32 @@ class _MaskModel(models.PrimitiveModel):
 
 
 def choose(truth, yes, no):
-    """`yes` where it is true, `no` elsewhere; both are computed."""
+    """Choose `yes` where it is true, `no` elsewhere; both are computed."""
     return yes if truth else no
 
 
 def anyof(truth):
-    """Whether it is true in any lane."""
+    """Return whether it is true in any lane."""
     return bool(truth)
 
 
 def both(a, b):
-    """Whether both are true, lane by lane."""
+    """Return whether both are true, lane by lane."""
     return bool(a) and bool(b)
 
 
 def negated(truth):
-    """Whether it is not true, lane by lane."""
+    """Return whether it is not true, lane by lane."""
     return not truth
 
 
 def whole(number):
-    """The largest whole number that is not above it, as a float."""
+    """Return the largest whole number that is not above it, as a float."""
     return float(math.floor(number))
 
 
 def entry(table, row, column):
-    """The entry of a table (n, m) of numbers in a row that is given as a float; each lane has a row of its own."""
+    """Return the entry of a table (n, m) of numbers in a row that is given as a float, for each lane its own."""
     return table[int(row), column]
 
 
@@ -122,7 +122,7 @@ def _is_number(kind: Any) -> bool:
 
 
 def _two_to(result: Any) -> Callable[..., Any]:
-    """Of two numbers, at least one of them lanes."""
+    """Give the type of an operation on two numbers, at least one of them lanes."""
 
     def typer(*args: Any) -> Any:
         if len(args) == 2 and all(map(_is_number, args)) and any(isinstance(a, Lanes) for a in args):
@@ -179,7 +179,7 @@ _one(abs, _of_llvm("fabs"))
 
 
 def _lane_by_lane(function: Any, n: int) -> None:
-    """A function that has no twin with the same bits in vectors is called once for each lane."""
+    """Call a function that has no twin with the same bits in vectors once for each lane."""
     scalar = signature(types.float64, *[types.float64] * n)
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
@@ -271,7 +271,7 @@ for _kinds in [(Mask, Lanes, Lanes), (types.Boolean, Lanes, Lanes), (types.Boole
 
 
 def _truths(function: Any, n: int, emit: Callable[..., Any]) -> None:
-    """A function of truths to truths, of one run or of lanes."""
+    """Make a function of truths to truths, of one run or of lanes."""
 
     def typer(*args: Any) -> Any:
         kind = mask if all(isinstance(a, Mask) for a in args) else types.boolean
@@ -301,7 +301,7 @@ def _any_lane(context: Any, builder: Any, sig: Any, args: Any) -> Any:
 
 
 def _as_lanes(typingctx, numbers):
-    """The array (..., LANES) of numbers as an array (...) of lanes, in the same memory.
+    """Return the array (..., LANES) of numbers as an array (...) of lanes, in the same memory.
 
     It holds no reference: the array of numbers has to live longer. It need not begin at a multiple of a register.
     """

@@ -12,7 +12,7 @@ from rockref.engines.compiled.lanes import anyof, both, choose, entry, negated, 
 
 @inlined
 def of_time(on, e, t):
-    """What of the loads depends on the time alone: pull of the wire [N], cosine of the vibration."""
+    """Return what of the loads depends on the time alone: pull of the wire [N], cosine of the vibration."""
     pull = cosine = 0.0
     if on.wire:
         even = e[slots.WIRE + 4]
@@ -30,7 +30,7 @@ def of_time(on, e, t):
 
 @inlined
 def plate_acceleration(e, samples, t):
-    """Acceleration of the plate (3), as `rockref.model.base_motion`; samples (N, 3), of all records in turn."""
+    """Return acceleration of the plate (3), as `rockref.model.base_motion`; samples (N, 3), of all records in turn."""
     place, last = (t - e[slots.BASE + 1]) / e[slots.BASE + 2], e[slots.BASE + 3]
     inside = both(place >= 0.0, place <= last)
     k = choose(inside, whole(place), 0.0)
@@ -46,7 +46,7 @@ def plate_acceleration(e, samples, t):
 
 @inlined
 def resistance(on, e, v0, v1, v2, ox, oy, oz):
-    """What the drag multiplies the velocity of the centre and the rates with."""
+    """Return what the drag multiplies the velocity of the centre and the rates with."""
     moving = turning = 0.0
     if on.drag:
         turning = -e[slots.DRAG + 1] * math.sqrt(ox * ox + oy * oy + oz * oz)
@@ -56,7 +56,7 @@ def resistance(on, e, v0, v1, v2, ox, oy, oz):
 
 @inlined
 def add_loads(on, e, load, timed, resisting, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz):
-    """Force and moment (6) with drag, cable, wire, vibration and tilt, in the order of the step."""
+    """Return force and moment (6) with drag, cable, wire, vibration and tilt, in the order of the step."""
     Fx, Fy, Fz, Mx, My, Mz = load
     (pull, cosine), (moving, turning) = timed, resisting
     if on.drag:
@@ -96,7 +96,7 @@ def add_loads(on, e, load, timed, resisting, mass, g, x0, x1, v0, v1, v2, L2, L5
 
 @inlined
 def advance_support(e, weight, h, carried, turning, plate):
-    """The plate on its spring, one step on: q, q_rate, pitch, pitch_rate."""
+    """Move the plate on its spring one step on: q, q_rate, pitch, pitch_rate."""
     k, (q, q_rate, pitch, pitch_rate) = slots.SUPPORT, plate
     q_rate = q_rate + h * ((weight - carried) - e[k + 2] * q - e[k + 3] * q_rate) / e[k + 1]
     q = q + h * q_rate

@@ -19,7 +19,7 @@ ARM = 0.05
 
 @inlined
 def pulled(sums, e, height, rx, ry):
-    """Adhesion: force along z and moments about x and y, with the pull of one point at this height [m] added."""
+    """Return the adhesion: force along z and moments about x and y, the pull of one point at this height [m] added."""
     z, mx, my = sums
     pull = e[slots.ADHESION + 1]
     pull = choose(height > 0.0, pull * max(1 + -height / e[slots.ADHESION + 2], 0.0), pull)
@@ -28,14 +28,14 @@ def pulled(sums, e, height, rx, ry):
 
 @inlined
 def pushed(sums, px, py, rx, ry, rz):
-    """Force in the plate (2) and moment (3), with those of one point added: viscous friction, uneven normals."""
+    """Return force in the plate (2) and moment (3), with those of one point added: viscous friction, uneven normals."""
     x, y, mx, my, mz = sums
     return x + px, y + py, mx - rz * py, my + rz * px, mz + (rx * py - ry * px)
 
 
 @inlined
 def of_foot(e, first, foot):
-    """The number of one of the four feet, of which the first stands at `first` and each next one two further."""
+    """Return the number of one of the four feet, of which the first stands at `first` and each next one two further."""
     return choose(
         foot < 2.5, choose(foot < 1.5, e[first], e[first + 2]), choose(foot < 3.5, e[first + 4], e[first + 6])
     )
@@ -43,7 +43,7 @@ def of_foot(e, first, foot):
 
 @inlined
 def spin_moment(e, props, memory, i, F_N, vx, vy, oz, turn2, above):
-    """Moment about the vertical of a touching point; its yaw moves on."""
+    """Return the moment about the vertical of a touching point; its yaw moves on."""
     radius, share = e[slots.SPIN + 1], e[slots.SPIN + 2]
     square = radius * radius
     K, C = props[i, col.K_T] * square, props[i, col.C_T] * square
@@ -65,7 +65,7 @@ def spin_moment(e, props, memory, i, F_N, vx, vy, oz, turn2, above):
 
 @inlined
 def roll_moment(e, props, memory, i, F_N, ox, oy, turn0, turn1, above):
-    """Moments about x and y of a touching point; the moments that its springs hold move on."""
+    """Return moments about x and y of a touching point; the moments that its springs hold move on."""
     lever = e[slots.ROLLING + 1]
     size = lever * ARM
     K, C = props[i, col.K_N] * size, props[i, col.C_N] * size

@@ -27,13 +27,13 @@ steps: Any = None
 
 
 def _make_loop(groups: int, lanes: int, source: int):
-    """The loop for runs with these groups of effects; `lanes` and `source` only mark the stored code."""
+    """Make the loop for runs with these groups of effects; `lanes` and `source` only mark the stored code."""
 
     def shaken(
         queue, bodies, all_centres, all_props, memories, all_forces, effects, states, h, samples, limits, every,
         ticks, quiet, found, body_, centres_, props_, memory_, forces_, effects_, state_, foot, kept, cursor,
     ):  # fmt: skip
-        """All runs of the queue; found (B, FOUND) is written.
+        """Run all runs of the queue; found (B, FOUND) is written.
 
         every : steps from tick to tick.  ticks, quiet : (B,) how many ticks a run has, and after which rest counts.
         cursor : (LANES,) the run of each lane, -1 where it has none.  States have their accelerations given.

@@ -14,7 +14,7 @@ PYTHON_ONLY = frozenset(("ahead.py", "batch.py", "engine.py", "pack.py"))
 
 
 def fingerprint() -> int:
-    """63 bits of the SHA-256 of this folder's Python files, but for those of PYTHON_ONLY."""
+    """Return 63 bits of the SHA-256 of this folder's Python files, but for those of PYTHON_ONLY."""
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parent.glob("*.py")):
         if path.name not in PYTHON_ONLY:

@@ -13,7 +13,7 @@ from rockref.engines.compiled.loads import advance_support, of_time, plate_accel
 
 @inlined
 def times(body, at, x, y, z):
-    """J or J^-1, which stand in `body` from column `at`, times a vector."""
+    """Multiply J or J^-1, which stand in `body` from column `at`, by a vector."""
     principal = body[col.PRINCIPAL] != 0.0
     a, b, c = body[at] * x, body[at + 4] * y, body[at + 8] * z
     if anyof(negated(principal)):
@@ -34,7 +34,7 @@ def _long_series(t):
 
 @inlined
 def series(t):
-    """sin(theta)/theta and (1 - cos(theta))/theta^2 from t = theta^2, as `rotation.series_coefficients`."""
+    """Return sin(theta)/theta and (1 - cos(theta))/theta^2 from t = theta^2, as `rotation.series_coefficients`."""
     s = 1.0 - t * 1.0 * (1.0 / 42.0)
     s = 1.0 - t * s * (1.0 / 20.0)
     s = 1.0 - t * s * (1.0 / 6.0)
@@ -51,7 +51,7 @@ def series(t):
 
 @inlined
 def exp_minus_identity(x, y, z):
-    """exp(hat(Theta)) - I for Theta = (x, y, z), nine numbers, as `rotation.exp_minus_identity`."""
+    """Return exp(hat(Theta)) - I for Theta = (x, y, z), nine numbers, as `rotation.exp_minus_identity`."""
     xx, yy, zz = x * x, y * y, z * z
     s, c = series(xx + yy + zz)
     sx, sy, sz = s * x, s * y, s * z
@@ -61,7 +61,7 @@ def exp_minus_identity(x, y, z):
 
 @inlined
 def turned(m0, m1, m2, E):
-    """The row m (I + E)."""
+    """Return the row m (I + E)."""
     E0, E1, E2, E3, E4, E5, E6, E7, E8 = E
     return (
         m0 + (m0 * E0 + m1 * E3 + m2 * E6),
@@ -72,7 +72,7 @@ def turned(m0, m1, m2, E):
 
 @inlined
 def switches(e):
-    """Which effects are on, from their numbers (SLOTS,)."""
+    """Return which effects are on, from their numbers (SLOTS,)."""
     return slots.Switches(
         e[slots.HERTZ] != 0.0, e[slots.HYSTERESIS] != 0.0, e[slots.HUNT] != 0.0, e[slots.ORIENTATION] != 0.0,
         e[slots.STRIBECK] != 0.0, e[slots.LOAD] != 0.0, e[slots.ADHESION] != 0.0, e[slots.VISCOUS] != 0.0,
@@ -84,17 +84,17 @@ def switches(e):
 
 @inlined
 def plate_of(state):
-    """q, q_rate, pitch and pitch_rate of the plate."""
+    """Return q, q_rate, pitch and pitch_rate of the plate."""
     return state[col.Q], state[col.Q_RATE], state[col.PITCH], state[col.PITCH_RATE]
 
 
 def make_begin(groups: int, evaluate):
-    """The first force evaluation of a run with these groups of effects."""
+    """Make the first force evaluation of a run with these groups of effects."""
 
     shaken = groups & slots.SHAKEN
 
     def begin(body, centres, props, memory, forces, e, on, samples, s):
-        """Writes a and T into the state at the start, and forces and memories."""
+        """Write a and T into the state at the start, and forces and memories."""
         for i in range(centres.shape[0]):
             for j in range(3):
                 forces[i, j] = 0.0
@@ -117,7 +117,7 @@ def make_begin(groups: int, evaluate):
 
 
 def make_steps(groups: int, evaluate, bearing: int):
-    """The steps of runs with these groups of effects; `bearing` as in `make_evaluation`."""
+    """Make the steps of runs with these groups of effects; `bearing` as in `make_evaluation`."""
     loads, plate, shaken = groups & slots.LOADS, groups & slots.PLATE, groups & slots.SHAKEN
 
     def steps(number, body, centres, props, memory, forces, e, on, h, samples, state):

@@ -34,7 +34,7 @@ WILD = 5.0
 
 
 def burst_samples(x: np.ndarray, least: float) -> np.ndarray:
-    """Which samples, (N,) bool, of one rate x (N,) rad/s leap away by `least` rad/s and back within nine samples."""
+    """Return which samples, (N,) bool, of a rate x (N,) rad/s leap by `least` rad/s and back within nine samples."""
     leaps = np.diff(x)
     size = np.abs(leaps)
     out = np.zeros(len(x), dtype=bool)
@@ -51,7 +51,7 @@ def burst_samples(x: np.ndarray, least: float) -> np.ndarray:
 
 
 def burst_at_ends(x: np.ndarray, least: float) -> np.ndarray:
-    """Which samples, (N,) bool, of one rate x (N,) rad/s before or after the motion stand off it by `least` rad/s."""
+    """Return which samples, (N,) bool, of a rate x (N,) rad/s before or after the motion are off by `least` rad/s."""
     out = np.zeros(len(x), dtype=bool)
     for seen, marks in ((x, out), (x[::-1], out[::-1])):
         leaps = np.abs(np.diff(seen[: 2 * LONGEST + 1]))

@@ -35,7 +35,7 @@ EVEN_SHARE = 0.9
 
 
 def repeats(x: np.ndarray) -> np.ndarray:
-    """Which samples of x (N,) have the value of the one before, (N,) bool."""
+    """Return which samples of x (N,) have the value of the one before, (N,) bool."""
     return np.concatenate(([False], x[1:] == x[:-1]))
 
 
@@ -99,7 +99,7 @@ def _together(found: dict[tuple[int, ...], list[tuple[int, int]]]) -> dict[tuple
 
 
 def _is_dropout(signal: Signal, axes: tuple[int, ...], begin: int, end: int, chance: float) -> bool:
-    """Whether values that stand still from row `begin` to `end` are a fault: neither chance nor a block at rest."""
+    """Return whether values still from row `begin` to `end` are a fault: neither chance nor a block at rest."""
     crv, least = signal.crv, MOVES * signal.rate
     near = slice(max(begin - 1, 0), end + 2)
     moves = float(np.ptp(crv[near], axis=0).max()) > least or float(np.abs(crv[begin]).max()) > least
@@ -119,7 +119,7 @@ def _is_dropout(signal: Signal, axes: tuple[int, ...], begin: int, end: int, cha
 
 
 def _stands_off(signal: Signal, axis: int, begin: int, end: int) -> bool:
-    """Whether a value that is held from row `begin` to `end`, for longer than a burst, is off the motion around it."""
+    """Return whether a value held from row `begin` to `end`, for longer than a burst, is off the motion around it."""
     x, gyro = signal.crv[:, axis], signal.gyro
     if begin < 1 or end + 1 >= len(x) or end - begin < LONGEST_HOLD:
         return False

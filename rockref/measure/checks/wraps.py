@@ -37,7 +37,7 @@ def check_wraps(signal: Signal) -> None:
 
 
 def _between_ends(x: np.ndarray, rows: np.ndarray, span: float) -> bool:
-    """Whether all leaps of x (N,) after `rows` go from near one end of a range `span` to near the other.
+    """Return whether all leaps of x (N,) after `rows` go from near one end of a range `span` to near the other.
 
     The middle of the range is zero, or, where a value stays beyond for longer than a burst, the middle of the values:
     numbers without a sign begin at their own zero.
@@ -55,7 +55,7 @@ def _between_ends(x: np.ndarray, rows: np.ndarray, span: float) -> bool:
 
 
 def _goes_on(x: np.ndarray, rows: np.ndarray, leaps: np.ndarray, span: float) -> bool:
-    """Whether the rate x (N,) goes on as before once its leaps by `span` after `rows` are taken back."""
+    """Return whether the rate x (N,) goes on as before once its leaps by `span` after `rows` are taken back."""
     turns = np.zeros(len(x))
     turns[rows + 1] = -np.sign(leaps[rows])
     whole = x + span * np.cumsum(turns)

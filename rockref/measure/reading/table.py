@@ -62,7 +62,7 @@ class Table:
 
     @property
     def rows(self) -> int:
-        """Number of rows below the header."""
+        """Return number of rows below the header."""
         return len(next(iter(self.columns.values())))
 
 
@@ -183,7 +183,7 @@ def _lines(count: int) -> str:
 
 
 def _is_text(line: str) -> bool:
-    """Whether a line begins with a word or with a sign of remarks, and holds not a row of numbers."""
+    """Return whether a line begins with a word or with a sign of remarks, and holds not a row of numbers."""
     return bool(_TEXT.match(line)) and sum(map(is_number, split_line(line[:MAX_LINE], ","))) < 2
 
 

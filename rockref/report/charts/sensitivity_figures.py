@@ -58,7 +58,7 @@ def family_figure(f: Family, title: str) -> Any:
 
 
 def _drawn(f: Family) -> list[int]:
-    """Reference and two more: of many, the last two."""
+    """Choose what is drawn: the reference and two more, of many the last two."""
     return list(range(len(f.labels))) if len(f.labels) <= CURVES + 1 else [0, len(f.labels) - 2, len(f.labels) - 1]
 
 

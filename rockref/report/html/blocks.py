@@ -189,7 +189,7 @@ def named_views(impacts: Impacts, end: float) -> list[tuple[str, float, float]]:
 
 
 def extremes_table(c: Comparison, k: int) -> Table:
-    """The numbers of a set of curves: smallest, largest and quadratic mean by stretch."""
+    """Return the numbers of a set of curves: smallest, largest and quadratic mean by stretch."""
     m = c.measured[k]
     assert m.run.t is not None and m.run.crv is not None
     series = [("measured", m.run.crv), *((n, c.results[i][k].modelled) for i, n in enumerate(c.names))]

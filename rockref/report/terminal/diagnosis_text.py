@@ -27,7 +27,7 @@ MEANINGS = {
 
 
 def sentence_of(d: dict[str, Any]) -> str:
-    """The verdict in a sentence."""
+    """Return the verdict in a sentence."""
     return d.get("sentence") or MEANINGS.get(d["verdict"], d["verdict"])
 
 
@@ -41,7 +41,7 @@ PARITY_WORDS = {
 
 
 def looks_like(d: dict[str, Any]) -> str:
-    """What the misfit looks like, in a sentence, for a reader who has to think of a cause himself."""
+    """Return what the misfit looks like, in a sentence, for a reader who has to think of a cause himself."""
     s = d["signature"]
     parts = [f"about the {s['axis']} axis"]
     if shares := s.get("stretch_shares"):
@@ -150,7 +150,7 @@ def error_lines(d: dict[str, Any]) -> list[str]:
 
 
 def careful(d: dict[str, Any]) -> list[str]:
-    """What the gates say that the fit did not pass; that of the bounds stands with the sizes, where there are any."""
+    """Return what failed gates say; that of the bounds stands with the sizes, where there are any."""
     missed = {
         name: gate["sentence"]
         for name, gate in d["gates"].items()
@@ -162,18 +162,18 @@ def careful(d: dict[str, Any]) -> list[str]:
 
 
 def gates_rows(d: dict[str, Any]) -> list[list[str]]:
-    """The checks before the verdict and those of the fit behind it, each with what was found, in words."""
+    """Return the checks before the verdict and those of the fit behind it, each with what was found, in words."""
     words = {"passed": "a verdict is given"}
     return [[words.get(key, key.replace("_", " ")), in_words(value)] for key, value in d["gates"].items()]
 
 
 def effect_words(id: str) -> str:
-    """The physics of an effect in a sentence."""
+    """Return the physics of an effect in a sentence."""
     return catalogue.EFFECTS[id].sentence if id in catalogue.EFFECTS else "an effect of the user's own."
 
 
 def errors_table(d: dict[str, Any]) -> Table:
-    """The error before and after, on fit and holdout runs, beside the noise floor."""
+    """Return the error before and after, on fit and holdout runs, beside the noise floor."""
     e = d["error"]
     floor = e["noise_floor"]
     rows = []
@@ -203,7 +203,7 @@ def closed(e: dict[str, Any], use: str, floor: float) -> str:
 
 
 def amplitudes_table(d: dict[str, Any]) -> Table:
-    """How large the effects are, with intervals."""
+    """Return how large the effects are, with intervals."""
     rows = []
     for name, a in d["amplitudes"].items():
         unit = "" if a["unit"] == "1" else a["unit"]
@@ -216,12 +216,12 @@ def amplitudes_table(d: dict[str, Any]) -> Table:
 
 
 def number(value: float | None) -> str:
-    """A number with four figures; infinite (None in the record) as a sign."""
+    """Return a number with four figures; infinite (None in the record) as a sign."""
     return "∞" if value is None else quantity(value)
 
 
 def ranking_table(d: dict[str, Any]) -> Table:
-    """The candidates, best first."""
+    """Return the candidates, best first."""
     rows = [
         [
             r["effect"],
@@ -239,7 +239,7 @@ def ranking_table(d: dict[str, Any]) -> Table:
 
 
 def limits_table(d: dict[str, Any]) -> Table:
-    """How large an effect could have been without being seen."""
+    """Return how large an effect could have been without being seen."""
     rows = [
         [name, quantity(row["value"]), "" if row["unit"] == "1" else row["unit"]]
         for name, row in d["detection_limits"].items()
@@ -256,7 +256,7 @@ ALIKE = 0.9
 
 
 def confusion_table(d: dict[str, Any]) -> Table:
-    """The pairs of candidates that these runs hardly tell apart."""
+    """Return the pairs of candidates that these runs hardly tell apart."""
     pairs = [
         (value, a, b)
         for a, row in d["confusion"].items()
@@ -286,7 +286,7 @@ SIGNATURE_WORDS = {
 
 
 def signature_table(d: dict[str, Any]) -> Table:
-    """What the misfit of the baseline looks like."""
+    """Return what the misfit of the baseline looks like."""
     rows = []
     for key, value in d["signature"].items():
         if value is None:
@@ -297,7 +297,7 @@ def signature_table(d: dict[str, Any]) -> Table:
 
 
 def in_words(value: Any) -> str:
-    """A value of the record in a few words."""
+    """Return a value of the record in a few words."""
     if isinstance(value, dict) and "sentence" in value:
         return value["sentence"] if value.get("passed", True) else f"Not passed. {value['sentence']}"
     if isinstance(value, dict):

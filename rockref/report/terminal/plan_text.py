@@ -34,7 +34,7 @@ def print_plan(console: Console, p: Plan, full: bool = False) -> None:
 
 
 def sentences(p: Plan) -> list[str]:
-    """The plan in a few sentences: what would show, repeats against varied releases, and the next run."""
+    """Return the plan in a few sentences: what would show, repeats against varied releases, and the next run."""
     o, best, versus = p.outlook, p.further[0], p.comparison()
     unseen = o.undetectable()
     found = [
@@ -90,7 +90,7 @@ def confusion_lines(p: Plan) -> list[str]:
 
 
 def limits_table(p: Plan) -> Table:
-    """Smallest amplitude that would be seen, effect by effect, with repeats and with varied releases."""
+    """Return smallest amplitude that would be seen, effect by effect, with repeats and with varied releases."""
     rows = []
     for name, limit in p.outlook.limits.items():
         unit = "" if limit["unit"] == "1" else limit["unit"]
@@ -102,13 +102,13 @@ def limits_table(p: Plan) -> Table:
 
 
 def confusion_table(p: Plan) -> Table:
-    """Pairs that would not be told apart."""
+    """Return pairs that would not be told apart."""
     rows = [[a, b, f"{c:.3f}"] for a, b, c in p.outlook.confused()]
     return Table("Not told apart by these runs", ("effect", "and", "cosine"), rows)
 
 
 def further_table(p: Plan) -> Table:
-    """What one more run would bring."""
+    """Return what one more run would bring."""
     rows = [
         [
             f["run"] + (" (a repeat)" if f["repeat"] else ""),
