@@ -30,6 +30,10 @@ What `import rockref` gives, written from the code by `docs/make_reference.py`. 
 units throughout; a leading `...` in a shape stands for axes of a batch. Further functions are imported from where they
 live ([the house](../explanation/house.md) has the folders): their docstrings say shapes, units and errors in the same
 way.
+
+A model, a problem, its block, points and start, a response, an experiment and an ensemble show themselves: in a line
+(`repr`), in words (`summary()`), in a table where a notebook shows them, and all but a start as a Matplotlib figure
+(`plot()`).
 """
 
 

@@ -7,6 +7,7 @@ from rockref.api import Model, simulate
 from rockref.model.errors import InputError, NumericalError, RockrefError
 from rockref.model.problem import Block, ContactPoints, Problem, State
 from rockref.model.response import Response
+from rockref.model.shown import draw_with
 
 __version__ = "0.1.0"
 __all__ = [
@@ -38,6 +39,14 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'rockref' has no attribute {name!r}")
     # By its name: the verbs import every folder, and every folder may ask this module for its version.
     return getattr(import_module("rockref.verbs"), name)
+
+
+def _drawn(thing: Any) -> Any:
+    """Return the picture of a thing; what draws is loaded now, and no folder of the house asks for it."""
+    return import_module("rockref.report.charts.pictures").picture(thing)
+
+
+draw_with(_drawn)
 
 
 def __dir__() -> list[str]:

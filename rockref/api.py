@@ -30,6 +30,7 @@ from rockref.model.parameters import BLOCK, GENES_12, PROPERTIES, Parameters, ch
 from rockref.model.problem import GRAVITY, Block, ContactPoints, Problem, State
 from rockref.model.release import check_tilt, release_posture
 from rockref.model.response import Response
+from rockref.model.shown import Shown
 from rockref.model.simulate import check_names, check_points
 from rockref.model.standing import standing_posture
 
@@ -48,7 +49,7 @@ def _same(a: Any, b: Any) -> bool:
 
 
 @dataclass(frozen=True)
-class Model:
+class Model(Shown):
     """A block, its contact points, their parameters and the effects added to the law.
 
     mass [kg]; width, depth, height along X, Y, Z [m]; g [m/s2]; parameters: the twelve of Table 3.1
@@ -98,18 +99,19 @@ class Model:
         sides = f"{self.width} x {self.depth} x {self.height} m"
         return f"<Model: {self.mass} kg, {sides}, {self.points}, {effects}>"
 
+    def facts(self) -> dict[str, str]:
+        """Return block, points, acting parameters and effects, in words, for the table of a notebook."""
+        sides = f"{self.width:g} x {self.depth:g} x {self.height:g} m"
+        numbers = {key: self.parameters.in_words(key) for key in self.acting_parameters()}
+        effects = "; ".join(f"{e.id}: {', '.join(f'{k} {v}' for k, v in e.values().items())}" for e in self.effects)
+        return {"mass": f"{self.mass:g} kg", "sides": sides, "points": self.points, **numbers,
+                "effects": effects or "none"}  # fmt: skip
+
     def summary(self) -> str:
         """Return block, parameters and effects, a line each, as one would put them in an e-mail."""
-        numbers = [f"{key} {value:g}" for key in self.acting_parameters() if (value := self._number(key)) is not None]
+        numbers = [f"{key} {self.parameters.number(key):g}" for key in self.acting_parameters()]
         effects = [f"{e.id}: {', '.join(f'{k} {v}' for k, v in e.values().items())}" for e in self.effects]
         return "\n".join([repr(self)[1:-1], ", ".join(numbers), *effects])
-
-    def _number(self, key: str) -> float | None:
-        """Return a parameter of Table 3.1 by its name there, as delta_long_1."""
-        name, _, place = key.rpartition("_")
-        if name == "delta_long":
-            return self.parameters.delta_long[int(place) - 1]
-        return getattr(self.parameters, key, None)
 
     def __eq__(self, other: object) -> bool:
         """Return whether two models have the same values, arrays and notes included."""

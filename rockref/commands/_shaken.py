@@ -43,6 +43,33 @@ def compare_shaken(
         say_command(console(), f"rockref compare {path} --model table_3_1 --report report")
 
 
+def diagnose_shaken(
+    path: Path, model: str | None, output: Path | None, runs: int | None, step: float | None, seed: int,
+    workers: int | None, as_json: bool,
+) -> None:  # fmt: skip
+    """Print which effect the outcomes ask for, the candidates in a table and the answer last."""
+    from rockref.commands._models import named_model
+    from rockref.commands._progress import stages
+    from rockref.commands._results import told, usable_files
+    from rockref.discover.outcomes.diagnose import RUNS, diagnose_outcomes
+    from rockref.model.storage import write_text
+    from rockref.report.terminal.outcome_text import print_outcomes
+    from rockref.shake.experiment import load_shaken
+
+    usable_files(output)
+    loaded, chosen = load_shaken(path), named_model(model or "table_3_1")
+    with stages("shaking", verbose=False) as say:
+        found = diagnose_outcomes(
+            loaded, chosen, runs=runs or RUNS, step=step or 1e-5, seed=seed, workers=workers, say=say
+        )
+    say_remarks(loaded.notices)
+    record = found.to_dict()
+    with told(as_json, lambda written: in_json(record), lambda c: print_outcomes(c, record)) as written:
+        if output is not None:
+            write_text(output, in_json(record) + "\n")
+            written.append(output)
+
+
 def plan_outcomes(shares: str, tests: int | None, as_json: bool) -> None:
     """Print how many tests tell two probabilities of falling apart, and what so many tests would tell."""
     from rockref.commands._shaking import numbers

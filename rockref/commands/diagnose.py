@@ -35,6 +35,10 @@ def diagnose(
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
     fresh: Fresh = False,
+    runs: Annotated[
+        int | None, typer.Option(min=3, help="Of tests on a shake table: runs of each at each size; 12.")
+    ] = None,
+    step: Annotated[float | None, typer.Option(help="Of tests on a shake table: time step in seconds; 1e-5.")] = None,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage and the optimiser's lines.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
 ) -> None:
@@ -42,11 +46,15 @@ def diagnose(
 
     Fits the baseline and every candidate of the catalogue to the fit runs, confirms on the held-out runs. Takes one to
     three minutes on two cores. An unchanged experiment with the same options is answered from what was kept; --fresh
-    computes anew. Exit code 0 if there is a
-    verdict (none is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
+    computes anew. Exit code 0 if there is a verdict (that nothing is missing is one), 1 if the fit is not trustworthy,
+    2 if the input cannot be used.
 
     Of a folder of tosses: a staircase of effects, each with what it takes off the held-out error; without effects of
     your own, --seed and --workers.
+
+    Of tests on a shake table (kind = "shaken"): which of damping, friction, feet, and faults of the table the outcomes
+    ask for; with --model, --output, --runs, --step, --seed, --workers and --json. Takes 38 runs of every test for each
+    of --runs.
 
     \b
     Example:
@@ -54,6 +62,7 @@ def diagnose(
       rockref diagnose data/experiments/mystery-05 --report report
       rockref diagnose data/experiments/mystery-05 --effect examples/my_effect.py:EddyBrake
       rockref diagnose data/experiments/mystery-05 --json > verdict.json
+      rockref diagnose my_table --model model.toml --runs 8 --step 4e-5
     """
     from rockref.measure.tosses.load import is_toss_folder
 
@@ -62,6 +71,15 @@ def diagnose(
 
         only_for("releases", seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
         return diagnose_tosses(experiment, model, effect, report, output, save_model, verbose, as_json)
+    from rockref.shake.experiment import is_shaken_folder
+
+    if is_shaken_folder(experiment):
+        from rockref.commands._shaken import diagnose_shaken
+
+        other = {"report": report is not None, "effect": bool(effect), "save-model": save_model is not None}
+        only_for("releases", **other, full=full, fresh=fresh)
+        return diagnose_shaken(experiment, model, output, runs, step, seed, workers, as_json)
+    only_for("tests on a shake table", runs=runs is not None, step=step is not None)
     from rockref.commands._keeping import keeping, kept
     from rockref.commands._models import check_step, models_and_others, say_idle
     from rockref.commands._progress import stages

@@ -43,7 +43,7 @@ def shake(
     Every run stands still at first, takes a record and a factor in turn, and what is drawn anew: placing, feet,
     friction. The same seed gives the same table, whatever the workers and the interruptions. A row a run: whether it
     fell, largest tilt, slide and twist, first uplift, impacts, what is left at the end. The page of --report has
-    fragility, maps of what fell, and distributions.
+    fragility, maps of what fell, distributions, and a replay of chosen runs.
 
     \b
     Example:
@@ -85,7 +85,7 @@ def shake(
     if page is not None:
         from rockref.report.views.ensemble_page import write_ensemble
 
-        files.append(write_ensemble(rows, chosen, made_folder(page)))
+        files.append(write_ensemble(rows, chosen, made_folder(page), ensemble))
     facts = summary(rows)
     if as_json:
         typer.echo(in_json({"runs": runs, "levels": facts, "files": [str(path) for path in files]}))

@@ -36,8 +36,8 @@ class StageReport:
 
 
 def in_words(report: StageReport, seconds_left: float | None) -> str:
-    """Return a stage in a line, as "3/6 comparing 31 effects · best so far: adhesion · about 40 s left"."""
-    said = [f"{report.step}/{report.of} {report.name}" if report.of else report.name]
+    """Return a stage in a line, counted where there are several: "3/6 comparing 31 effects · about 40 s left"."""
+    said = [f"{report.step}/{report.of} {report.name}" if report.of > 1 else report.name]
     if report.best:
         said.append(f"best so far: {report.best}")
     if seconds_left is not None and seconds_left > 0:

@@ -234,7 +234,10 @@ def numbers_of(words: str, name: str, where: str) -> dict[str, float]:
             given[key] = float(value)
         except ValueError as e:
             what = f"{short(word)!r} is no parameter" if not equals else f"{short(value)!r} is no number"
-            raise InputError("E-TYPE", where, what, f"Write {short(name)}:{'name'}=number, with commas between.") from e
+            cure = f"Write {short(name)}:{'name'}=number, with commas between."
+            if given and word.isdigit():
+                cure = f"The decimal mark is a point: write {(last := next(reversed(given)))}={given[last]:g}.{word}."
+            raise InputError("E-TYPE", where, what, cure) from e
     return given
 
 

@@ -85,6 +85,15 @@ class Parameters:
             changes["delta_long"] = tuple(float(d) for d in changes["delta_long"])
         return replace(self, **changes)
 
+    def number(self, key: str) -> float:
+        """Return a parameter by its name in Table 3.1, as delta_long_1."""
+        name, _, place = key.rpartition("_")
+        return self.delta_long[int(place) - 1] if name == "delta_long" else float(getattr(self, key))
+
+    def in_words(self, key: str) -> str:
+        """Return a parameter by its name in Table 3.1, with its unit."""
+        return f"{self.number(key):g} {TABLE_3_1[key].unit.removeprefix('1')}".rstrip()
+
 
 def common_stiffness(K: float, n: int) -> np.ndarray:
     """Rule P1: the stiffness K [N/m] is common to all n points, internal and external. Source: (3.7)."""

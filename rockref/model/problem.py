@@ -10,22 +10,41 @@ import numpy as np
 from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
 from rockref.model.rotation import empty
+from rockref.model.shown import Shown, span
 
 #: Standard value of the source's model; the excerpt states none. Decided: 9.81 m/s2.
 GRAVITY = 9.81
 
 
-@dataclass(frozen=True)
-class Block:
+@dataclass(frozen=True, repr=False)
+class Block(Shown):
     """The rigid body: mass (...) [kg]; inertia about its centre, body axes (..., 3, 3) [kg m2]; g (...) [m/s2]."""
 
     mass: np.ndarray
     inertia: np.ndarray
     g: np.ndarray
 
+    def sides(self) -> np.ndarray:
+        """Return sides (..., 3) [m] of the uniform cuboid with this mass and these moments of inertia about X, Y, Z.
 
-@dataclass(frozen=True)
-class ContactPoints:
+        A side is NaN where no cuboid has such moments.
+
+        >>> import rockref
+        >>> print(rockref.Model.table_3_1().body()[0].sides().round(3))
+        [0.1   0.1   0.688]
+        """
+        moments = np.diagonal(np.asarray(self.inertia, float), axis1=-2, axis2=-1)
+        squares = 6.0 * (moments.sum(axis=-1, keepdims=True) - 2.0 * moments) / np.asarray(self.mass)[..., None]
+        return np.sqrt(np.where(squares > 0.0, squares, np.nan))
+
+    def facts(self) -> dict[str, str]:
+        """Return mass, sides as of a uniform cuboid, and gravity, in words."""
+        sides = " x ".join(span(side) for side in np.moveaxis(self.sides(), -1, 0))
+        return {"mass": span(self.mass, "kg"), "as a cuboid": f"{sides} m", "gravity": span(self.g, "m/s2")}
+
+
+@dataclass(frozen=True, repr=False)
+class ContactPoints(Shown):
     """The n contact points and what each is made of.
 
     P : (..., n, 3) position from the centre of mass, body axes [m]
@@ -50,9 +69,23 @@ class ContactPoints:
         """Return how many points there are."""
         return self.P.shape[-2]
 
+    def facts(self) -> dict[str, str]:
+        """Return number and names of the points, where they lie, and what they are made of, in words."""
+        reach = " x ".join(span(np.ptp(self.P[..., axis], axis=-1)) for axis in (0, 1))
+        named = f" ({self.names[0]} to {self.names[-1]})" if self.names else ""
+        found = {
+            "points": f"{self.n}{named}",
+            "reach": f"{reach} m",
+            "uneven by": span(1e3 * np.ptp(self.P[..., 2], axis=-1), "mm"),
+            "K_N": span(self.K_N, "N/m"),
+            "K_T": span(self.K_T, "N/m"),
+            "mu": span(self.mu),
+        }
+        return found if self.radius is None else found | {"radius": span(self.radius, "m")}
 
-@dataclass(frozen=True)
-class State:
+
+@dataclass(frozen=True, repr=False)
+class State(Shown):
     """Everything that the next step needs: restarting from it continues the run bit for bit.
 
     x, v : (..., 3) position [m] and velocity [m/s] of the centre of mass, plate axes
@@ -97,6 +130,20 @@ class State:
             sliding=np.zeros(batch + (n,), bool),
         )
 
+    def lean(self) -> np.ndarray:
+        """Return the angle of the body's height from the vertical (...) [rad]."""
+        return np.arctan2(np.hypot(self.Lambda[..., 0, 2], self.Lambda[..., 1, 2]), self.Lambda[..., 2, 2])
+
+    def facts(self) -> dict[str, str]:
+        """Return time, lean, rates, and how many points touch, in words."""
+        return {
+            "time": f"{float(self.t):.6g} s",
+            "lean": span(np.degrees(self.lean()), "deg"),
+            "speed": span(np.linalg.norm(np.asarray(self.v, float), axis=-1), "m/s"),
+            "rate": span(np.degrees(np.linalg.norm(np.asarray(self.W, float), axis=-1)), "deg/s"),
+            "touching": f"{span(np.sum(self.anchored, axis=-1))} of {self.anchored.shape[-1]} points",
+        }
+
 
 def complete_state(**fields) -> State:
     """Return a State from all its fields, which are taken as they are.
@@ -109,8 +156,8 @@ def complete_state(**fields) -> State:
     return state
 
 
-@dataclass(frozen=True)
-class Problem:
+@dataclass(frozen=True, repr=False)
+class Problem(Shown):
     """One run, or a batch of runs side by side (leading axes): what `simulate` of every engine takes.
 
     step, duration [s]; output_rate [Hz]; effects in the order in which they act (empty: the law alone); base: how the
@@ -135,6 +182,23 @@ class Problem:
     def batch(self) -> tuple[int, ...]:
         """Return shape of the leading axes; () for one block."""
         return self.start.x.shape[:-1]
+
+    def facts(self) -> dict[str, str]:
+        """Return block, feet, start, plate, effects and time step, in words."""
+        block, points = self.block.facts(), self.points.facts()
+        batch = {"blocks": " x ".join(map(str, self.batch))} if self.batch else {}
+        plate = {} if self.base is None else {"plate": f"moves as {self.base.name or 'a record'} does"}
+        return {
+            **batch,
+            "mass": block["mass"],
+            "as a cuboid": block["as a cuboid"],
+            "points": points["points"],
+            "lean at start": self.start.facts()["lean"],
+            **plate,
+            "effects": ", ".join(effect.id for effect in self.effects) or "none",
+            "duration": f"{self.duration:g} s",
+            "step": f"{self.step:g} s",
+        }
 
 
 #: What the law can be computed in.

@@ -13,6 +13,7 @@ from rockref.model.contact import point_kinematics
 from rockref.model.errors import InputError
 from rockref.model.problem import Block, Problem, State
 from rockref.model.rotation import quaternion
+from rockref.model.shown import Shown, span
 
 if TYPE_CHECKING:
     import pandas
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
 OVERTURNED = np.pi / 4
 
 
-@dataclass(frozen=True)
-class Response:
+@dataclass(frozen=True, repr=False)
+class Response(Shown):
     """Recorded rows of a run; T rows, leading batch axes first.
 
     t : (T,) [s];  x, v : (..., T, 3) centre of mass [m, m/s];  Lambda : (..., T, 3, 3);  W : (..., T, 3) crv [rad/s]
@@ -61,11 +62,24 @@ class Response:
     sliding: np.ndarray
     final_state: State
 
-    def __repr__(self) -> str:
-        """Return the response in a line."""
-        blocks = f"{self.W.shape[:-2]} blocks, " if self.W.ndim > 2 else ""
-        span = f"{len(self.t)} rows, {self.t[0]:g} to {self.t[-1]:g} s" if len(self.t) else "no rows"
-        return f"<Response: {blocks}{span}, {self.F.shape[-2]} points>"
+    def facts(self) -> dict[str, str]:
+        """Return duration, rows, main impacts, and the largest lean and rate, in words."""
+        batch = {"blocks": " x ".join(map(str, self.problem.batch))} if self.problem.batch else {}
+        if not len(self.t):
+            return {**batch, "rows": "none"}
+        L = self.Lambda
+        lean = np.degrees(np.arctan2(np.hypot(L[..., 0, 2], L[..., 1, 2]), L[..., 2, 2])).max(axis=-1)
+        impacts = {} if batch else {"main impacts": str(len(self.main_impacts()))}
+        return {
+            **batch,
+            "duration": f"{self.t[-1] - self.t[0]:.6g} s",
+            "rows": str(len(self.t)),
+            "points": str(self.F.shape[-2]),
+            **impacts,
+            "largest lean": span(lean, "deg", 3),
+            "largest rate": span(np.abs(self.crv).max(axis=(-2, -1)), "deg/s", 3),
+            "overturned": "yes" if self.overturned else "no",
+        }
 
     def __getitem__(self, index) -> Response:
         """Return one response of a batch."""

@@ -23,8 +23,9 @@ LEFT_OVER = 1e-8
 #: The same share at which the search ends. Decided: a hundredth of it.
 AT_REST = 1e-10
 #: What a step adds to the stiffness against each motion, as shares of the stiffness of all feet. Decided: none where
-#: three feet carry; where fewer do, so much that the step stays short.
-DAMPING = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0)
+#: three feet carry; where fewer do, so much that the step stays short. A block on two feet of a diagonal tips away from
+#: it with a stiffness of -m g h, a thousandth to a tenth of that of soft feet: the shares there are close together.
+DAMPING = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 1.0)
 #: Largest tilt [rad] of a block that stands. Decided: no foot is so long that a block on it stands askew by more.
 MOST_ASKEW = 0.1
 

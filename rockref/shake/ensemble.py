@@ -18,6 +18,7 @@ from rockref.api import Model
 from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
 from rockref.model.problem import Block, ContactPoints, Problem
+from rockref.model.shown import Shown, span
 from rockref.model.standing import standing_posture
 from rockref.shake import extremes
 from rockref.shake.extremes import COLUMNS, Extremes
@@ -50,8 +51,8 @@ class Draws:
                 raise InputError("E-RANGE", f"draws: {key}", f"is {value!r}", "Give a finite number, not negative.")
 
 
-@dataclass(frozen=True)
-class Ensemble:
+@dataclass(frozen=True, repr=False)
+class Ensemble(Shown):
     """A block, the motions of its plate, the factors on them, and what is drawn.
 
     Runs take pairs of motion and factor in turn: run k has pair k modulo their number, so each has as many runs.
@@ -65,6 +66,24 @@ class Ensemble:
     step: float | tuple[float, ...] = 1e-5
     after: float = AFTER
     seed: int = 0
+
+    def facts(self) -> dict[str, str]:
+        """Return block, motions with their peaks, what is drawn, and the time step, in words."""
+        sizes = np.array([motion_size(base.scaled(f)) for base in self.motions for f in self.factors])
+        drawn = {"heading": (1.0, "deg"), "feet": (1e3, "mm"), "friction": (1.0, "in its logarithm")}
+        draws = [f"{key} {by * getattr(self.draws, key):g} {unit}" for key, (by, unit) in drawn.items()
+                 if getattr(self.draws, key)]  # fmt: skip
+        return {
+            "mass": f"{self.model.mass:g} kg",
+            "points": self.model.points,
+            "motions": str(len(self.motions)),
+            "factors": span(self.factors) + (f" ({len(self.factors)})" if len(self.factors) > 1 else ""),
+            "PGA": span(sizes[:, 0], "m/s2", 3),
+            "PGV": span(sizes[:, 1], "m/s", 3),
+            "draws": ", ".join(draws) or "none",
+            "step": span(self.steps, "s"),
+            "seed": str(self.seed),
+        }
 
     @property
     def steps(self) -> tuple[float, ...]:

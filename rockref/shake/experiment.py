@@ -19,6 +19,7 @@ from rockref.measure.records.notice import Notice, shown
 from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
 from rockref.model.problem import GRAVITY
+from rockref.model.shown import Shown, span
 from rockref.shake.ensemble import Draws
 from rockref.shake.motion_size import motion_size
 from rockref.shake.records.door import read_record
@@ -51,8 +52,8 @@ MAXIMA = {"tilt": "rad", "slide": "m", "twist": "rad"}
 _PREDICTION = re.compile(r"p_(\w+)", re.ASCII)
 
 
-@dataclass(frozen=True, eq=False)
-class ShakenExperiment:
+@dataclass(frozen=True, eq=False, repr=False)
+class ShakenExperiment(Shown):
     """Tests of a block on a shake table.
 
     motion : (n,) labels; tests of one motion depend on one another
@@ -71,6 +72,15 @@ class ShakenExperiment:
     draws: Draws
     digest: str
     notices: tuple[Notice, ...] = field(default=(), repr=False)
+
+    def facts(self) -> dict[str, str]:
+        """Return name, tests, motions, outcomes and remarks, in words."""
+        found = {"name": self.name, "tests": str(len(self.motion)), "motions": str(len(np.unique(self.motion)))}
+        found |= {} if self.fell is None else {"fell": str(int(self.fell.sum()))}
+        found |= {"maxima": ", ".join(self.maxima)} if self.maxima else {}
+        found |= {} if self.sizes is None else {"PGA": span(self.sizes[:, 0], "m/s2", 3)}
+        found |= {"records": "yes" if self.motions is not None else "no"}
+        return found | ({"remarks": str(len(self.notices))} if self.notices else {})
 
 
 def is_shaken_folder(path: Path | str) -> bool:

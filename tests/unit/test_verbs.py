@@ -33,7 +33,7 @@ def test_a_verb_is_loaded_when_it_is_asked_for():
 
 def test_an_experiment_says_itself_in_a_line(short):
     assert repr(rockref.load(short)).count("\n") == 0
-    assert "2 runs (1 fit, 1 holdout)" in repr(rockref.load(short))
+    assert "runs 2 (1 fit, 1 holdout)" in repr(rockref.load(short))
 
 
 def test_a_comparison_says_draws_and_saves_itself(compared, tmp_path):

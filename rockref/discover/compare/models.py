@@ -220,7 +220,7 @@ def compare(
     measured = measured_runs(experiment, runs)
     results = []
     for number, (name, model) in enumerate(zip(names, models, strict=True)):
-        said = f"simulating {len(runs)} runs with {name}"
+        said = f"simulating {len(runs)} run{'s' if len(runs) > 1 else ''} with {name}"
         half = [_part(progress, said, 2 * number + k, 2 * len(models), began) for k in (0, 1)]
         given = dict(releases or {})
         with _named(name, step):

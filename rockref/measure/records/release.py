@@ -10,6 +10,7 @@ import numpy as np
 
 from rockref.measure.records.notice import Notice, shown
 from rockref.model.errors import InputError
+from rockref.model.shown import Shown
 
 #: What a run is for: fits see the ones, verdicts are held against the others.
 FIT, HOLDOUT = "fit", "holdout"
@@ -88,8 +89,8 @@ class SensorFault:
     place: float = 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class Experiment:
+@dataclass(frozen=True, eq=False, repr=False)
+class Experiment(Shown):
     """An experiment folder.
 
     Attributes: ``path``; ``name``; ``kind`` (``release`` or ``toss``); ``baseline`` (``eight_points`` or
@@ -114,14 +115,13 @@ class Experiment:
     sensor_faults: tuple[SensorFault, ...] = field(default=(), repr=False)
     prior: dict[str, tuple[float, float]] = field(default_factory=dict, repr=False)
 
-    def __repr__(self) -> str:
-        """Return the experiment in a line."""
-        uses = f"{len(self.fit_runs())} fit, {len(self.holdout_runs())} holdout"
-        remarks = f", {len(self.notices)} remarks" if self.notices else ""
-        sides = f"{self.width:g} x {self.height:g} m"
-        return (
-            f"<Experiment {self.name}: {self.kind}, {self.mass:g} kg, {sides}, {len(self.runs)} runs ({uses}){remarks}>"
-        )
+    def facts(self) -> dict[str, str]:
+        """Return name, block, runs, gyroscope and remarks, in words."""
+        uses = f"{len(self.runs)} ({len(self.fit_runs())} fit, {len(self.holdout_runs())} holdout)"
+        found = {"name": self.name, "kind": self.kind, "mass": f"{self.mass:g} kg"}
+        found |= {"sides": f"{self.width:g} x {self.height:g} m", "runs": uses}
+        found |= {} if self.gyro is None else {"gyroscope": f"{self.gyro.sample_rate:g} Hz"}
+        return found | ({"remarks": str(len(self.notices))} if self.notices else {})
 
     def fit_runs(self) -> tuple[Run, ...]:
         """Return the runs that may be fitted."""

@@ -53,7 +53,9 @@ def new_figure(width: float, height: float) -> Any:
     """Return an empty figure, inches; no window system is asked for."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(width, height))
+    figure: Any = Figure(figsize=(width, height))
+    # A notebook shows a figure of pyplot by itself, and this one by its picture.
+    figure._repr_png_ = lambda: rendered(figure, "png", dpi=80)
     # Fixed margins in inches: a layout that is searched for takes three times as long and moves with every drawing.
     left, right, top, bottom = 0.85 / width, 1.0 - 0.15 / width, 1.0 - 0.4 / height, 0.5 / height
     figure.subplots_adjust(left=left, right=right, top=top, bottom=bottom, hspace=0.12, wspace=0.16)

@@ -59,6 +59,31 @@ def player(m: MeasuredRun, results: Sequence[tuple[str, RunComparison]], until: 
     return Player(f"Run {run.id} in motion", sentence, data)
 
 
+def replay(response: Response, title: str, stretch: tuple[float, float]) -> Player:
+    """Return a player of one computed run, in a stretch [s], a frame a row."""
+    rows = (response.t >= stretch[0]) & (response.t <= stretch[1])
+    t = response.t[rows]
+    P = np.asarray(response.problem.points.P, dtype=np.float64)
+    touched = response.anchored[rows]
+    data = {
+        "step": float(t[-1] - t[0]) / max(len(t) - 1, 1),
+        "frames": len(t),
+        "box": _box(response),
+        "points": [{"name": n, "at": p.tolist()} for n, p in zip(response.problem.points.names, P, strict=True)],
+        "bodies": [_body("simulated", angles(response.Lambda[rows]), touched, estimated=False)],
+        "impacts": [],
+        # A block on a moving plate leans to all sides, as far as the eye sees, and slowly.
+        "start": float(t[0]),
+        "times": 1,
+        "speed": 1,
+    }
+    sentence = (
+        f"The block in motion from {t[0]:.2f} to {t[-1]:.2f} s. A filled foot touches the plate; how far the block "
+        "slides is not shown."
+    )
+    return Player(f"{title}, in motion", sentence, data)
+
+
 def _nearest(t: np.ndarray, times: np.ndarray) -> np.ndarray:
     """Return the rows of t (N,) s, in even steps, nearest to times (M,) s."""
     step = float(t[-1] - t[0]) / (len(t) - 1)

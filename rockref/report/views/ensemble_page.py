@@ -9,7 +9,9 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.report.html.page import Page
+from rockref.report.views.ensemble_runs import add_runs
 from rockref.report.views.shaken_page import add_distributions, add_fragility, add_spectrum
+from rockref.shake.ensemble import Ensemble
 from rockref.shake.experiment import MAXIMA
 from rockref.shake.plane_block import PlaneBlock, plane_block
 
@@ -17,8 +19,11 @@ from rockref.shake.plane_block import PlaneBlock, plane_block
 CURVES = 5
 
 
-def write_ensemble(rows: list[dict[str, Any]], model: Model, folder: Path) -> Path:
-    """Write ``index.html`` of the rows of an ensemble and return its path. Raises InputError (E-WRITE)."""
+def write_ensemble(rows: list[dict[str, Any]], model: Model, folder: Path, ensemble: Ensemble | None = None) -> Path:
+    """Write ``index.html`` of the rows of an ensemble and return its path; with the ensemble, chosen runs are replayed.
+
+    Raises InputError (E-WRITE), and as runs do.
+    """
     fell = np.array([row["fell"] for row in rows], float)
     sizes = np.array([[row["pga_m_s2"], row["pgv_m_s"]] for row in rows])
     page = Page("A shaken block", f"{len(rows)} runs, {int(fell.sum())} fell.")
@@ -42,6 +47,8 @@ def write_ensemble(rows: list[dict[str, Any]], model: Model, folder: Path) -> Pa
         for quantity, unit in MAXIMA.items()
     }
     add_distributions(page, samples)
+    if ensemble is not None:
+        add_runs(page, ensemble, rows)
     page.add_provenance({"runs": len(rows), "records": sorted({row["record"] for row in rows})})
     return page.write(folder / "index.html")
 

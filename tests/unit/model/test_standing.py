@@ -94,3 +94,12 @@ def test_a_release_is_what_it_was_and_a_moving_plate_is_stood_upon():
     assert TABLE.problem(0.1, base=base).start.Lambda.tolist() == np.eye(3).tolist()
     assert TABLE.problem(0.1, base=base, standing=False).start.Lambda[1, 2] > 0.1
     assert TABLE.problem(0.1, standing=True).base is None
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_slender_block_on_soft_uneven_feet_finds_its_third_foot(seed):
+    # Two feet of a diagonal carry it, and the third next to nothing: the search has to leave the diagonal.
+    model = rockref.Model(mass=40.0, width=0.08, depth=0.08, height=0.7, points="four_points").replace(K_N=1.5e7)
+    block, points = model.body()
+    P = points.P + np.column_stack([np.zeros((4, 2)), 2e-5 * np.random.default_rng(seed).standard_normal(4)])
+    assert carrying(replace(points, P=P), standing_posture(block, replace(points, P=P))).sum() >= 3

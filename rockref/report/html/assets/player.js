@@ -151,7 +151,7 @@
     tools.hidden = false;
     data.plan = planOf(data);
     const points = data.points.map((p) => p.at);
-    const state = { frame: 0, playing: false, speed: 0.05, times: 40, azimuth: -2.1, elevation: 0.3 };
+    const state = { frame: 0, playing: false, speed: data.speed || 0.05, times: data.times || 40, azimuth: -2.1, elevation: 0.3 };
     const bodies = data.bodies.map((body) => {
       const frame = element("div");
       const canvas = element("canvas", { role: "img", "aria-label": "block " + body.name });
@@ -210,11 +210,11 @@
       const frame = Math.min(Math.floor(state.frame), data.frames - 1);
       bodies.forEach((body) => drawBody(body, frame));
       slider.value = frame;
-      const t = frame * data.step;
+      const t = (data.start || 0) + frame * data.step;
       const last = data.impacts.filter((at) => at <= t).length;
       clock.textContent = t.toFixed(3) + " s";
       figure.dataset.frame = frame;
-      note.textContent = last ? "after main impact " + last : "before the first main impact";
+      if (data.impacts.length) note.textContent = last ? "after main impact " + last : "before the first main impact";
     }
 
     let before = 0;

@@ -205,7 +205,7 @@ def test_each_model_is_a_stage_and_the_time_left_runs_to_the_end():
     seen = []
     compare(experiment(TABLE, [{"true_tilt": 0.1172}], duration=0.9), [TABLE, SCALED], progress=seen.append)
     stages = list(dict.fromkeys((r.step, r.of, r.name) for r in seen))
-    assert stages == [(1, 2, "simulating 1 runs with model 1"), (2, 2, "simulating 1 runs with model 2")]
+    assert stages == [(1, 2, "simulating 1 run with model 1"), (2, 2, "simulating 1 run with model 2")]
     assert seen[0].seconds_left is None and seen[-1].seconds_left == pytest.approx(0.0)
 
 
