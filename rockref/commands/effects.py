@@ -37,7 +37,7 @@ def effects(
     from rockref.commands._models import say_implausible
     from rockref.commands._results import usable_files
     from rockref.effects.catalogue import OF_TOSSES, QUESTIONS, parse
-    from rockref.effects.tracking.none import TrackedAsDrawn
+    from rockref.effects.nothing_added import TrackedAsDrawn
     from rockref.model.errors import InputError
     from rockref.report.views import gallery
 

@@ -16,12 +16,10 @@ from rockref.effects.contact.adhesion import Adhesion
 from rockref.effects.contact.hertzian_contact import HertzianContact
 from rockref.effects.contact.hunt_crossley_contact import HuntCrossleyContact
 from rockref.effects.contact.hysteretic_contact import HystereticContact
-from rockref.effects.contact.none import NoContactEffect
 from rockref.effects.contact.orientation_dependent_damping import OrientationDependentDamping
 from rockref.effects.contact.uneven_foot_damping import UnevenFootDamping
 from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
 from rockref.effects.friction.load_dependent_friction import LoadDependentFriction
-from rockref.effects.friction.none import NoFrictionEffect
 from rockref.effects.friction.rolling_resistance import RollingResistance
 from rockref.effects.friction.spin_friction import SpinFriction
 from rockref.effects.friction.stribeck_friction import StribeckFriction
@@ -31,10 +29,17 @@ from rockref.effects.loads.base_vibration import BaseVibration
 from rockref.effects.loads.cable_restraint import CableRestraint
 from rockref.effects.loads.gravity_deviation import GravityDeviation
 from rockref.effects.loads.lingering_wire_pull import LingeringWirePull
-from rockref.effects.loads.none import NoLoad
 from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.effects.loads.quadratic_drag import QuadraticDrag
-from rockref.effects.release.none import ReleaseAtRest
+from rockref.effects.nothing_added import (
+    IdealGyroscope,
+    NoContactEffect,
+    NoFrictionEffect,
+    NoLoad,
+    NoShapeEffect,
+    ReleaseAtRest,
+    RigidSupport,
+)
 from rockref.effects.release.release_velocity import ReleaseVelocity
 from rockref.effects.sensor.clock_error import ClockError
 from rockref.effects.sensor.gyro_bandwidth import DAMPING, GyroBandwidth, even_step, undo_low_pass
@@ -42,17 +47,14 @@ from rockref.effects.sensor.gyro_drift import GyroDrift
 from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
 from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from rockref.effects.sensor.gyro_scale import GyroScale
-from rockref.effects.sensor.none import IdealGyroscope
 from rockref.effects.shape.dimension_deviation import DimensionDeviation
 from rockref.effects.shape.foot_defects import FootDefects
 from rockref.effects.shape.inertia_deviation import InertiaDeviation
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
-from rockref.effects.shape.none import NoShapeEffect
 from rockref.effects.shape.rounded_corners import RoundedCorners
 from rockref.effects.shape.rounded_feet import RoundedFeet
 from rockref.effects.shape.uneven_contact_normals import UnevenContactNormals
 from rockref.effects.support.compliant_support import CompliantSupport
-from rockref.effects.support.none import RigidSupport
 from rockref.effects.tracking.plate_pose import PlatePose
 from rockref.effects.tracking.tag_frame import TagFrame
 from rockref.effects.user import file_and_class, file_beside, load_user

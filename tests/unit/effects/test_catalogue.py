@@ -14,7 +14,7 @@ from rockref import InputError, Model
 from rockref.effects import catalogue
 from rockref.effects.base import HOOKS, UNDO_HOOKS, Effect, Quantity, limits
 from rockref.effects.catalogue import EFFECTS, NONE, QUESTIONS
-from rockref.effects.tracking.none import TrackedAsDrawn
+from rockref.effects.nothing_added import TrackedAsDrawn
 from rockref.effects.user import check_class
 
 TABLE = {
@@ -41,12 +41,11 @@ def test_the_ids_are_those_that_files_and_verdicts_know():
 
 def test_a_folder_per_question_a_file_per_answer():
     for question, ids in TABLE.items():
-        for id in [*ids.split(), "none"]:
+        for id in ids.split():
             assert (FOLDER / question / f"{id}.py").is_file(), f"{question}/{id}"
         assert QUESTIONS[question][0] is NONE[question]
         assert NONE[question].question == question and NONE[question].sentence and NONE[question].equation
-    for folder in (path for path in FOLDER.iterdir() if (path / "__init__.py").is_file()):
-        assert (folder / "none.py").is_file(), folder.name
+    assert {path.name for path in FOLDER.iterdir() if (path / "__init__.py").is_file()} == {*TABLE, "tracking"}
     assert TrackedAsDrawn.question == "tracking" and TrackedAsDrawn().is_absent()
 
 
