@@ -52,7 +52,7 @@ def test_where_no_corner_was_struck_the_impacts_say_nothing(monkeypatch):
 
     whole = measured(tosses.tosses, tosses, nominal_model(tosses))
     assert {"stated_centre", "measured_centre", "energy_of_stated_velocities"} <= set(whole)
-    monkeypatch.setattr(comparing.toss_balance, "first_impacts", first_impacts)
+    monkeypatch.setattr(comparing.impact_balance, "first_impacts", first_impacts)
     found = measured(tosses.tosses, tosses, nominal_model(tosses))
     assert set(found) == {"flight_arcs", "sliding"}
     # Without them there is nothing to begin the effects of the contact at.

@@ -11,7 +11,7 @@ PROGRAM = """
 import hashlib
 import numpy as np
 from rockref.discover.tosses.descent import Slopes
-from rockref.measure.toss_balance import robust
+from rockref.measure.tosses.impact_balance import robust
 
 draw = np.random.default_rng(1).normal
 {what}
