@@ -31,15 +31,7 @@ from rockref.effects.loads.gravity_deviation import GravityDeviation
 from rockref.effects.loads.lingering_wire_pull import LingeringWirePull
 from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.effects.loads.quadratic_drag import QuadraticDrag
-from rockref.effects.nothing_added import (
-    IdealGyroscope,
-    NoContactEffect,
-    NoFrictionEffect,
-    NoLoad,
-    NoShapeEffect,
-    ReleaseAtRest,
-    RigidSupport,
-)
+from rockref.effects.nothing_added import NOTHING_ADDED
 from rockref.effects.release.release_velocity import ReleaseVelocity
 from rockref.effects.sensor.clock_error import ClockError
 from rockref.effects.sensor.gyro_bandwidth import DAMPING, GyroBandwidth, even_step, undo_low_pass
@@ -89,12 +81,7 @@ OWN: dict[str, type[Effect]] = {}
 NAMED: set[str] = set()
 
 #: The answer "none" to each question, in the order of the questions.
-NONE: dict[str, type[Effect]] = {
-    effect.question: effect
-    for effect in (
-        NoContactEffect, NoFrictionEffect, NoShapeEffect, NoLoad, RigidSupport, ReleaseAtRest, IdealGyroscope,
-    )
-}  # fmt: skip
+NONE: dict[str, type[Effect]] = {effect.question: effect for effect in NOTHING_ADDED}
 
 #: Every question, with its answers; "none" first.
 QUESTIONS: dict[str, tuple[type[Effect], ...]] = {

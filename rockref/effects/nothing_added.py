@@ -61,3 +61,7 @@ TrackedAsDrawn = nothing(
     r"\Lambda = \Lambda_t,\quad x = x_t,\quad z_p = 0",
     "Decided: what the poses of a recording mean until something else is shown",
 )  # fmt: skip
+#: To the questions that are asked of every experiment, in their order; tracking is asked of tosses.
+NOTHING_ADDED = (
+    NoContactEffect, NoFrictionEffect, NoShapeEffect, NoLoad, RigidSupport, ReleaseAtRest, IdealGyroscope,
+)  # fmt: skip
