@@ -6,6 +6,7 @@ import pytest
 
 from rockref import Model, cli
 from rockref.discover import add_effect as adding
+from tests import command
 from tests.unit.discover import fakes
 
 
@@ -14,10 +15,8 @@ def made():
     return fakes.made_experiment()
 
 
-def run(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["add", *map(str, arguments)])
-    return end.value.code, *capsys.readouterr()
+def run(capsys, *words):
+    return command.run(capsys, "add", *words)
 
 
 def test_error_before_and_after_in_words(capsys, monkeypatch, tmp_path, made):

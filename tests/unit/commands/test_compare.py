@@ -6,18 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from rockref import Model, cli
+from rockref import Model
+from tests.command import run
 from tests.shipped import two_runs
 
 ROOT = Path(__file__).resolve().parents[3]
-
-
-def run(capsys, *arguments):
-    """Exit code, standard output and standard error of `rockref ARGUMENTS`."""
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(a) for a in arguments])
-    out, err = capsys.readouterr()
-    return end.value.code, out, err
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from rockref import cli
 from rockref.discover import diagnose as engine
 from rockref.discover.diagnosis_record import KEYS, plain, read
 from rockref.measure.records.notice import Notice
 from rockref.model.errors import InputError
+from tests import command
 from tests.unit.discover import fakes
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -21,11 +21,8 @@ def made():
     return fakes.made_experiment()
 
 
-def run(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["diagnose", *map(str, arguments)])
-    out, err = capsys.readouterr()
-    return end.value.code, out, err
+def run(capsys, *words):
+    return command.run(capsys, "diagnose", *words)
 
 
 def answer(monkeypatch, found):

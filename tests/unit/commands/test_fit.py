@@ -5,16 +5,15 @@ from dataclasses import replace
 
 import pytest
 
-from rockref import Model, cli
+from rockref import Model
 from rockref.discover import fit_baseline as engine
 from rockref.model.errors import InputError
+from tests import command
 from tests.unit.discover import fakes
 
 
-def run(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["fit", *map(str, arguments)])
-    return end.value.code, *capsys.readouterr()
+def run(capsys, *words):
+    return command.run(capsys, "fit", *words)
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,8 @@
 
 import pytest
 
-from rockref import cli
 from rockref.measure.importing import contactnets
+from tests import command
 
 
 @pytest.fixture
@@ -15,9 +15,7 @@ def calls(monkeypatch):
 
 
 def run(capsys, *words):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["import", *words])
-    return end.value.code, *capsys.readouterr()
+    return command.run(capsys, "import", *words)
 
 
 def test_recordings_and_copies_are_counted(capsys, calls):

@@ -2,7 +2,6 @@
 
 import pytest
 
-from rockref import cli
 from rockref.commands._keeping import checkpoints_in, interruption
 from rockref.discover import diagnose as engine
 from rockref.discover.evidence.evidence import Evidence
@@ -10,6 +9,7 @@ from rockref.discover.fit.problem import fit_problem
 from rockref.discover.fit.stages import S3
 from rockref.discover.fit_store import FitStore
 from rockref.model.errors import Interrupted
+from tests.command import run
 from tests.unit.discover import fakes
 from tests.unit.discover.test_fit_store import TABLE, fitted
 
@@ -23,12 +23,6 @@ def kept(tmp_path, monkeypatch):
 @pytest.fixture(scope="module")
 def made():
     return fakes.made_experiment(0.7)
-
-
-def run(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(a) for a in arguments])
-    return end.value.code, *capsys.readouterr()
 
 
 @pytest.mark.parametrize(

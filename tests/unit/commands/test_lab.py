@@ -1,16 +1,12 @@
 """`rockref lab`: a page with or without an experiment; what has no sliders is refused, and nothing is written."""
 
-import pytest
-
 import rockref
-from rockref import cli
 from rockref.lab import page
+from tests import command
 
 
 def run(capsys, *words):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["lab", *map(str, words)])
-    return end.value.code, *capsys.readouterr()
+    return command.run(capsys, "lab", *words)
 
 
 def test_without_an_experiment_the_page_begins_at_the_model(capsys, tmp_path):

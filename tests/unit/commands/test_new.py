@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from rockref import cli
 from rockref.measure import load_experiment
 from tests import foreign
+from tests.command import run
 
 ROOT = Path(__file__).resolve().parents[3]
 SIDES = ("--mass", "54kg", "--width", "100mm", "--height", "0.688")
@@ -22,13 +22,6 @@ def logs(tmp_path_factory):
     folder = tmp_path_factory.mktemp("logs")
     foreign.write_logs(two, folder, "arduino")
     return folder
-
-
-def run(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(a) for a in arguments])
-    out, err = capsys.readouterr()
-    return end.value.code, out, err
 
 
 def test_a_folder_is_made_and_the_next_command_is_said_last(capsys, logs, tmp_path):

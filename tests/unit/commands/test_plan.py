@@ -4,11 +4,11 @@ import json
 
 import pytest
 
-from rockref import cli
 from rockref.discover import plan as engine
 from rockref.discover.diagnosis_record import plain
 from rockref.discover.plan import Release
 from rockref.discover.progress import StageReport
+from tests import command
 from tests.unit.discover import fakes
 
 
@@ -32,9 +32,7 @@ def calls(monkeypatch, found):
 
 
 def run(capsys, *words):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["plan", *map(str, words)])
-    return end.value.code, *capsys.readouterr()
+    return command.run(capsys, "plan", *words)
 
 
 def test_words_and_the_file_with_the_record(capsys, calls, found, tmp_path):

@@ -5,16 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from rockref import cli
 from rockref.commands import reproduce
-
-
-def run(capsys, *arguments):
-    """Exit code, standard output and standard error of `rockref ARGUMENTS`."""
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(a) for a in arguments])
-    out, err = capsys.readouterr()
-    return end.value.code, out, err
+from tests.command import run
 
 
 @pytest.fixture

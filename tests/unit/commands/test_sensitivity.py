@@ -5,17 +5,9 @@ import json
 import pytest
 from matplotlib.figure import Figure
 
-from rockref import cli
 from rockref.studies.sensitivity import STEPS
+from tests.command import run
 from tests.unit.report import made_up
-
-
-def run(capsys, *arguments):
-    """Exit code, standard output and standard error of `rockref ARGUMENTS`."""
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(a) for a in arguments])
-    out, err = capsys.readouterr()
-    return end.value.code, out, err
 
 
 @pytest.mark.slow

@@ -6,17 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rockref import Model, api, cli
+from rockref import Model, api
 from rockref.model.rotation import exponential
+from tests.command import run
 from tests.unit.report.page_checks import faults_of
-
-
-def run(capsys, *arguments):
-    """Exit code, standard output and standard error of `rockref ARGUMENTS`."""
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(a) for a in arguments])
-    out, err = capsys.readouterr()
-    return end.value.code, out, err
 
 
 def test_table_and_summary(capsys, tmp_path):

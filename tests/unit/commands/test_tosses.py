@@ -5,9 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from rockref import Model, cli
+from rockref import Model
 from rockref.discover.tosses import diagnose as diagnosing
 from rockref.discover.tosses import fitting
+from tests.command import run
 from tests.tosses import made, stated, write_tosses
 from tests.unit.report import toss_records
 
@@ -18,12 +19,6 @@ pytest.importorskip("numba")
 def folder(tmp_path_factory):
     x, Lambda, _ = made(stated(), 10, frames=40, seed=1, noise=2e-5)
     return write_tosses(tmp_path_factory.mktemp("t") / "tosses", x, Lambda)
-
-
-def run(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        cli.main([*map(str, arguments)])
-    return end.value.code, *capsys.readouterr()
 
 
 def answer(monkeypatch, module, name, record, **facts):
