@@ -64,7 +64,7 @@ def release(t: np.ndarray, wx: np.ndarray, noise: float) -> float:
 def convert(logger: Path, folder: Path) -> None:
     """Write the experiment folder: a table for each run, and experiment.toml."""
     folder.mkdir(exist_ok=True)
-    noises, tables = [], []
+    noises, tables, samples = [], [], []
     for name, (file, use, tilt, turned) in RUNS.items():
         t, chip = read(logger / file)
         rates = body_rates(chip)
@@ -77,6 +77,7 @@ def convert(logger: Path, folder: Path) -> None:
         header = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"
         np.savetxt(folder / f"run{name}.csv", rows, "%.4f,%.3f,%.3f,%.3f", header=header, comments="")
         noises.append(noise)
+        samples.append(len(rest))
         tables.append(
             f'[[run]]\nid = "{name}"\nfile = "run{name}.csv"\nuse = "{use}"\n'
             f"release_tilt_rad = {tilt}\nblock_turned_deg = {turned}\n"
@@ -87,6 +88,7 @@ def convert(logger: Path, folder: Path) -> None:
         f"[block]\nmass_kg = {MASS}\nwidth_m = {WIDTH}\nheight_m = {HEIGHT}\n\n"
         f"[release]\ntilt_uncertainty_rad = {TILT_UNCERTAINTY}\n\n"
         f"[gyro]\n{sheet}\nnoise_deg_s = {np.mean(noises):.3f}\n"
+        f"zero_uncertainty_deg_s = {np.mean(noises) / min(samples) ** 0.5:.4f}\n"
     )
     (folder / "experiment.toml").write_text("\n".join([head, *tables]), encoding="utf-8")
 

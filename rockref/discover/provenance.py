@@ -7,6 +7,11 @@ from typing import Any
 
 import numpy as np
 
+#: What is left of the gyroscope's zero in a run [rad/s], about the axes of the block.
+ZERO_OFFSETS = ("zero_offset_x", "zero_offset_y", "zero_offset_z")
+#: Notes about one release in the origin of a model, which are no properties of the block.
+OF_ONE_RELEASE = ("tilt_offset", "roll_offset", *ZERO_OFFSETS)
+
 
 def versions(experiment) -> dict[str, Any]:
     """Return versions of the program and its libraries, and the digests of the experiment's files."""

@@ -130,7 +130,7 @@ def _gyro(table: Any, runs: tuple[Run, ...], folder: Path, source: str) -> tuple
     stated = read_fields(table, GYRO, f"{source}, [gyro]")
     first = next(run for run in runs if run.use == FIT)
     sheet, notices = completed(stated, folder / first.file, source)
-    return Gyro(**sheet), notices  # type: ignore[arg-type]
+    return Gyro(**{**sheet, "zero_uncertainty": sheet["zero_uncertainty"] or 0.0}), notices  # type: ignore[arg-type]
 
 
 def _density(experiment: Experiment, source: str) -> list[Notice]:

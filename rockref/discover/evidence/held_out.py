@@ -12,6 +12,7 @@ from rockref.discover.fit.problem import FitProblem
 from rockref.discover.fit.stages import S1, S3, F
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.discover.listening.listener import Listener
+from rockref.discover.provenance import OF_ONE_RELEASE
 
 
 @dataclass
@@ -27,7 +28,7 @@ def held_out_fit(fitter: Fitter, h: FittedModel, listener: Listener) -> tuple[Fi
     """Return a fit of the releases of held-out runs with the shared numbers of h."""
     problem = fitter.problem
     base = next(m for m in problem.job(fitter.parameters(h), h.z).models if m is not None)
-    own = {k: v for k, v in base.origin.items() if k not in ("tilt_offset", "roll_offset")}
+    own = {k: v for k, v in base.origin.items() if k not in OF_ONE_RELEASE}
     released = ReleaseProblem(
         problem.experiment, listener, base.replace(origin=own), tone=problem.tone, progress=problem.progress
     )

@@ -9,10 +9,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.evidence.evidence import HypothesisEvidence
 from rockref.discover.fit.fitter import FittedModel, Fitter
-from rockref.discover.provenance import versions
-
-#: What are notes about one release, not properties of the block.
-OF_ONE_RELEASE = ("tilt_offset", "roll_offset")
+from rockref.discover.provenance import OF_ONE_RELEASE, versions
 
 
 def model_of(fitter: Fitter, h: FittedModel, said: HypothesisEvidence, made_by: str, **notes: Any) -> Model:

@@ -75,7 +75,8 @@ class FitProblem:
         if key not in self._known:
             R = len(self.runs)
             uncertainty = self.experiment.tilt_uncertainty or TILT_UNCERTAINTY
-            found = [*law_parameters(self.base, self.experiment.prior), *release_parameters(R, uncertainty)]
+            found = [*law_parameters(self.base, self.experiment.prior)]
+            found += release_parameters(R, uncertainty, self.listener.gyro.zero_uncertainty)
             for id in effects:
                 found += [within_base(p, self.base) for p in effect_parameters(id, R, self.tone, self.units)]
             self._known[key] = tuple(found)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from rockref.api import Model
 from rockref.discover.hypotheses.parameter import Parameter
+from rockref.discover.provenance import ZERO_OFFSETS
 from rockref.model.errors import InputError
 
 #: Range of each parameter of the law. Decided, from machined steel on a plate to rough stone: normal stiffness for each
@@ -49,6 +50,12 @@ def set_tilt_offset(model: Model, value: float) -> Model:
 def set_roll_offset(model: Model, value: float) -> Model:
     """Set the roll of a run at its release against the settled posture [rad]."""
     return replace(model, origin={**model.origin, "roll_offset": value})
+
+
+def set_zero_offset(axis: int):
+    """Return a setter of what is left of the gyroscope's zero in a run, about one axis of the block [rad/s]."""
+    name = ZERO_OFFSETS[axis]
+    return lambda model, value: replace(model, origin={**model.origin, name: value})
 
 
 def set_tangential_ratio(model: Model, value: float) -> Model:
@@ -113,10 +120,17 @@ def bounded(name: str, setter, limits: tuple[float, float], scale: str) -> Param
     return Parameter(name, setter, centre=0.0, scale=scale, low=limits[0], high=limits[1], unit=UNITS.get(name, "1"))
 
 
-def release_parameters(runs: int, tilt_uncertainty: float) -> tuple[Parameter, ...]:
-    """Return tilt and roll of each run's release, [rad], run by run."""
+def release_parameters(runs: int, tilt_uncertainty: float, zero_uncertainty: float = 0.0) -> tuple[Parameter, ...]:
+    """Return tilt and roll of each run's release [rad], and its zero offsets [rad/s] if uncertain, run by run.
+
+    Summed over a second, a hundredth of a deg/s turns the measured attitude by as much as feet differ in height.
+    """
     found = []
     for i in range(runs):
         found.append(Parameter(f"tilt_offset[{i}]", set_tilt_offset, 0.0, tilt_uncertainty, run=i, unit="rad"))
         found.append(Parameter(f"roll_offset[{i}]", set_roll_offset, 0.0, ROLL_UNCERTAINTY, run=i, unit="rad"))
+        if zero_uncertainty > 0:
+            for axis, name in enumerate(ZERO_OFFSETS):
+                zero = Parameter(f"{name}[{i}]", set_zero_offset(axis), 0.0, zero_uncertainty, run=i, unit="rad/s")
+                found.append(replace(zero, moves_target=True))
     return tuple(found)

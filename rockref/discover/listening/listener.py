@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.listening.target import Grid, Target, grid, target_of
+from rockref.discover.listening.target import Grid, Target, grid, target_of, zero_offset
 from rockref.discover.threads import on_threads, threads_left
 from rockref.effects.base import Effect
 from rockref.engines.compiled import pack
@@ -120,7 +120,8 @@ class Listener:
         ticks = Grid(self.ticks.interval, min(self.ticks.count, int(last / self.ticks.interval * 1.03) + 40))
         bodies: dict[tuple[int, ...], tuple] = {}
         problems = [released(model, self.runs[i], bodies) for _, i, model in rows]
-        rates, steps = self.listened([i for _, i, _ in rows], problems, memory, ticks)
+        zeros = [zero_offset(model) for _, _, model in rows]
+        rates, steps = self.listened([i for _, i, _ in rows], problems, memory, ticks, zeros)
         groups: dict[tuple[Effect, ...], list[int]] = {}
         for k, (_, _, model) in enumerate(rows):
             groups.setdefault(sensor_effects(model), []).append(k)
@@ -129,27 +130,36 @@ class Listener:
             for k, seen in zip(members, shown, strict=True):
                 j, i, _ = rows[k]
                 t, at = self.t[i][:N], self._at[i]
-                sampled = sample(ticks.t, seen, t) if at is None else seen[at[:N]]
+                sampled = (sample(ticks.t, seen, t) if at is None else seen[at[:N]]) + zeros[k]
                 out[j, i, : len(t)] = limited(t, sampled, self.gyro, effects)
         return steps
 
-    def listened(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> tuple[np.ndarray, int]:
-        """Return body rates (B, K, 3) [rad/s] of released problems that listen to the runs `which`, and block-steps."""
+    def listened(
+        self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid, zeros: Sequence = ()
+    ) -> tuple[np.ndarray, int]:
+        """Return body rates (B, K, 3) [rad/s] of released problems that listen to the runs `which`, and block-steps.
+
+        zeros : offset (3,) [rad/s] of the gyroscope's zero in each
+        """
+        zeros = zeros or [(0.0,) * 3] * len(problems)
         rates, steps = np.empty((len(problems), ticks.count, 3)), 0
         numbers = np.array([p.points.n for p in problems])
         for n in np.unique(numbers):
             rows = np.flatnonzero(numbers == n).tolist()
-            rates[rows], more = self._alike([which[k] for k in rows], [problems[k] for k in rows], memory, ticks)
+            own = ([of[k] for k in rows] for of in (which, problems, zeros))
+            rates[rows], more = self._alike(*own, memory, ticks)
             steps += more
         np.nan_to_num(rates, copy=False, nan=LOST, posinf=LOST, neginf=-LOST)
         return np.clip(rates, -LOST, LOST, out=rates), steps
 
-    def _alike(self, which: Sequence[int], problems: Sequence, memory: Memory, ticks: Grid) -> tuple[np.ndarray, int]:
+    def _alike(
+        self, which: Sequence[int], problems: Sequence, zeros: Sequence, memory: Memory, ticks: Grid
+    ) -> tuple[np.ndarray, int]:
         """Return the rates (B, K, 3) [rad/s] of problems with as many points each, and block-steps."""
         every = math.ceil(memory.steps * ticks.interval / TICK - 1e-9)
-        keys = [(i, sensor_effects(p)) for i, p in zip(which, problems, strict=True)]
+        keys = [(i, sensor_effects(p), zero) for i, p, zero in zip(which, problems, zeros, strict=True)]
         distinct = list(dict.fromkeys(keys))
-        targets = [self.target(i, effects) for i, effects in distinct]
+        targets = [self.target(i, effects).less(zero, self.ticks) for i, effects, zero in distinct]
         K = ticks.count
         gains = [1.0 - math.exp(-ticks.interval / tau) for tau in (memory.rates, memory.attitude)]
         listening = Listening(

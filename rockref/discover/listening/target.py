@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.discover.listening.attitude import attitudes
+from rockref.discover.provenance import ZERO_OFFSETS
 from rockref.effects.base import Effect
 from rockref.measure.records.release import Gyro, Run
 
@@ -50,6 +51,18 @@ class Target:
     turns: np.ndarray
     heard: np.ndarray
 
+    def less(self, offset: tuple[float, ...], ticks: Grid) -> Target:
+        """Return the target with an offset of the rates (3,) [rad/s] taken off."""
+        if not any(offset):
+            return self
+        rates = self.rates - np.array(offset)
+        return Target(rates, attitudes(np.eye(3), rates, ticks.interval), self.heard)
+
+
+def zero_offset(model) -> tuple[float, ...]:
+    """Return what is left of the gyroscope's zero (3,) [rad/s] in the run of a model, by the notes in its origin."""
+    return tuple(float(model.origin.get(name, 0.0)) for name in ZERO_OFFSETS)
+
 
 def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid) -> Target:
     """Return what a record tells of the block if its sensor had these effects.
@@ -66,13 +79,24 @@ def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid) -> T
         heard &= np.abs(crv) < gyro.range * (1 - 1e-6)
     t, crv = catalogue.undone(effects, t, crv, gyro.bandwidth)
     at = ticks.t
-    rates = np.stack([np.interp(at, t, crv[:, j]) for j in range(3)], axis=-1)
+    rates = between(t, crv, at)
     seen = np.stack([np.interp(at, t, heard[:, j].astype(float)) > 0.999 for j in range(3)], axis=-1)
     seen &= (at <= t[-1])[:, None]
     whole = np.logical_and.accumulate(seen.all(axis=1))
     return Target(
         rates, attitudes(np.eye(3), rates, ticks.interval), np.concatenate([seen, whole[:, None]], axis=1).astype(float)
     )
+
+
+def between(t: np.ndarray, crv: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Return rates (K, 3) at instants `at`: cubic between samples (N, 3) at t, the first or the last one beyond them.
+
+    Straight lines between samples of 2 ms cut the corners of an impact by ten noise widths, and a model that listens to
+    them follows.
+    """
+    from scipy.interpolate import CubicSpline
+
+    return CubicSpline(t, crv)(np.clip(at, t[0], t[-1]))
 
 
 def even(t: np.ndarray, crv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -83,7 +107,5 @@ def even(t: np.ndarray, crv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     step = float(t[-1] - t[0]) / (len(t) - 1)
     if np.max(np.abs(np.diff(t) - step)) <= UNEVEN * step:
         return t, crv
-    from scipy.interpolate import CubicSpline
-
     at = t[0] + step * np.arange(len(t))
-    return at, np.clip(CubicSpline(t, crv)(at), crv.min(axis=0), crv.max(axis=0))
+    return at, np.clip(between(t, crv, at), crv.min(axis=0), crv.max(axis=0))

@@ -13,7 +13,7 @@ from rockref.measure.checks.datasheet import BANDWIDTH_SHARE
 from rockref.measure.importing.axes import ALONE, Axes, find_axes, other_way_up
 from rockref.measure.importing.channels import find_channels
 from rockref.measure.importing.layout import read_log
-from rockref.measure.importing.motion import Motion, find_motion
+from rockref.measure.importing.motion import STANDING, Motion, find_motion
 from rockref.measure.importing.recording import recording
 from rockref.measure.importing.units import RATE_UNITS, rate_unit
 from rockref.measure.records.notice import Notice
@@ -28,6 +28,9 @@ SAME_TILT = 1.5e-3
 SCALE_ERROR, WIRE = 0.03, 1.4e-3
 # decided: two stated and measured tilts that differ by a twentieth are two tilts.
 TILT_AGREES = 0.05
+# The zero of a gyroscope on a chip wanders by 8 degrees an hour (Analog Devices ADIS16470, table 1, in-run bias
+# stability); warmed by one kelvin it moves by 0.05 deg/s (STMicroelectronics LSM6DS3, DocID026899, table 3).
+WANDER, WARMED = math.radians(8.0) / 3600.0, math.radians(0.05)
 # decided: one run in four is held out.
 HELD_OUT = 4
 
@@ -93,7 +96,8 @@ class Campaign:
     """An experiment as it is proposed.
 
     Attributes: ``choices``; ``runs``; ``unit`` of the rates in the logs; ``axes`` and ``axes_words``; ``rate``,
-    ``bandwidth`` Hz; ``noise``, ``resolution`` rad/s; ``tilt_uncertainty`` rad; ``tilts_measured``; ``notices``.
+    ``bandwidth`` Hz; ``noise``, ``resolution``, ``zero_uncertainty`` rad/s; ``tilt_uncertainty`` rad;
+    ``tilts_measured``; ``notices``.
     """
 
     choices: Choices
@@ -105,6 +109,7 @@ class Campaign:
     bandwidth: float
     noise: float
     resolution: float
+    zero_uncertainty: float
     tilt_uncertainty: float
     tilts_measured: bool
     notices: tuple[Notice, ...]
@@ -161,6 +166,7 @@ def import_logs(paths: Sequence[Path], choices: Choices, progress: Callable[[flo
         bandwidth,
         noise if choices.noise is None else choices.noise,
         resolution if choices.resolution is None else choices.resolution,
+        _zero_uncertainty(runs, noise, rate),
         max(WIRE, SCALE_ERROR * largest) if tilts_measured else WIRE,
         tilts_measured,
         tuple(n for m in motions for n in m.recording.notices) + tuple(_remarks(runs, motions, axes, choices)),
@@ -298,6 +304,12 @@ def _noise(runs: Sequence[ImportedRun], motions: Sequence[Motion], worth: float)
     sigmas = standing or [noise_floor(run.t[run.rows], run.crv[run.rows]).sigma for run in runs]
     steps = [smallest_step(m.recording.chip) * worth for m in motions]
     return float(np.mean(sigmas)), float(np.median(steps))
+
+
+def _zero_uncertainty(runs: Sequence[ImportedRun], noise: float, rate: float) -> float:
+    """Return how uncertain [rad/s] the zero is that was taken off: noise of its mean, and what it wanders."""
+    shortest = min(min(run.standing, STANDING) for run in runs)
+    return math.hypot(noise / math.sqrt(rate * shortest), WANDER) if shortest > 0.0 else WARMED
 
 
 def _remarks(runs: Sequence[ImportedRun], motions: Sequence[Motion], axes: Axes, choices: Choices) -> list[Notice]:

@@ -101,6 +101,11 @@ def experiment_toml(campaign: Campaign, name: str) -> str:
         f"resolution_deg_s = {c.resolution / DEGREE:.6g}  # "
         + ("stated" if choices.resolution is not None else "the step between values; 0 where there is none"),
     ]
+    if any(run.standing > 0.0 for run in c.runs):
+        why = "of the zero that was taken off: noise of its mean while the block stood, and what it wanders"
+    else:
+        why = "of the zero: nobody measured it, as the block does not stand before its release"
+    gyro.append(f"zero_uncertainty_deg_s = {c.zero_uncertainty / DEGREE:.2g}  # {why}")
     if choices.range is not None:
         gyro.append(f"range_deg_s = {choices.range / DEGREE:.6g}")
     tilts = "measured: what the rates add up to until the block stands" if c.tilts_measured else "stated"

@@ -43,6 +43,7 @@ GYRO = (
     Number("bandwidth", _HZ, 0.1, 1e6, required=False),
     Number("resolution", _RATE, 0.0, 2.0, required=False),
     Number("range", _RATE, 1e-3, 1e3, required=False),
+    Number("zero_uncertainty", _RATE, 0.0, 0.1, required=False),
 )
 
 

@@ -21,7 +21,8 @@ class Gyro:
     """The data sheet of the gyroscope.
 
     Attributes: ``sample_rate`` Hz; ``noise`` rad/s, standard deviation of a sample; ``bandwidth`` Hz, -3 dB of the
-    second-order low-pass; ``resolution`` rad/s; ``range`` rad/s, the largest rate it can show, or None.
+    second-order low-pass; ``resolution`` rad/s; ``range`` rad/s, the largest rate it can show, or None;
+    ``zero_uncertainty`` rad/s, standard deviation of what is left of its zero in each run.
     """
 
     sample_rate: float
@@ -29,6 +30,7 @@ class Gyro:
     bandwidth: float
     resolution: float
     range: float | None = None
+    zero_uncertainty: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

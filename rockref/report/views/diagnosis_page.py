@@ -14,7 +14,7 @@ from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnose import Diagnosis
 from rockref.discover.diagnosis_record import plain
-from rockref.discover.evidence.result import OF_ONE_RELEASE
+from rockref.discover.provenance import OF_ONE_RELEASE
 from rockref.effects import catalogue
 from rockref.report.charts import style
 from rockref.report.charts.drawing import Line, Panel, chart, key
