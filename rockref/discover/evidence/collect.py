@@ -15,7 +15,7 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import loss
 from rockref.discover.fit.stages import F
 from rockref.discover.hypotheses.effects import own_value
-from rockref.discover.hypotheses.parameter import Parameter
+from rockref.discover.hypotheses.parameter import Parameter, centring
 from rockref.discover.listening.listener import Listener
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
@@ -32,7 +32,7 @@ def hypothesis_evidence(fitter: Fitter, h: FittedModel, temperature: float) -> H
     deviation, H = deviations(fitter, h, F, temperature)
     runs = fitter.problem.runs
     parameters = fitter.parameters(h)
-    found = numbers_of(parameters, h.z, deviation)
+    found = numbers_of(parameters, centring(parameters) @ h.z, deviation)
     law = [abs(float(z)) for p, z in zip(parameters, h.z, strict=True) if not p.effect and p.run is None]
     return HypothesisEvidence(
         effects=h.effects,

@@ -11,6 +11,7 @@ import numpy as np
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import weight
 from rockref.discover.fit.stages import Stage
+from rockref.discover.hypotheses.parameter import centring
 
 #: Length of a block [s] for the source's block; decided: several memories, so that blocks are independent.
 BLOCK = 0.1
@@ -21,7 +22,8 @@ def deviations(fitter: Fitter, h: FittedModel, stage: Stage, temperature: float)
 
     h : polished at the stage; if it is not, it is.
 
-    The larger of two: the sandwich, and the posterior's at the temperature of the evidence.
+    The larger of two: the sandwich, and the posterior's at the temperature of the evidence. Of factors that only act by
+    their ratios, that of their ratio to the geometric mean.
     """
     if h.spread is None:
         fitter.polish(h, stage, 1)
@@ -37,5 +39,6 @@ def deviations(fitter: Fitter, h: FittedModel, stage: Stage, temperature: float)
     inverse = np.linalg.inv(spread.information() + spread.prior())
     sandwich = inverse @ (blocks @ blocks.T + spread.prior()) @ inverse
     sandwich = spread.moves @ sandwich @ spread.moves.T
-    variances = np.maximum(np.diag(sandwich), np.diag(spread.covariance(temperature)))
-    return np.sqrt(variances), spread.matrix()
+    told = centring(fitter.parameters(h))
+    both = (np.diag(told @ covariance @ told.T) for covariance in (sandwich, spread.covariance(temperature)))
+    return np.sqrt(np.maximum(*both)), spread.matrix()

@@ -13,7 +13,7 @@ from rockref.discover.fit.stages import Stage, time_scale
 from rockref.discover.hypotheses.candidates import within_base
 from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters, release_parameters, with_law
-from rockref.discover.hypotheses.parameter import Parameter
+from rockref.discover.hypotheses.parameter import Parameter, centring
 from rockref.discover.listening.listener import Job, Listener, record_of
 from rockref.discover.progress import StageCounter
 from rockref.effects.natural import NaturalUnits, natural_units
@@ -84,6 +84,8 @@ class FitProblem:
 
     def job(self, parameters: Sequence[Parameter], z: np.ndarray, only: Sequence[int] | None = None) -> Job:
         """Return the models of the runs at z; of the runs `only`, where that is given."""
+        if any(p.relative for p in parameters):
+            z = centring(parameters) @ z
         values = [p.value(float(at)) for p, at in zip(parameters, z, strict=True)]
         law, own = {}, []
         releases: list[dict[str, float]] = [{} for _ in self.runs]

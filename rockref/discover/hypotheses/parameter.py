@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -25,7 +25,8 @@ class Parameter:
     uniform, log_uniform : every value (or logarithm) between low and high is alike a priori; the normal distribution
         function of z gives the share of the way.
     set(model, value) -> model, for run `run` or for all (None).  typical : z of one typical size of an effect, else 0.
-    low, high : hard limits.  moves_target : whether the number changes what the run listens to.
+    low, high : hard limits.  moves_target : whether the number changes what the run listens to.  relative : whether it
+    is one of an effect's factors that only act by their ratios.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Parameter:
     one_sided: bool = False
     unit: str = ""
     moves_target: bool = False
+    relative: bool = False
 
     @property
     def effect(self) -> str:
@@ -91,3 +93,15 @@ class Parameter:
         if not np.isfinite(self.low) or (self.scale == "log" and self.low <= 0):
             return -np.inf
         return self.z_of(self.low)
+
+
+def centring(parameters: Sequence[Parameter]) -> np.ndarray:
+    """Return the matrix (G, G) that takes the mean off the z of an effect's factors that only act by their ratios.
+
+    These share a scale and a spread: the mean of their z at zero holds their geometric mean at one.
+    """
+    matrix = np.eye(len(parameters))
+    for effect in dict.fromkeys(p.effect for p in parameters if p.relative):
+        rows = [k for k, p in enumerate(parameters) if p.relative and p.effect == effect]
+        matrix[np.ix_(rows, rows)] -= 1 / len(rows)
+    return matrix
