@@ -74,7 +74,7 @@ class Effect:
     For fits: `priors` (what `rockref.effects.scale` does not get from a Quantity), `seeds` (values, the others typical,
     to start from beside zero, where a small step shows nothing), `of_run` (a size and its phase that every run has of
     its own: a fit finds their cosine and sine parts), `not_with_block` (quantities of a film or a floor, which do
-    not grow with the block: `rockref.effects.natural`), `relative` (factors that only act by their ratios: a common one
+    not grow with the block: `rockref.effects.natural`), `by_ratio` (factors that only act by their ratios: a common one
     is a number of the law; a fit holds their geometric mean at one).
     The hooks in the order of the step. Arrays as in the model; `m` is the effect's own memory, whose entries may be
     replaced (never changed in place).
@@ -114,7 +114,7 @@ class Effect:
     seeds: ClassVar[tuple[dict[str, float], ...]] = ()
     of_run: ClassVar[tuple[str, str] | tuple[()]] = ()
     not_with_block: ClassVar[tuple[str, ...]] = ()
-    relative: ClassVar[tuple[str, ...]] = ()
+    by_ratio: ClassVar[tuple[str, ...]] = ()
 
     @classmethod
     def typical(cls) -> Effect:

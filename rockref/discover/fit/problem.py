@@ -84,7 +84,7 @@ class FitProblem:
 
     def job(self, parameters: Sequence[Parameter], z: np.ndarray, only: Sequence[int] | None = None) -> Job:
         """Return the models of the runs at z; of the runs `only`, where that is given."""
-        if any(p.relative for p in parameters):
+        if any(p.by_ratio for p in parameters):
             z = centring(parameters) @ z
         values = [p.value(float(at)) for p, at in zip(parameters, z, strict=True)]
         law, own = {}, []

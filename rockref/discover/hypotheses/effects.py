@@ -33,7 +33,7 @@ def counted_in_priors(p: Counted) -> Parameter:
     return Parameter(
         p.name, p.set, p.centre, p.spread * p.prior, "log" if p.log else "linear", p.run, p.low, p.high,
         typical=0.0 if shapes else 1 / p.prior, one_sided=not p.log and p.low >= p.centre, unit=p.unit,
-        moves_target=kind is not None and kind.changes_target(), relative=kind is not None and key in kind.relative,
+        moves_target=kind is not None and kind.changes_target(), by_ratio=kind is not None and key in kind.by_ratio,
     )  # fmt: skip
 
 

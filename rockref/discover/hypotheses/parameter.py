@@ -25,7 +25,7 @@ class Parameter:
     uniform, log_uniform : every value (or logarithm) between low and high is alike a priori; the normal distribution
         function of z gives the share of the way.
     set(model, value) -> model, for run `run` or for all (None).  typical : z of one typical size of an effect, else 0.
-    low, high : hard limits.  moves_target : whether the number changes what the run listens to.  relative : whether it
+    low, high : hard limits.  moves_target : whether the number changes what the run listens to.  by_ratio : whether it
     is one of an effect's factors that only act by their ratios.
     """
 
@@ -41,7 +41,7 @@ class Parameter:
     one_sided: bool = False
     unit: str = ""
     moves_target: bool = False
-    relative: bool = False
+    by_ratio: bool = False
 
     @property
     def effect(self) -> str:
@@ -101,7 +101,7 @@ def centring(parameters: Sequence[Parameter]) -> np.ndarray:
     These share a scale and a spread: the mean of their z at zero holds their geometric mean at one.
     """
     matrix = np.eye(len(parameters))
-    for effect in dict.fromkeys(p.effect for p in parameters if p.relative):
-        rows = [k for k, p in enumerate(parameters) if p.relative and p.effect == effect]
+    for effect in dict.fromkeys(p.effect for p in parameters if p.by_ratio):
+        rows = [k for k, p in enumerate(parameters) if p.by_ratio and p.effect == effect]
         matrix[np.ix_(rows, rows)] -= 1 / len(rows)
     return matrix

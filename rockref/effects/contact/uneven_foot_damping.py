@@ -24,7 +24,7 @@ class UnevenFootDamping(Effect):
         for i, typical in enumerate((0.5, 2.0, 0.6, 1.6), 1)
     } | {"normal_share": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "power by which C_T stays behind", 0.0, 1.0)}
     switches = ("foot1", "foot2", "foot3", "foot4")
-    relative = ("foot1", "foot2", "foot3", "foot4")
+    by_ratio = ("foot1", "foot2", "foot3", "foot4")
     # Decided: between feet of one block a factor of one and a half.
     priors = {f"foot{i}": Prior(scale="log", spread=0.4) for i in (1, 2, 3, 4)} | {"normal_share": Prior("form")}
     sentence = "Feet lose different shares of an impact: one on bare steel, another on a film of oil or a shim."

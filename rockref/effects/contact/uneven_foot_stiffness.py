@@ -25,7 +25,7 @@ class UnevenFootStiffness(Effect):
         for i, typical in enumerate((0.6, 1.4, 0.8, 1.2), 1)
     } | {"tangential_share": Quantity("1", 0.0, 0.0, 1.0, 0.0, "any", "power by which K_T goes along", 0.0, 1.0)}
     switches = ("foot1", "foot2", "foot3", "foot4")
-    relative = ("foot1", "foot2", "foot3", "foot4")
+    by_ratio = ("foot1", "foot2", "foot3", "foot4")
     # Decided: between feet of one block a factor of one and a half.
     priors = {f"foot{i}": Prior(scale="log", spread=0.4) for i in (1, 2, 3, 4)} | {"tangential_share": Prior("form")}
     sentence = "A foot on a softer spot, or with a smaller face, yields more under the same load."

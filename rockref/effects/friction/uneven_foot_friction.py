@@ -20,7 +20,7 @@ class UnevenFootFriction(Effect):
         f"foot{i}": Quantity("1", 1.0, 0.4, 2.5, typical, "any", f"friction of foot {i} over the common one", 0.0)
         for i, typical in enumerate((0.7, 1.3, 0.85, 1.15), 1)
     }
-    relative = ("foot1", "foot2", "foot3", "foot4")
+    by_ratio = ("foot1", "foot2", "foot3", "foot4")
     # Decided: between feet of one block a third.
     priors = {f"foot{i}": Prior(scale="log", spread=0.3) for i in (1, 2, 3, 4)}
     sentence = "A foot that is polished, worn or oily holds less than its neighbours."
