@@ -89,13 +89,14 @@ class Listener:
         self._targets: dict[tuple, Target] = {}
         self.simulated = 0
 
-    def target(self, i: int, effects: tuple[Effect, ...]) -> Target:
+    def target(self, i: int, effects: tuple[Effect, ...], ticks: Grid | None = None) -> Target:
         """Return what run i tells of the block, its sensor having these effects; the last hundred are kept."""
-        key = (i, effects)
+        ticks = ticks or self.ticks
+        key = (i, effects, ticks.count)
         if key not in self._targets:
             if len(self._targets) >= 100:
                 self._targets.clear()
-            self._targets[key] = target_of(self.runs[i], self.gyro, effects, self.ticks)
+            self._targets[key] = target_of(self.runs[i], self.gyro, effects, ticks)
         return self._targets[key]
 
     def predict(self, jobs: Sequence[Job], memory: Memory, horizon: float | None = None) -> np.ndarray:
@@ -159,7 +160,7 @@ class Listener:
         every = math.ceil(memory.steps * ticks.interval / TICK - 1e-9)
         keys = [(i, sensor_effects(p), zero) for i, p, zero in zip(which, problems, zeros, strict=True)]
         distinct = list(dict.fromkeys(keys))
-        targets = [self.target(i, effects).less(zero, self.ticks) for i, effects, zero in distinct]
+        targets = [self.target(i, effects, ticks).less(zero, ticks) for i, effects, zero in distinct]
         K = ticks.count
         gains = [1.0 - math.exp(-ticks.interval / tau) for tau in (memory.rates, memory.attitude)]
         listening = Listening(

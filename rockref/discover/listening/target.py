@@ -16,6 +16,10 @@ from rockref.measure.records.release import Gyro, Run
 #: Least rate of the ticks [Hz]; decided: between ticks of 0.5 ms rates are straight to a thousandth over a contact of
 #: 1.5 ms (as `rockref.measure.gyroscope` has it).
 TICK_RATE = 2000.0
+#: Samples through which rates between samples are read.
+NODES = 6
+#: How far a record is looked at beyond the last tick [s]; decided: a low-pass of 10 Hz has forgotten it by then.
+BEYOND = 0.1
 #: Share of an interval by which instants may be uneven and are taken as they are (decided: 0.03 ms at 1 kHz).
 UNEVEN = 0.03
 
@@ -73,7 +77,8 @@ def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid) -> T
     assert run.t is not None and run.crv is not None
     from rockref.effects import catalogue
 
-    t, crv = even(run.t, run.crv)
+    rows = run.t <= ticks.interval * ticks.count + BEYOND
+    t, crv = even(run.t[rows], run.crv[rows])
     heard = catalogue.heard(effects, t, crv)
     if gyro.range is not None:
         heard &= np.abs(crv) < gyro.range * (1 - 1e-6)
@@ -89,14 +94,21 @@ def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid) -> T
 
 
 def between(t: np.ndarray, crv: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Return rates (K, 3) at instants `at`: cubic between samples (N, 3) at t, the first or the last one beyond them.
+    """Return rates (K, 3) at instants `at`: Lagrange's polynomial through the six samples (N, 3) about each.
 
-    Straight lines between samples of 2 ms cut the corners of an impact by ten noise widths, and a model that listens to
-    them follows.
+    t : even.  Beyond its ends the first or the last sample.  Straight lines between samples of 2 ms cut the corners of
+    an impact by ten noise widths, and a model that listens to them follows.
     """
-    from scipy.interpolate import CubicSpline
-
-    return CubicSpline(t, crv)(np.clip(at, t[0], t[-1]))
+    nodes = min(NODES, len(t))
+    place = np.clip((at - t[0]) * ((len(t) - 1) / float(t[-1] - t[0])), 0, len(t) - 1)
+    first = np.clip(np.floor(place).astype(int) - nodes // 2 + 1, 0, len(t) - nodes)
+    away = (place - first)[:, None] - np.arange(nodes)
+    rates = np.zeros((len(at), 3))
+    for k in range(nodes):
+        others = [j for j in range(nodes) if j != k]
+        share = np.prod(away[:, others], axis=1) / math.prod(k - j for j in others)
+        rates += share[:, None] * crv[first + k]
+    return rates
 
 
 def even(t: np.ndarray, crv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -107,5 +119,7 @@ def even(t: np.ndarray, crv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     step = float(t[-1] - t[0]) / (len(t) - 1)
     if np.max(np.abs(np.diff(t) - step)) <= UNEVEN * step:
         return t, crv
+    from scipy.interpolate import CubicSpline
+
     at = t[0] + step * np.arange(len(t))
-    return at, np.clip(between(t, crv, at), crv.min(axis=0), crv.max(axis=0))
+    return at, np.clip(CubicSpline(t, crv)(at), crv.min(axis=0), crv.max(axis=0))
