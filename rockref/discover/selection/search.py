@@ -3,7 +3,7 @@
 1. Fit the baseline at short memories. Innovations that stay above white contradict it.
 2. If contradicted: try all effects by successive halving; fit the baseline from starts over the whole prior; try all
    effects beside that; then the law anew beside the best effect, and one more effect.
-3. Lengthen the memory. At each stage the score test proposes more effects; those that gain enough join.
+3. Lengthen the memory. At the longest the score test proposes more effects; those that gain enough join.
 4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
 5. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
 """
@@ -36,9 +36,8 @@ UNEXPLAINED = 1.5
 #: Prior deviations that the law may move from its nominal numbers and count as a block of the source's make (decided: a
 #: tenth of every parameter of Table 3.1 is 0.3).
 STAYED = 0.5
-#: Share of the objective that an addition has to take off to join, at each stage (decided: what weak effects gain grows
-#: with the memory).
-JOINS = {"S3": 0.01, "F": 0.006}
+#: Share of the objective that an addition has to take off to join at the longest memory (decided).
+JOINS = 0.006
 #: Factor on the best objective up to which a model goes on after each stage (decided: a longer memory changes the order
 #: of models by less).
 MARGINS = {"S3": 1.06, "F": 1.02}
@@ -97,7 +96,7 @@ class Search:
         moved = self.fitter.settle(kicked(self.fitter, moved, S1, 2), S2, 4)
         (end,) = self.followed([moved.copy()])
         self.problem.say(f"{end.name}, the law moved: mean loss {end.loss:.2f}")
-        better = end.objective <= (1 - JOINS["F"]) * best.objective
+        better = end.objective <= (1 - JOINS) * best.objective
         added = set(best.effects) - set(self.problem.carried)
         if not better and len(added) < 2:
             return beam
@@ -241,26 +240,28 @@ class Search:
         return min(beam, key=lambda h: h.objective)
 
     def lengthen(self, beam: list[FittedModel], stage: Stage) -> list[FittedModel]:
-        """Fit a beam at a longer memory; let the score test add to the best."""
+        """Fit a beam at a longer memory; at the longest let the score test add to the best."""
         self.problem.progress.begin(stage.name, MEMORY[stage.name], self.best(beam).name)
         self.fitter.widen()
         fit = self.fitter.polish if stage is F else self.fitter.refine
         for h in beam:
             fit(h, stage, STEPS[stage.name])
         beam = within(beam, BEAM, MARGINS[stage.name])
-        best = beam[0]
-        if len(best.effects) < MOST:
-            self.test = score_test(self.fitter, self.fitter.evaluate(best, stage), stage)
-            added = proposals(self.fitter, best, stage, ADDED, self.test)
-            for h in added:
-                fit(h, stage, 2)
-            bar = best.objective * (1 - JOINS[stage.name])
-            beam = best_of_each([*beam, *(h for h in added if h.objective < bar)])
-            if stage is F:
-                self.remember(added)
-        beam = within(beam, BEAM, MARGINS[stage.name])
+        if stage is F and len(beam[0].effects) < MOST:
+            beam = self.joined(beam)
         say(self.fitter, stage.name, beam)
         return beam
+
+    def joined(self, beam: list[FittedModel]) -> list[FittedModel]:
+        """Return a beam at F with the additions to its best that gain enough, by the score test."""
+        best = beam[0]
+        self.test = score_test(self.fitter, self.fitter.evaluate(best, F), F)
+        added = proposals(self.fitter, best, F, ADDED, self.test)
+        for h in added:
+            self.fitter.polish(h, F, 2)
+        self.remember(added)
+        bar = best.objective * (1 - JOINS)
+        return within([*beam, *(h for h in added if h.objective < bar)], BEAM, MARGINS["F"])
 
     def eliminate(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Take each effect of the best model out, try the best replacements, and return all at F."""
@@ -278,7 +279,7 @@ class Search:
         return self.converged(best_of_each([*beam, *found, *self.seen.values()]))
 
     def replacements(self, less: FittedModel, known: Sequence[FittedModel]) -> list[FittedModel]:
-        """Return the two best additions to a model at F that are not known yet.
+        """Return the two best additions to a model at F that are not known yet, and whose first step leads somewhere.
 
         An error of the sensor may be out of reach of one step of a long memory, and is sized from the release.
         """
@@ -287,7 +288,9 @@ class Search:
         self.fitter.evaluate_all(sized, F)
         there = {frozenset(h.effects) for h in [*known, *self.seen.values()]}
         field = best_of_each([*proposals(self.fitter, start, F, REPLACING), *sized])
-        return [h for h in field if frozenset(h.effects) not in there][:2]
+        best = self.best(known)
+        bar = best.objective + LEAVES[0] * max(start.objective - best.objective, 0.0)
+        return [h for h in field if frozenset(h.effects) not in there and h.objective <= bar][:2]
 
     def converged(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Fit the finalists until no step gains, and again from the law and the releases of the best of them.
@@ -302,11 +305,15 @@ class Search:
             self.fitter.polish(h, F, CONVERGED)
         for _ in range(EXCHANGES):
             best = min(beam, key=penalised)
-            others = [h for h in finalists if set(h.effects) != set(best.effects)]
+            others = [h for h in finalists if not self.holds(h, best)]
             beam += [self.fitter.polish(self.beside(best, h), F, CONVERGED) for h in others]
             if set(min(beam, key=penalised).effects) == set(best.effects):
                 break
         return sorted(best_of_each(beam), key=lambda h: h.objective)
+
+    def holds(self, h: FittedModel, best: FittedModel) -> bool:
+        """Return whether h has all effects of the best, and is as low: from the same law it ends where it is."""
+        return set(best.effects) <= set(h.effects) and h.objective <= best.objective
 
     def beside(self, best: FittedModel, h: FittedModel) -> FittedModel:
         """Return a hypothesis with the law, the releases and the shared effects of another one."""
