@@ -12,7 +12,8 @@ from rockref.discover.evidence.evidence import HypothesisEvidence, Number
 from rockref.discover.evidence.held_out import held_out_fit
 from rockref.discover.evidence.widths import deviations
 from rockref.discover.fit.fitter import FittedModel, Fitter
-from rockref.discover.fit.objective import loss
+from rockref.discover.fit.floor import floor
+from rockref.discover.fit.objective import WHITE, loss
 from rockref.discover.fit.stages import F
 from rockref.discover.hypotheses.effects import own_value
 from rockref.discover.hypotheses.parameter import Parameter, centring
@@ -20,6 +21,9 @@ from rockref.discover.listening.listener import Listener
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
 NINETY = 1.6449
+#: Mean loss, of all or of one axis of a run, from which a model is asked what it leaves in records of its own (decided:
+#: below it no limit is near).
+ASKED = 1.0
 #: Length of a block [s] and mean loss from which it is far above white; decided: white blocks of 150 values have 0.947
 #: with a deviation of 0.09.
 BLOCK, FAR_ABOVE = 0.05, 1.5
@@ -33,13 +37,18 @@ def hypothesis_evidence(fitter: Fitter, h: FittedModel, temperature: float) -> H
     runs = fitter.problem.runs
     parameters = fitter.parameters(h)
     found = numbers_of(parameters, centring(parameters) @ h.z, deviation)
+    losses = fitter.losses(h)
+    asked = max(h.loss, losses.max()) > ASKED
+    least, floors = floor(fitter, h, F) if asked else (WHITE, np.full(losses.shape, WHITE))
     law = [abs(float(z)) for p, z in zip(parameters, h.z, strict=True) if not p.effect and p.run is None]
     return HypothesisEvidence(
         effects=h.effects,
         objective=h.objective,
         eigenvalues=np.linalg.eigvalsh(H).tolist(),
         loss=h.loss,
-        loss_by_run_and_axis={run.id: row.tolist() for run, row in zip(runs, fitter.losses(h), strict=True)},
+        loss_by_run_and_axis={run.id: row.tolist() for run, row in zip(runs, losses, strict=True)},
+        floor=least,
+        floor_by_run_and_axis={run.id: row.tolist() for run, row in zip(runs, floors, strict=True)},
         blocks={run.id: float(share) for run, share in zip(runs, far_above(fitter, h), strict=True)},
         farthest=max(law, default=0.0),
         numbers={name: n for name, n in found.items() if "." in name},

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from rockref.discover.diagnosis_record import plain
+from rockref.discover.fit.objective import WHITE
 from rockref.model.errors import InputError
 from rockref.model.storage import write_text
 
@@ -36,6 +37,7 @@ class HypothesisEvidence:
 
     objective : negative log posterior [nat];  eigenvalues : of its Gauss-Newton matrix in prior deviations
     loss : mean robust loss (white noise: 0.947), by run and axis; of held-out runs by run in `held_out`
+    floor : mean loss that it leaves in records of its own, in all and by run and axis; that of white noise if not asked
     blocks : share of 50 ms blocks of each run that are far above white
     farthest : of a law's number [prior deviations];  numbers, law : of the effects and of the law, shared by the runs
     error : root mean square of the innovations by axis and in all [deg/s], the worst tenth of the blocks left out;
@@ -54,6 +56,21 @@ class HypothesisEvidence:
     error: dict[str, float] = field(default_factory=dict)
     held_out_error: float | None = None
     held_out: dict[str, float] = field(default_factory=dict)
+    floor: float = WHITE
+    floor_by_run_and_axis: dict[str, list[float]] = field(default_factory=dict)
+
+    @property
+    def loss_above(self) -> float:
+        """Return the mean loss as it would be were the floor that of white noise."""
+        return self.loss * WHITE / self.floor
+
+    def losses_above(self) -> dict[str, list[float]]:
+        """Return the loss of each run by axis as it would be were the floor that of white noise."""
+        floors = self.floor_by_run_and_axis
+        return {
+            run: [x * WHITE / f for x, f in zip(axes, floors.get(run, [WHITE] * 3), strict=True)]
+            for run, axes in self.loss_by_run_and_axis.items()
+        }
 
     def size(self, effect: str) -> float:
         """Return the amplitude of an effect, that of its largest number [typical sizes]."""

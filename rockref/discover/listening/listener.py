@@ -147,8 +147,8 @@ class Listener:
         numbers = np.array([p.points.n for p in problems])
         for n in np.unique(numbers):
             rows = np.flatnonzero(numbers == n).tolist()
-            own = ([of[k] for k in rows] for of in (which, problems, zeros))
-            rates[rows], more = self._alike(*own, memory, ticks)
+            runs, alike, taken_off = ([of[k] for k in rows] for of in (which, problems, zeros))
+            rates[rows], more = self._alike(runs, alike, taken_off, memory, ticks)
             steps += more
         np.nan_to_num(rates, copy=False, nan=LOST, posinf=LOST, neginf=-LOST)
         return np.clip(rates, -LOST, LOST, out=rates), steps

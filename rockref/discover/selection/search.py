@@ -16,6 +16,7 @@ from dataclasses import replace
 import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.floor import floor
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit, kicked
@@ -23,16 +24,15 @@ from rockref.discover.selection.halving import WORTH, halving, say, seen_at_rele
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.tone import tone
 
-#: Mean loss from which innovations contradict a model (white noise: 0.947; right models stay below 1.06 here).
-CONTRADICTED = 1.12
-#: Mean loss at S2 above which S3 is not asked (decided: right models of the stiffest blocks leave 1.2 to 2.0 there).
-HOPELESS = 2.5
+#: Mean loss from which innovations contradict a model, and from which nothing explains the runs at S3 and nothing more
+#: is tried (white noise: 0.947). Where records of a model's own leave more than white noise, both are so much higher.
+CONTRADICTED, UNEXPLAINED = 1.12, 1.5
+#: The same from which a better law is looked for at the longest memory (decided: records of a model's own scatter by
+#: a hundredth).
+IMPERFECT = 0.97
 #: Shares of the misfit that the first, and the second effect may leave if one more is looked for (decided: what leaves
 #: more is not the cause, and no other on top of it is; of two right effects the second explains most of what is left).
 LEAVES = (0.75, 0.5)
-#: Mean loss at S3 above which nothing explains the runs, and nothing more is tried (decided: right models of
-#: stiff blocks leave up to 1.35 at F).
-UNEXPLAINED = 1.5
 #: Prior deviations that the law may move from its nominal numbers and count as a block of the source's make (decided: a
 #: tenth of every parameter of Table 3.1 is 0.3).
 STAYED = 0.5
@@ -69,17 +69,18 @@ class Search:
     def __init__(self, fitter: Fitter):
         self.fitter, self.problem = fitter, fitter.problem
         self.seen: dict[frozenset[str], FittedModel] = {}
-        self._explained: dict[tuple[tuple[str, ...], bytes], bool] = {}
+        self._floors: dict[tuple[tuple[str, ...], str], float] = {}
         self.baseline = self.nominal()
         self.test: ScoreTest | None = None  # of the best hypothesis at the last stage
 
     def run(self) -> list[FittedModel]:
         """Return the last hypotheses at F, best objective first; the null is always one of them."""
         beam = self.lengthen(self.begin(), S3)
-        if self.best(beam).loss > UNEXPLAINED:
+        if self.leaves_more(self.best(beam), UNEXPLAINED, S3):
             return self.unexplained(beam)
         beam = self.lengthen(beam, F)
-        if WHITE < self.best(beam).loss <= CONTRADICTED:
+        best = self.best(beam)
+        if self.leaves_more(best, IMPERFECT, F) and not self.leaves_more(best, CONTRADICTED, F):
             beam = self.second_look(beam)
         return self.eliminate(beam)
 
@@ -135,7 +136,7 @@ class Search:
     def settled(self, h: FittedModel) -> FittedModel:
         """Refine at S2, and go on there as long as innovations that are not white become much smaller."""
         self.fitter.refine(h, S2, 3)
-        if h.loss > CONTRADICTED:
+        if self.leaves_more(h, CONTRADICTED, S2):
             self.fitter.settle(h, S2, 3)
         return h
 
@@ -214,15 +215,20 @@ class Search:
         return within([h for h in beam if len(h.effects) == len(best.effects)], EQUALS)
 
     def is_explained(self, h: FittedModel) -> bool:
-        """Return whether innovations are white at S2, or at S3: at short memories stiff feet leave more than noise."""
-        if h.loss <= CONTRADICTED:
-            return True
-        if h.loss > HOPELESS:
+        """Return whether innovations at S2 are those of a right model."""
+        return not self.leaves_more(h, CONTRADICTED, S2)
+
+    def leaves_more(self, h: FittedModel, limit: float, stage: Stage) -> bool:
+        """Return whether the mean loss of h, fitted at a stage, is above a limit that holds for a floor of white noise.
+
+        Stiff feet and slow recorders leave more than white noise in right models too.
+        """
+        if h.loss <= limit:
             return False
-        key = (h.effects, h.z.tobytes())
-        if key not in self._explained:
-            self._explained[key] = self.fitter.refine(h.copy(), S3, 2).loss <= CONTRADICTED
-        return self._explained[key]
+        key = (h.effects, stage.name)
+        if key not in self._floors:
+            self._floors[key] = floor(self.fitter, h, stage)[0]
+        return h.loss > limit * self._floors[key] / WHITE
 
     def anywhere(self, h: FittedModel) -> FittedModel:
         """Return a hypothesis whose law starts over the whole prior; releases and effects start as they are in h."""

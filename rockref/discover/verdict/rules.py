@@ -96,7 +96,7 @@ def substantial(h: HypothesisEvidence, carried: tuple[str, ...], c: Calibration)
 
 def contradicting_run(h: HypothesisEvidence, c: Calibration) -> str | None:
     """Return the run that stays unexplained where all others are explained, or None."""
-    means = {run: float(np.mean(axes)) for run, axes in h.loss_by_run_and_axis.items()}
+    means = {run: float(np.mean(axes)) for run, axes in h.losses_above().items()}
     if len(means) < 3:
         return None
     worst = max(means, key=means.__getitem__)
@@ -106,7 +106,7 @@ def contradicting_run(h: HypothesisEvidence, c: Calibration) -> str | None:
 
 def is_explained(h: HypothesisEvidence, c: Calibration) -> bool:
     """Return whether the innovations are as small as those of a right model, as a whole and on each run's axes."""
-    return h.loss <= c.misfit and max(max(axes) for axes in h.loss_by_run_and_axis.values()) <= c.misfit_of_run
+    return h.loss_above <= c.misfit and max(max(axes) for axes in h.losses_above().values()) <= c.misfit_of_run
 
 
 def nearly_explaining(evidence: Evidence, found: tuple[Alternative, ...], c: Calibration) -> Alternative | None:
@@ -117,8 +117,8 @@ def nearly_explaining(evidence: Evidence, found: tuple[Alternative, ...], c: Cal
     null = evidence.of(evidence.carried)
     if null is None:
         return None
-    bearable = WHITE + c.remnant * (null.loss - WHITE)
-    near = [a for a in found if a.effects and a.evidence.loss <= bearable]
+    bearable = WHITE + c.remnant * (null.loss_above - WHITE)
+    near = [a for a in found if a.effects and a.evidence.loss_above <= bearable]
     return min(near, key=lambda a: (len(a.effects), a.evidence.objective), default=None)
 
 
