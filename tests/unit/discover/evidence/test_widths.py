@@ -21,7 +21,8 @@ def straight():
     def polish(h, stage, most):
         h.spread = Spread(np.eye(2), J, h.r)
 
-    fitter = SimpleNamespace(problem=problem, polish=polish)
+    numbers = [SimpleNamespace(effect="", by_ratio=False)] * 2
+    fitter = SimpleNamespace(problem=problem, polish=polish, parameters=lambda h: numbers)
 
     def deviations(noise, temperature):
         h = FittedModel((), np.zeros(2), r=noise * rng.standard_normal(J.shape[1:]))

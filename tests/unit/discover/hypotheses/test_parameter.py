@@ -4,8 +4,13 @@ import numpy as np
 import pytest
 
 from rockref import Model
+from rockref.discover.fit.problem import fit_problem
 from rockref.discover.hypotheses.law import law_parameters, release_parameters, with_law
-from rockref.discover.hypotheses.parameter import FARTHEST, Parameter
+from rockref.discover.hypotheses.parameter import FARTHEST, Parameter, centring
+from rockref.discover.listening.target import zero_offset
+from rockref.discover.provenance import ZERO_OFFSETS
+from rockref.effects.catalogue import parse
+from tests.unit.discover.synthetic import experiment
 
 SCALES = {
     "linear": Parameter("a", lambda m, v: m, 2.0, 0.5),
@@ -79,3 +84,44 @@ def test_several_numbers_of_the_law_are_set_as_one_after_another():
     for p in law_parameters(model):
         one_by_one = p.set(one_by_one, values[p.name])
     assert with_law(model, values) == one_by_one
+
+
+def test_a_zero_that_is_uncertain_is_a_number_of_each_run():
+    found = release_parameters(2, 1.4e-3, zero_uncertainty=1e-4)
+    zeros = [p for p in found if p.kind in ZERO_OFFSETS]
+    assert [p.run for p in zeros] == [0, 0, 0, 1, 1, 1] and all(p.moves_target for p in zeros)
+    assert zero_offset(zeros[1].set(Model.table_3_1(), zeros[1].value(2.0))) == (0.0, 2e-4, 0.0)
+
+
+@pytest.mark.parametrize("id", ["uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction"])
+def test_factors_of_the_feet_count_by_their_ratios(id):
+    """A common factor of all feet is a number of the law: the model is the same, and its numbers are told alike."""
+    e = experiment(Model.table_3_1(), [{}], duration=0.1)
+    problem = fit_problem(e, e.runs, Model.table_3_1(), end=0.1, workers=1)
+    parameters = problem.parameters((id,))
+    rng = np.random.default_rng(2)
+    z, feet = np.zeros(len(parameters)), [k for k, p in enumerate(parameters) if p.by_ratio]
+    z[feet] = rng.normal(size=4)
+    more = z.copy()
+    more[feet] += 0.7
+    (one,), (other,) = problem.job(parameters, z).models, problem.job(parameters, more).models
+    values = np.array([getattr(one.effects[0], f"foot{i}") for i in (1, 2, 3, 4)])
+    assert np.prod(values) == pytest.approx(1.0)
+    assert np.allclose([getattr(other.effects[0], f"foot{i}") for i in (1, 2, 3, 4)], values)
+    assert np.allclose(centring(parameters) @ more, centring(parameters) @ z)
+
+
+@pytest.mark.parametrize(
+    "id, law", [("uneven_foot_stiffness", {"K_N", "K_T"}), ("uneven_foot_friction", {"mu_int", "mu_ext"})]
+)
+def test_a_common_factor_of_the_feet_is_one_of_the_law(id, law):
+    p = Model.table_3_1().parameters
+    factor = 1.3
+    scaled = {name: factor * getattr(p, name) for name in law}
+    common = ",".join(f"foot{i}={factor}" for i in (1, 2, 3, 4)) + (",tangential_share=1" if "K_T" in law else "")
+    by_feet = Model.table_3_1().replace(effects=(parse(f"{id}:{common}"),))
+    by_law = Model.table_3_1().replace(**scaled)
+    _, feet = by_feet.body()
+    _, whole = by_law.body()
+    for name in ("K_N", "K_T", "mu", "mu_0"):
+        assert np.allclose(getattr(feet, name), getattr(whole, name), rtol=1e-14), name

@@ -1,5 +1,6 @@
 """Runs that listen: white innovations at the truth, larger ones elsewhere, and a target with the sensor undone."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -8,7 +9,8 @@ import pytest
 from rockref import Model
 from rockref.discover.fit.objective import WHITE, loss
 from rockref.discover.listening.listener import Job, Listener, Memory
-from rockref.discover.listening.target import grid, target_of
+from rockref.discover.listening.target import between, grid, target_of
+from rockref.discover.provenance import ZERO_OFFSETS
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import GYRO, experiment
 
@@ -35,9 +37,11 @@ def test_innovations_are_white_at_the_truth(effects):
     e, model = made(effects)
     listener = Listener(e, e.runs, END, workers=1)
     found = mean_losses(listener, model)
-    # 900 innovations of a run and axis: the mean loss of white noise scatters by 0.04, and the measured noise by 4 %.
-    assert np.all(np.abs(found - WHITE) < 0.2), found
-    assert abs(found.mean() - WHITE) < 0.08
+    # 900 innovations of a run and axis: the mean loss of white noise scatters by 0.04, the measured noise by 4 %, and
+    # the model listens to all of the noise of six samples, about the height in the clatter most.
+    assert np.all(np.abs(found - WHITE) < 0.25), found
+    # Noise that is measured 4 % too small makes it 8 % larger; six mean losses scatter by 0.016.
+    assert abs(found.mean() - WHITE) < 0.08 * WHITE + 0.016
 
 
 @pytest.mark.parametrize(
@@ -71,7 +75,8 @@ def test_shorter_horizons_follow_the_same_motion():
     whole = listener.predict([Job((model, model))], LONG)[0]
     part = listener.predict([Job((model, model))], LONG, horizon=0.4)[0]
     assert part.shape[1] < whole.shape[1]
-    assert np.array_equal(part, whole[:, : part.shape[1]])
+    # The record is cut 0.1 s beyond the horizon: what the low-pass remembers is below a hundredth of the noise.
+    assert np.abs(part - whole[:, : part.shape[1]]).max() < 1e-2 * GYRO.noise
 
 
 @pytest.mark.parametrize("rate, parts", [(1000.0, 2), (500.0, 4), (800.0, 3), (4000.0, 1)])
@@ -111,3 +116,26 @@ def test_blocks_on_four_and_on_eight_points_run_side_by_side():
     alone = [listener.predict([Job((m, None))], LONG)[0, 0] for m in (model, four)]
     together = listener.predict([Job((model, None)), Job((four, None))], LONG)[:, 0]
     assert np.array_equal(together, np.stack(alone))
+
+
+def test_what_is_left_of_a_zero_is_taken_off_what_the_run_listens_to_and_shown_again():
+    e, model = made()
+    zero = np.array([2e-4, -4e-4, 3e-4])
+    shifted = replace(e, runs=tuple(replace(run, crv=run.crv + zero) for run in e.runs))
+    moved = replace(model, origin={**model.origin, **dict(zip(ZERO_OFFSETS, map(float, zero), strict=True))})
+    before = Listener(e, e.runs, END, workers=1).predict([Job((model, model))], LONG)
+    after = Listener(shifted, shifted.runs, END, workers=1).predict([Job((moved, moved))], LONG)
+    # The low-pass is undone of the shifted record: to rounding, which the impacts magnify.
+    assert np.abs(after - before - zero).max() < 1e-3 * GYRO.noise
+
+
+def test_rates_between_samples_are_those_of_a_band_limited_signal():
+    t = np.arange(400) / 500
+    signal = lambda t: np.stack([np.sin(2 * np.pi * f * t) for f in (10, 40, 80)], axis=-1)  # noqa: E731
+    at = np.linspace(0.1, 0.7, 1201)
+    error = np.abs(between(t, signal(t), at) - signal(at)).max(axis=0)
+    straight = np.abs(np.stack([np.interp(at, t, x) for x in signal(t).T], axis=-1) - signal(at)).max(axis=0)
+    # Lagrange's remainder through six samples: (2 pi f / rate)^6 max|prod(u - j)| / 6!, of which 14.1/4.
+    bound = (2 * np.pi * np.array([10, 40, 80]) / 500) ** 6 * 3.52 / 720
+    assert np.all(error <= bound) and np.all(error < straight / 10)
+    assert np.allclose(between(t, signal(t), np.array([-1.0, 9.0])), signal(t)[[0, -1]])
