@@ -112,7 +112,12 @@ def equilibrium(block: Block, points: ContactPoints) -> tuple[np.ndarray, np.nda
 def descent(q: np.ndarray, at, stiffness) -> np.ndarray | None:
     """Return Newton's step, or the first of the steps with more and more damping, that leads down; None without one."""
     energy, gradient, curvature = at(q)
+    least = np.linalg.eigvalsh(curvature.astype(float))[0]
     for share in DAMPING:
+        # On fewer than three feet the block tips over, and energy falls all the way: a step goes at most as far as it
+        # would if the block were as stiff there as it is unstable, so that the next foot is not passed by.
+        if least + share * stiffness < abs(least):
+            continue
         try:
             trial = -np.linalg.solve(curvature + share * stiffness * np.eye(3), gradient)
         except np.linalg.LinAlgError:

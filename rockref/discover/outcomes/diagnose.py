@@ -1,7 +1,7 @@
 """Which effect is missing, from outcomes on a shake table.
 
 1. Run every test many times, with the model as it is and with each candidate at several sizes, under the same draws.
-2. Find how probable the outcomes of the tests are at each size; between the sizes a smooth curve is drawn.
+2. Find how probable the outcomes of the tests are at each size: a parabola a candidate, all with one value at zero.
 3. Weigh each candidate by the integral over its sizes, with motions held out that no size has seen.
 4. Decide by the rules of records: named, indicated, a class, nothing, or something else.
 """
@@ -97,19 +97,20 @@ def diagnose_outcomes(
     null, profiles = at(base), []
     for k, c in enumerate(candidates, 1):
         say(f"{k} of {len(candidates)}: {c.id}")
-        profiles.append(profile(c, null, lambda size, c=c: at(c.apply(base, size))))  # type: ignore[misc]
+        made = profile(c, lambda size, c=c: at(c.apply(base, size)))  # type: ignore[misc]
+        profiles += [made] if len(made.z) else []
     found = evidence_of(experiment, null, profiles)
     return OutcomeDiagnosis(found, decide(found, numbers(found)))
 
 
-def profile(candidate: Candidate, null: Likelihood, at: Callable[[float], Likelihood]) -> Profile:
-    """Return a candidate at its sizes; one at which a block does not stand (E-STAND) is left out."""
-    found = {0.0: null}
+def profile(candidate: Candidate, at: Callable[[float], Likelihood]) -> Profile:
+    """Return a candidate at its sizes; left out is one at which no block stands or the step is too large."""
+    found = {}
     for z in (*(-s for s in SIZES if candidate.signed), *SIZES):
         try:
             found[z] = at(z * candidate.typical)
         except InputError as e:
-            if e.code != "E-STAND":
+            if e.code not in ("E-STAND", "E-STEP"):
                 raise
     sizes = sorted(found)
     return Profile(candidate, np.array(sizes), tuple(found[z] for z in sizes))

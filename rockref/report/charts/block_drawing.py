@@ -45,7 +45,8 @@ def block_drawing(standalone: bool = False) -> str:
     parts = [f'<g transform="translate({PANEL * k:g} 0)">{panel}</g>' for k, panel in enumerate(panels)]
     width = PANEL * len(panels)
     dark = "<style>svg{color:#1f2328}@media(prefers-color-scheme:dark){svg{color:#e6edf3}}</style>"
-    name = ' xmlns="http://www.w3.org/2000/svg"' if standalone else ""
+    # The class lets a page keep it on a white ground, and as large as it can be read.
+    name = ' xmlns="http://www.w3.org/2000/svg"' if standalone else ' class="block"'
     title = (
         "The block tilted on corners 1 and 2, the same block turned by 180 degrees, and its feet from above. "
         "Not to scale."

@@ -18,6 +18,8 @@ _GRID = "#e7ebef"
 _GROUPS = 8
 # decided: outcomes lie on two lines; marks are shifted by up to this share of the axis, so that they can be counted.
 _JITTER = 0.03
+# decided: where the largest value is so many times the smallest, a straight axis hides one of them.
+WIDE = 30.0
 
 
 def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str, confidence: float = 0.95) -> Any:
@@ -98,7 +100,9 @@ def overturning_map(
 
 def distribution_figure(samples: Mapping[str, Any], quantity: str, confidence: float = 0.95) -> Any:
     """Draw distribution functions with their bands, a colour and a dash a sample; the first is the measured one."""
-    figure = new_figure(7.0, 4.4)
+    figure = new_figure(7.0, 4.8)
+    # Room for the names above the curves, which reach into every corner.
+    figure.subplots_adjust(top=0.82)
     ax = figure.subplots(1, 1)
     for k, (name, values) in enumerate(samples.items()):
         x, share, low, high = distribution_function(values, confidence)
@@ -108,10 +112,15 @@ def distribution_figure(samples: Mapping[str, Any], quantity: str, confidence: f
         ax.step(x, share, where="post", color=colour, lw=1.3, label=f"{name} ({len(x)})", **dashes)
     ax.set_ylim(0.0, 1.0)
     ax.margins(x=0.0)
+    known = np.concatenate([np.asarray(values, float) for values in samples.values()])
+    known = known[np.isfinite(known)]
+    if len(known) and known.min() > 0.0 and known.max() > WIDE * known.min():
+        ax.set_xscale("log")
+        _plain_ticks(ax.xaxis)
     ax.set_xlabel(quantity)
     ax.set_ylabel("share of runs at or below")
     ax.grid(color=_GRID, lw=0.6)
-    ax.legend(loc="lower right", frameon=False, fontsize=8)
+    ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), frameon=False, fontsize=8, ncols=3)
     title = f"Distribution functions; bands hold a whole function with {confidence:.0%} (DKW)"
     figure.suptitle(title, fontsize=9, x=0.02, ha="left")
     return figure

@@ -53,7 +53,6 @@ def add_runs(page: Page, ensemble: Ensemble, rows: list[dict[str, Any]]) -> None
         words = (
             f"This run {reason}: PGA {row['pga_m_s2']:.3g} m/s2, largest tilt {math.degrees(row['tilt_rad']):.3g} deg."
         )
-        page.add_heading(title)
         page.add_curves(curves(response.t, _panels(response), title=title, sentence=words, opening=_opening(response)))
         page.add_player(replay(response, title, _opening(response)))
 

@@ -103,3 +103,12 @@ def test_a_slender_block_on_soft_uneven_feet_finds_its_third_foot(seed):
     block, points = model.body()
     P = points.P + np.column_stack([np.zeros((4, 2)), 2e-5 * np.random.default_rng(seed).standard_normal(4)])
     assert carrying(replace(points, P=P), standing_posture(block, replace(points, P=P))).sum() >= 3
+
+
+def test_a_block_that_leans_away_from_its_third_foot_stops_on_the_other_one():
+    model = rockref.Model(mass=63.0, width=0.095, depth=0.095, height=0.6, points="four_points").replace(K_N=2e7)
+    block, points = model.body()
+    # Foot 1 is short by a third of a millimetre: on 2, 3 and 4 the centre of mass leans towards it.
+    P = points.P + np.column_stack([np.zeros((4, 2)), [3.4e-4, 0.0, 0.0, 0.0]])
+    carried = carrying(replace(points, P=P), standing_posture(block, replace(points, P=P)))
+    assert carried.sum() == 3 and carried[[1, 3]].all()
