@@ -49,7 +49,7 @@ def test_a_model_is_scored_beside_the_regression_and_the_answer_comes_last(capsy
 def test_options_of_releases_are_refused(capsys, folder):
     assert run(capsys, "compare", folder, "--check")[0] == 2
     assert "[E-ARGUMENT]" in run(capsys, "compare", "data/experiments/mystery-01", "--runs", 3)[2]
-    assert "[E-KIND]" in run(capsys, "diagnose", folder)[2]
+    assert "[E-ARGUMENT]" in run(capsys, "diagnose", folder, "--fresh")[2]
 
 
 def test_plan_says_how_many_tests_tell_two_probabilities(capsys):
