@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance import pieces
-from rockref.conformance.claims import with_effect
+from rockref.conformance.claim import with_effect
 from rockref.conformance.pieces import Made, Rows, Rules
 from rockref.effects import catalogue
 from rockref.engines import run

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.claims import Claim, with_effect
+from rockref.conformance.claim import Claim, with_effect
 from rockref.conformance.compare import LOOK, weighed_in_bars
 from rockref.conformance.negligible import size_and_unit
 from rockref.conformance.vectors import problem_of

@@ -88,7 +88,7 @@ def compare(vector: ShakenVector, answer: dict[str, Any]) -> ClaimCheck:
 
 def as_if(vector: ShakenVector, answer: dict[str, Any]) -> str:
     """Return the mistake that gives this answer within ten bars, in words; "" where none that is known does."""
-    from rockref.conformance.zoo.of_base import OF_BASE, planted
+    from rockref.conformance.base_mistakes import OF_BASE, planted
     from rockref.engines import run
 
     with np.errstate(all="ignore"):

@@ -1,4 +1,4 @@
-"""The vectors of a plate that moves (LB): short runs in which every mistake of `zoo.of_base` shows.
+"""The vectors of a plate that moves (LB): short runs in which every mistake of `base_mistakes` shows.
 
 Values: the law's text in longdouble. They are taken only where a second route agrees within the bars: the same load as
 an effect of the run, from a record that is read by rational numbers. Bars as those of effects (`cases_effects`).
@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.conformance.base_mistakes import OF_BASE, planted
 from rockref.conformance.maker import runs
 from rockref.conformance.maker.answers import pattern
 from rockref.conformance.maker.bars import FACTOR, ulp
@@ -22,7 +23,6 @@ from rockref.conformance.maker.scenes import HEIGHT, at_rest
 from rockref.conformance.maker.small import rounded_up, stored
 from rockref.conformance.shaken import ROWS
 from rockref.conformance.vectors import SCHEMA, flat, problem_of
-from rockref.conformance.zoo.of_base import OF_BASE, planted
 from rockref.engines import run
 from rockref.model.base_motion import BaseMotion
 from rockref.model.problem import Problem

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance import claims
+from rockref.conformance.claim import with_effect
 from rockref.conformance.maker import runs
 from rockref.conformance.maker.answers import pattern
 from rockref.conformance.maker.bars import FACTOR, ulp
@@ -114,7 +115,7 @@ def of_run(effect: Any, q: dict[str, Any]) -> tuple[dict[str, Any], float, dict[
 
     def rows(q_: dict[str, Any], dtype: Any = None, by: Any = effect) -> Any:
         problem = problem_of(q_)
-        return run(problem if by is None else claims.with_effect(problem, by), engine="numpy", dtype=dtype)
+        return run(problem if by is None else with_effect(problem, by), engine="numpy", dtype=dtype)
 
     right, rng = rows(q, np.longdouble), random.Random(91)
     # The points stay in their order: effects address feet by place.

@@ -7,6 +7,7 @@ from typing import Any
 
 from rockref.conformance import blackbox
 from rockref.conformance.asking import as_mapping
+from rockref.conformance.base_mistakes import OF_BASE
 from rockref.conformance.judge import finite, judge
 from rockref.conformance.runs import RunCheck, judge_rows
 from rockref.conformance.shaken import shaken_vectors
@@ -14,7 +15,6 @@ from rockref.conformance.side_by_side import grouped, simulate
 from rockref.conformance.vectors import manifest, trajectory, window_names
 from rockref.conformance.verdict import verdict
 from rockref.conformance.zoo.mistakes import BY_ID, CONTROLS, MISTAKES
-from rockref.conformance.zoo.of_base import OF_BASE
 
 #: Small before long: the short runs are asked only where the pieces by themselves have nothing to object.
 LAYERS = ("L0", "L1", "L2", "L3", "L4", "L7")

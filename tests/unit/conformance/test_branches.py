@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from rockref.conformance import claims, vectors
+from rockref.conformance.claim import with_effect
 from rockref.conformance.maker import programs
 from rockref.effects import catalogue
 from rockref.engines import has_numba, run
@@ -176,7 +177,7 @@ def feet_in(response):
 def with_its_effect(claim, **changed):
     """The problem of a claim, with the effect in it."""
     effect = catalogue.find(claim.effect)(**claim.parameters | changed)
-    return claims.with_effect(vectors.problem_of(claim.inputs), effect)
+    return with_effect(vectors.problem_of(claim.inputs), effect)
 
 
 def of_kind(piece):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from rockref.conformance import claims, exact, in_words
+from rockref.conformance.claim import with_effect, with_new_points
 from rockref.conformance.executable import Executable
 from rockref.conformance.judge import judge
 from rockref.conformance.law_backend import NumpyEngine
@@ -33,7 +34,7 @@ class Mistaken(NumpyEngine):
         if effect != self.claimed:
             return None
         kind = catalogue.find(effect)
-        problem = claims.with_effect(problem, kind(**parameters | self.changed))
+        problem = with_effect(problem, kind(**parameters | self.changed))
         if self.drop is not None:
             problem = without_point(problem, problem.points.names.index(self.drop))
         return self.simulate(problem)
@@ -69,10 +70,10 @@ def test_eight_points_made_of_four_are_the_eight_points_of_the_source():
 def test_old_points_keep_what_they_remember_and_new_ones_have_touched_nothing():
     start = claims.problem_of(of("foot_defects").inputs).start
     held = replace(start, s=start.s + 0.25, anchored=np.array([True, False, True, True]), F=np.ones((4, 3)))
-    eight = claims.with_new_points(held, 8)
+    eight = with_new_points(held, 8)
     assert np.array_equal(eight.s[:4], held.s) and np.all(eight.s[4:] == 0)
     assert eight.anchored.tolist() == [True, False, True, True] + 4 * [False] and eight.F is None
-    assert claims.with_new_points(held, 4) is held
+    assert with_new_points(held, 4) is held
 
 
 TYPICAL = of("foot_defects").parameters

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rockref.conformance import shaken
+from rockref.conformance.base_mistakes import OF_BASE, planted
 from rockref.conformance.in_words import text
 from rockref.conformance.jsonlines import answer, plain
 from rockref.conformance.judge import judge
@@ -13,7 +14,6 @@ from rockref.conformance.law_backend import NumpyEngine
 from rockref.conformance.shaken import judge_shaken, judge_vector, shaken_vectors
 from rockref.conformance.vectors import flat
 from rockref.conformance.verdict import verdict
-from rockref.conformance.zoo.of_base import OF_BASE, planted
 from rockref.engines import run
 
 
