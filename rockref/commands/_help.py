@@ -14,6 +14,10 @@ class FullHelp(TyperGroup):
         for option in getattr(command, "params", ()):
             if getattr(option, "metavar", None) is None and not getattr(option, "is_flag", True):
                 option.metavar = value_word(option)
+            if getattr(option, "param_type_name", "") == "argument":
+                # The name says what it is; a type of Python beside it says nothing to who does not write Python.
+                option.metavar = (option.metavar or option.name or "").upper()
+                option.display_type_rich = lambda ctx: ""
         return command
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:

@@ -25,7 +25,7 @@ def new(
         Path, typer.Argument(parser=folder_name, metavar="FOLDER", help="The experiment folder to make.")
     ],
     logs: Annotated[
-        list[Path], typer.Argument(metavar="LOGS...", help="Files of the logger, one a run; or a folder of them.")
+        list[Path], typer.Argument(metavar="LOGS", help="Files of the logger, one a run; or a folder of them.")
     ],
     mass: Annotated[
         float | None, typer.Option(parser=typed.mass, metavar="MASS", help="Of the block, as 54kg or 800g.")

@@ -16,7 +16,7 @@ def register(app: typer.Typer) -> None:
 def shake(
     model: Annotated[str, typer.Argument(metavar="MODEL", help="table_3_1, four_points, or a model.toml.")],
     records: Annotated[
-        list[str], typer.Argument(metavar="RECORDS...", help="Files of motion; + joins the components of one.")
+        list[str], typer.Argument(metavar="RECORDS", help="Files of motion; + joins the components of one.")
     ],
     output: Annotated[Path, folder_option("--output", "-o", help="Folder for the table; an interrupted one goes on.")],
     runs: Annotated[int, typer.Option(min=1, help="How many runs.")] = 1000,

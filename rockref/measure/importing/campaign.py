@@ -324,7 +324,7 @@ def _remarks(runs: Sequence[ImportedRun], motions: Sequence[Motion], axes: Axes,
             notices.append(Notice("W-TILT-OFF", run.source, what, "Check the tilt, its unit, and that of the rates."))
     if not axes.up_known:
         up = axes.spoken("xyz").split("Z = ")[1]
-        what = f"no accelerometer says which way is up; taken is that {up} of the chip points up"
+        what = f"no accelerometer says which way is up; {up} of the chip is assumed to point up"
         cure = f"If it points down, add --axes={','.join(other_way_up(axes))}."
         notices.append(Notice("W-UP", "the axes", what, cure))
     if math.cos(axes.askew) < ALONE:
