@@ -133,6 +133,7 @@ def _hypothesis(c: Candidate | None, found: Weighed, excess: np.ndarray, size: n
         eigenvalues=[],
         loss=float(WHITE + excess.sum() / size.sum()),
         loss_by_run_and_axis={"outcomes": (WHITE + excess / size).tolist()},
+        floor_by_run_and_axis={"outcomes": [WHITE] * len(size)},
         blocks={},
         farthest=0.0,
     )
