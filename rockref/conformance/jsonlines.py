@@ -27,7 +27,7 @@ CLAIMS = ("effect", "sensor", "shaken")
 
 
 def plain(value: Any) -> Any:
-    """Arrays and NumPy's numbers as nested lists and plain numbers; doubles keep every bit (shortest decimal)."""
+    """Return arrays and NumPy's numbers as nested lists and plain numbers; doubles keep every bit."""
     if isinstance(value, np.ndarray | np.generic):
         value = np.asarray(value)
         return (value if value.dtype.kind in "bi" else value.astype(float)).tolist()
@@ -39,27 +39,27 @@ def plain(value: Any) -> Any:
 
 
 def line(thing: Any) -> str:
-    """One line."""
+    """Return one line."""
     return json.dumps(plain(thing), separators=(",", ":")) + "\n"
 
 
 def question(id_: str, piece: str, inputs: dict[str, Any]) -> dict[str, Any]:
-    """A run request."""
+    """Return a run request."""
     return {"cmd": "run", "id": id_, "piece": piece, "in": inputs}
 
 
 def of_vector(vector: Vector) -> dict[str, Any]:
-    """The request of a vector; the keys are those of its inputs."""
+    """Return the request of a vector; the keys are those of its inputs."""
     return question(vector.id, vector.piece, vector.inputs)
 
 
 def of_problem(id_: str, piece: str, problem: Problem) -> dict[str, Any]:
-    """The request of a problem."""
+    """Return the request of a problem."""
     return question(id_, piece, flat(problem))
 
 
 def readable(answer: Any, piece: str) -> dict[str, Any]:
-    """The results of an answer as arrays where they are lists of numbers."""
+    """Return the results of an answer, as arrays where they are lists of numbers."""
     if not isinstance(answer, dict):
         raise ValueError(f"'out' is {type(answer).__name__}, not an object")
     return {k: readable(v, piece) if isinstance(v, dict) else _array(v, k) for k, v in answer.items()}
@@ -77,7 +77,7 @@ def _array(value: Any, name: str = "") -> Any:
 
 
 def of_numbers(value: Any) -> bool:
-    """Whether nested lists hold numbers and flags alone: NumPy makes room for the longest text at every place."""
+    """Return whether nested lists hold numbers and flags alone: NumPy makes room for the longest text everywhere."""
     left = [value]
     while left:
         thing = left.pop()
@@ -89,13 +89,13 @@ def of_numbers(value: Any) -> bool:
 
 
 def capabilities(facts: dict[str, Any], known: Iterable[str]) -> list[str]:
-    """The pieces that an answer to `start` names, of those that are known; none where it names them in no list."""
+    """Return the pieces that an answer to `start` names, of those that are known; none where there is no list."""
     said = facts.get("capabilities")
     return [p for p in known if p in said] if isinstance(said, list) else []
 
 
 def object_of(text: str | bytes) -> dict[str, Any]:
-    """The object that a line holds. Raises ValueError: what is wrong with it."""
+    """Return the object that a line holds. Raises ValueError: what is wrong with it."""
     try:
         thing = json.loads(text)
     except (ValueError, RecursionError) as e:
@@ -106,7 +106,7 @@ def object_of(text: str | bytes) -> dict[str, Any]:
 
 
 def answer(backend: Any, request: dict[str, Any]) -> dict[str, Any]:
-    """What a Python backend says to one request; to one that cannot be used, what is wrong with it."""
+    """Return what a Python backend says to one request; to one that cannot be used, what is wrong with it."""
     command = request.get("cmd")
     if command == "start":
         shown = ["simulate", *(p for p in (*PIECES, *CLAIMS) if has(backend, p))]

@@ -44,19 +44,19 @@ class RunCheck:
 
     @property
     def failed(self) -> bool:
-        """Whether the run is outside."""
+        """Return whether the run is outside."""
         return self.grade == "outside"
 
 
 def expected_columns(t: Trajectory, profile: str) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Expected W, x, Lambda (rows first) and their bars (rows,)."""
+    """Return expected W, x, Lambda (rows first) and their bars (rows,)."""
     value = {k: t.columns[VALUES[profile] + column] for k, column in SHOWN.items()}
     value["Lambda"] = value["Lambda"].reshape(-1, 3, 3)
     return value, {k: t.columns[BARS[profile] + column] for k, column in SHOWN.items()}
 
 
 def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
-    """One run against one trajectory."""
+    """Judge one run against one trajectory."""
     expected, bars = expected_columns(t, profile)
     horizon = float(t.meta["horizon_s"][profile])
     instants = t.columns["t_s"]
@@ -102,7 +102,7 @@ def judge_rows(t: Trajectory, out: dict[str, Any], profile: str) -> RunCheck:
 def first_outside(
     ratios: dict, expected: dict, bars: dict, out: dict[str, Any], instants: np.ndarray, look: float
 ) -> dict[str, Any]:
-    """The first row that is outside, and the quantity that is most off in it."""
+    """Return the first row that is outside, and the quantity that is most off in it."""
     outside = {k: np.flatnonzero(r.reshape(len(r), -1).max(axis=1) > look) for k, r in ratios.items()}
     row = min(int(i[0]) for i in outside.values() if len(i))
     key = max((k for k, i in outside.items() if len(i) and i[0] == row), key=lambda k: float(np.max(ratios[k][row])))
@@ -120,8 +120,10 @@ def first_outside(
 
 
 def upright(t: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
-    """Instants [s] at which the block passes upright, linear between rows; swings below 0.01 rad (decided) do not
-    count."""
+    """Return instants [s] at which the block passes upright, linear between rows.
+
+    Swings below 0.01 rad (decided) do not count.
+    """
     tilt = np.arctan2(np.asarray(Lambda[:, 2, 1], float), np.asarray(Lambda[:, 2, 2], float))
     found, last = [], 0
     for i in np.flatnonzero(np.signbit(tilt[1:]) != np.signbit(tilt[:-1])):
@@ -134,7 +136,7 @@ def upright(t: np.ndarray, Lambda: np.ndarray) -> np.ndarray:
 def judge_impacts(
     expected: list[dict[str, float]], out: dict[str, Any], instants: np.ndarray, rows: int, look: float
 ) -> list[dict[str, Any]]:
-    """The main impacts, each with its deviation in bars."""
+    """Judge the main impacts, each with its deviation in bars."""
     if out.get("Lambda") is None:
         return []
     with np.errstate(all="ignore"):
@@ -150,7 +152,7 @@ def judge_impacts(
 
 
 def judge_runs(backend: Any, profile: str, report: Callable[[float], None] | None = None) -> list[RunCheck]:
-    """All windows and trajectories of L5."""
+    """Judge all windows and trajectories of L5."""
     names = trajectory_names() if profile == "scheme" else window_names() + trajectory_names()
     asked = [t for t in map(trajectory, names) if profile in t.meta["horizon_s"]]
     found: dict[int, RunCheck] = {}

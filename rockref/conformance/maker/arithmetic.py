@@ -102,7 +102,7 @@ class RandomRounding:
         return self.kind.made(float(function(float(x))) if self.single else function(np.longdouble(x)))
 
     def sqrt(self, x: Any) -> _Rounded:
-        """Square root."""
+        """Return the square root."""
         return self._wide(np.sqrt, x)
 
     def hypot(self, x: Any, y: Any) -> _Rounded:

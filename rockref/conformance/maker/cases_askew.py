@@ -27,14 +27,14 @@ C_T = float(table_3_1(delta_long=EVEN)["C_T"][4])
 
 
 def by_place(case: Case) -> Case:
-    """The case with places alone in the stead of forces: attitudes show moments, too."""
+    """Return the case with places alone in the stead of forces: attitudes show moments, too."""
     gone = {k for k in case.instead if k.startswith("Lambda")}
     fields = {k: v for k, v in case.fields.items() if k not in gone}
     return replace(case, fields=fields, instead={k: v for k, v in case.instead.items() if k not in gone})
 
 
 def tilted() -> Iterator[tuple[float, Case]]:
-    """A2, A3 by springs alone, about X and about Y; K1 by the place of a block with one foot down."""
+    """Yield A2, A3 by springs alone, about X and about Y; K1 by the place of a block with one foot down."""
     for place, rule, lean in (
         (34.1, "A2", rotation((0.0008, 0.0, 0.0))),
         (34.2, "A2", rotation((0.0, 0.0008, 0.0))),
@@ -49,7 +49,7 @@ def tilted() -> Iterator[tuple[float, Case]]:
 
 
 def above() -> Iterator[tuple[float, Case]]:
-    """N2 of feet that stay above the plate for many steps."""
+    """Yield N2 of feet that stay above the plate for many steps."""
     hovering: Any = {"v": -(2.0**-10) * Z}
     yield (
         18.2,
@@ -58,7 +58,7 @@ def above() -> Iterator[tuple[float, Case]]:
 
 
 def tied() -> Iterator[tuple[float, Case]]:
-    """T1 of a block that hardly turns, and of feet that slid; A2 of springs alone; K1 of a block that is turned."""
+    """Yield T1 of a block that hardly turns, and of feet that slid; A2 of springs alone; K1 of a turned block."""
     d = Draw(73)
     pulled: Any = {"v": [d.between(0.02, 0.1), d.between(-0.1, -0.02), 0.0]}
     own = held(d.vectors(1e-5, 8, 2))
@@ -75,8 +75,10 @@ def tied() -> Iterator[tuple[float, Case]]:
 
 
 def straight() -> Iterator[tuple[float, Case]]:
-    """T3 of feet that slide straight on, pulled by a damper that alone is beyond the cone: wherever the anchor is left,
-    the force is the same."""
+    """Yield T3 of feet that slide straight on, pulled by a damper that alone is beyond the cone.
+
+    Wherever the anchor is left, the force is the same.
+    """
     here = held(np.zeros((8, 2)))
     one, pair = {"mu": 0.25, "mu_0": 0.25}, {"mu": 0.25, "mu_0": 0.5}
     # Three times the cone, in a direction of whole numbers.
@@ -89,13 +91,13 @@ def straight() -> Iterator[tuple[float, Case]]:
 
 
 def unevenly() -> Iterator[tuple[float, Case]]:
-    """A2 of an upright block on springs that are unlike: its levers are where they are, whichever way they turn."""
+    """Yield A2 of an upright block on unlike springs: its levers are where they are, whichever way they turn."""
     unlike = SPRINGS | {"K_N": 6e7 * SHARES}
     yield 33.8, ask({"Lambda@1": "A2"}, "pushed unevenly by springs alone", 1, standing(DEEP), made=unlike)
 
 
 def askew() -> Iterator[Case]:
-    """All of them."""
+    """Yield all of them."""
     for group in (tilted, above, tied, straight, unevenly):
         for place, case in group():
             yield replace(case, place=place)
