@@ -21,7 +21,11 @@ import strangers
 FILE = Path(__file__).with_name("judged.csv")
 ZOO_PAGE = Path(__file__).resolve().parents[1] / "docs/reference/zoo.md"
 COLUMNS = ("judged", "way", "when", "asked", "detected", "named", "top_two")
-OF_SCHEMES = {"scheme": strangers.of_schemes, "fourth scheme": strangers.of_fourth_schemes}
+OF_SCHEMES = {
+    "scheme": strangers.of_schemes,
+    "fourth scheme": strangers.of_fourth_schemes,
+    "fifth scheme": strangers.of_fifth_schemes,
+}
 PARTS = (*strangers.LISTS, *OF_SCHEMES, "variants", "zoo")
 Row = dict[str, Any]
 

@@ -6,10 +6,10 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | third | fourth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | fifth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
-                                fourth` those of `strangers_fourth.py`)
+                                fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them
 """
 
@@ -28,6 +28,7 @@ from typing import Any
 import numpy as np
 import strangers_controls
 import strangers_controls_c
+import strangers_fifth
 import strangers_fourth
 import strangers_list
 import strangers_schemes
@@ -49,6 +50,7 @@ LISTS = {
     "second": strangers_second.MISTAKES,
     "third": strangers_third.MISTAKES,
     "fourth": strangers_fourth.MISTAKES,
+    "fifth": strangers_fifth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -79,7 +81,9 @@ def with_step(scheme: str | None) -> str:
     text = SOURCE.read_text()
     if scheme is None:
         return text
-    return (strangers_fourth if scheme in strangers_fourth.SCHEMES else strangers_schemes).exchanged(text, scheme)
+    if scheme in strangers_schemes.SCHEMES:
+        return strangers_schemes.exchanged(text, scheme)
+    return strangers_fourth.exchanged(text, {**strangers_fourth.SCHEMES, **strangers_fifth.SCHEMES}[scheme])
 
 
 class Runs:
@@ -154,6 +158,12 @@ def of_fourth_schemes() -> Iterator[tuple[Mistake, str]]:
     yield from in_turn(strangers_fourth.MISTAKES, list(strangers_fourth.SCHEMES))
 
 
+def of_fifth_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The same of the fifth list and its integrators."""
+    yield from strangers_fifth.OF_STEPS
+    yield from in_turn(strangers_fifth.MISTAKES, list(strangers_fifth.SCHEMES))
+
+
 def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
     """The mistakes that runs show and that lie outside the law's step, each in the next integrator."""
     source = SOURCE.read_text()
@@ -167,9 +177,9 @@ def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple
 
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
-IN_PYTHON = (*strangers_controls.IN_PYTHON, *strangers_fourth.IN_PYTHON)
-IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C)
-STEPS = tuple(strangers_fourth.SCHEMES)
+IN_PYTHON = (*strangers_controls.IN_PYTHON, *strangers_fourth.IN_PYTHON, *strangers_fifth.IN_PYTHON)
+IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
+STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
 
 
 def variants() -> Iterator[tuple[str, Any, list[str], str]]:
@@ -233,7 +243,7 @@ def main() -> None:
         (m, None) for k, v in LISTS.items() if given.list in (None, k) for m in v
     ]
     if given.profile == "scheme":
-        asked = list(of_fourth_schemes() if given.list == "fourth" else of_schemes())
+        asked = list({"fourth": of_fourth_schemes, "fifth": of_fifth_schemes}.get(given.list, of_schemes)())
     found = []
     for mistake, scheme in asked:
         if given.only in mistake.says:

@@ -144,10 +144,10 @@ OF_STEPS = (
 )  # fmt: skip
 
 
-def exchanged(source: str, scheme: str) -> str:
-    """The tutorial's text with the step of one of these integrators."""
+def exchanged(source: str, step: str) -> str:
+    """The tutorial's text with another step: lines that follow `HEAD`."""
     begin, end = source.index("def advanced(problem, state):"), source.index("class Backend:")
-    return source[:begin] + HEAD + SCHEMES[scheme] + TAIL + source[end:]
+    return source[:begin] + HEAD + step + TAIL + source[end:]
 
 
 #: Correct variants of the tutorials; the integrators of `SCHEMES` are correct, too, in the profile "scheme".
