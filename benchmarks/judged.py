@@ -1,14 +1,19 @@
 """Measure how well the judge judges, and write `benchmarks/judged.csv`: `python benchmarks/judged.py [PART...]`.
 
-Parts: first to fourth (lists of mistakes), scheme and "fourth scheme" (other integrators), variants (correct ones),
-zoo. What is not measured keeps its rows; the rows of a first judgement are never written anew. Without a part all are
-measured: half an hour of processor time. `python docs/make_judge_table.py` makes the table of the documentation of it.
+Parts: first to fifth (lists of mistakes), scheme, "fourth scheme" and "fifth scheme" (other integrators), variants
+(correct ones), zoo. What is not measured keeps its rows; the rows of a first judgement are never written anew. Without
+a part all are measured: an hour of processor time. Each mistake that is judged is kept in `judged.partial` beside:
+whoever is interrupted types the same again, and goes on where the measurement ended, unless the judge has changed
+since. What is not named is printed.
+`python docs/make_judge_table.py` makes the table of the documentation of it.
 """
 
 from __future__ import annotations
 
 import csv
+import hashlib
 import json
+import os
 import subprocess
 import sys
 import warnings
@@ -19,7 +24,9 @@ from typing import Any
 import strangers
 
 FILE = Path(__file__).with_name("judged.csv")
-ZOO_PAGE = Path(__file__).resolve().parents[1] / "docs/reference/zoo.md"
+ROOT = FILE.parents[1]
+KEPT = FILE.with_suffix(".partial")
+ZOO_PAGE = ROOT / "docs/reference/zoo.md"
 COLUMNS = ("judged", "way", "when", "asked", "detected", "named", "top_two")
 OF_SCHEMES = {
     "scheme": strangers.of_schemes,
@@ -30,11 +37,43 @@ PARTS = (*strangers.LISTS, *OF_SCHEMES, "variants", "zoo")
 Row = dict[str, Any]
 
 
+def judge_digest() -> str:
+    """What judges, as a digest: vectors, code, and the texts in which the mistakes are planted."""
+    parts = [*(ROOT / "rockref/conformance").rglob("*"), *FILE.parent.glob("strangers*.py"), strangers.SOURCE]
+    digest = hashlib.sha256()
+    for path in sorted(p for p in parts if p.is_file() and "__pycache__" not in p.parts):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def kept(digest: str) -> dict[str, Any]:
+    """What was judged already by this judge, by part and mistake; a line that was not written whole is passed over."""
+    found = {}
+    for line in KEPT.read_text(encoding="utf-8").splitlines() if KEPT.exists() else ():
+        try:
+            entry = json.loads(line)
+        except json.JSONDecodeError:
+            continue
+        if entry["judge"] == digest:
+            found[entry["key"]] = entry["found"]
+    return found
+
+
 def of_list(part: str) -> Iterator[Row]:
     """A list of mistakes, by pieces, by runs, by runs without forces."""
-    pairs = OF_SCHEMES[part]() if part in OF_SCHEMES else ((m, None) for m in strangers.LISTS[part])
-    counts = strangers.counted([strangers.of_mistake(m, scheme) for m, scheme in pairs])
-    for way, row in counts.items():
+    digest = judge_digest()
+    known, found = kept(digest), []
+    pairs = list(OF_SCHEMES[part]()) if part in OF_SCHEMES else [(m, None) for m in strangers.LISTS[part]]
+    for mistake, scheme in pairs:
+        key = f"{part}: {mistake.says}, {scheme}"
+        if key not in known:
+            known[key] = strangers.of_mistake(mistake, scheme)
+            with KEPT.open("a", encoding="utf-8") as file:
+                file.write(json.dumps({"judge": digest, "key": key, "found": known[key]}) + "\n")
+        found.append(known[key])
+        print(f"{part}: {len(found)} of {len(pairs)}", file=sys.stderr, flush=True)
+    strangers.show(found, [], as_json=False)
+    for way, row in strangers.counted(found).items():
         yield {"way": way, "top_two": row["top two"]} | {k: row[k] for k in ("asked", "detected", "named")}
 
 
@@ -66,24 +105,29 @@ def written() -> list[Row]:
         return list(csv.DictReader(file))
 
 
+def write(rows: list[Row]) -> None:
+    """Write all rows in order, whole or not at all."""
+    new = FILE.with_suffix(".csv.partial")
+    with new.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(sorted(rows, key=lambda row: (PARTS.index(row["judged"]), row["when"] != "first")))
+    os.replace(new, FILE)
+
+
 def main(parts: tuple[str, ...]) -> int:
-    """Measure the parts, and write all rows in order."""
+    """Measure part by part; the rows of a part are exchanged when all of it is measured."""
     if unknown := [p for p in parts if p not in PARTS]:
         print(f"{unknown[0]} is none of {', '.join(PARTS)}", file=sys.stderr)
         return 2
-    before = written()
-    rows = [row for row in before if row["judged"] not in parts or row["when"] == "first"]
     for part in parts:
-        measure = {"zoo": of_zoo, "variants": of_variants}.get(part, of_list)
-        made = list(measure(part))
-        known = any(row["judged"] == part for row in before)
+        made = list({"zoo": of_zoo, "variants": of_variants}.get(part, of_list)(part))
+        rows = written()
+        known = any(row["judged"] == part for row in rows)
+        rows = [row for row in rows if row["judged"] != part or row["when"] == "first"]
         for when in ("now",) if known else ("first", "now"):
             rows += [{"judged": part, "when": when, **row} for row in made]
-        rows.sort(key=lambda row: (PARTS.index(row["judged"]), row["when"] != "first"))
-        with FILE.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+        write(rows)
     return 0
 
 

@@ -237,9 +237,9 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
         return found
     found.slip, anew = slip_of(findings, check)
     found.says = found.says or anew
-    cut = cut_short(findings)
-    if cut:
-        found.slip, found.rule = cut, None
+    words, cut = format_of(findings)
+    found.slip = words if cut else "; ".join(filter(None, (words, found.slip)))
+    found.rule = None if cut else rule
     found.consequences = [c for c in findings.checks if c.failed and c is not check]
     found.rules = with_consequences(rules, found.rule, findings.checks)
     in_pieces = {"step", "contact_law"} <= set(findings.pieces) and findings.profile != "scheme"
@@ -248,7 +248,7 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     short = any(c.layer in SHORT for c in findings.checks)
     if found.rule is None and check is None and bad_run is not None and short:
         found.says = NO_RULE
-    silent = bool(cut) or (check is not None and not check.weighed)
+    silent = cut or (check is not None and not check.weighed)
     if backend is not None and findings.profile == "float64" and "contact_law" not in findings.pieces and not silent:
         resembling(found, backend)
     return found
@@ -262,15 +262,15 @@ def slip_of(findings: Findings, check: Check | None) -> tuple[str, str]:
     return told(findings.answers, findings.checks), ANEW if shown is not None and evaluated_anew(*shown) else ""
 
 
-def cut_short(findings: Findings) -> str:
-    """The format of the numbers in words, where it takes away all that is missing of them: no rule is to blame."""
-    from rockref.conformance.digits import Format
+def format_of(findings: Findings) -> tuple[str, bool]:
+    """The format of the numbers in words, where it is short; and whether it takes away all that is missing of them: no
+    rule is to blame then."""
+    from rockref.conformance.digits import cut_short
 
     failed = [c for c in findings.failures if c.layer in (*SMALL, *SHORT, "L4") and not c.follows]
     if not failed or not all(c.weighed for c in failed):
-        return ""
-    form = Format(findings.answers)
-    return form.words if form.words and all(form.explains(c) for c in failed) else ""
+        return "", False
+    return cut_short(findings.answers, failed)
 
 
 def resembling(found: Verdict, backend: Any) -> None:

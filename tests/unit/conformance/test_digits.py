@@ -46,6 +46,25 @@ def test_a_wrong_rule_that_is_written_in_few_digits_keeps_its_name():
     assert v.rule == "N1" and "significant digits" not in v.slip
 
 
+class SingleRows(NumpyEngine):
+    """Computed in doubles, the rows of a run handed out in single precision."""
+
+    def simulate(self, problem):
+        rows = vars(super().simulate(problem))
+        return {k: np.asarray(rows[k], np.float32) for k in ("W", "x", "Lambda", "F")}
+
+
+def test_rows_in_single_precision_are_told_and_no_rule():
+    v = verdict(judge(SingleRows(), ["L1", "L5s"]))
+    assert v.status == "FAIL" and v.rule is None and "single precision" in v.slip and "float32" in v.slip
+
+
+def test_who_computes_in_single_precision_is_told_of_the_profile():
+    v = verdict(judge(NumpyEngine(np.float32), ["L1"]))
+    assert v.status == "FAIL" and "single precision" in v.slip
+    assert "single precision" not in verdict(judge(BY_ID["Z01"].backend(), ["L1"])).slip
+
+
 def test_digits_and_decimals_are_those_of_the_shortest_decimal():
     assert digits_of(0.1) == (1, 1) and digits_of(-1250.0) == (3, 0) and digits_of(1.25e-7) == (3, 9)
     assert digits_of(1 / 3) == (16, 16)
