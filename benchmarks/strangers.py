@@ -10,7 +10,8 @@ time.
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
-    --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them
+    --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
+                                and rows of too few digits, which are told as a format
 """
 
 from __future__ import annotations
@@ -219,6 +220,19 @@ def controls(only: str) -> int:
     return rejected
 
 
+def formats(only: str) -> int:
+    """Judge rows of too few digits, with pieces and by runs alone; of how many a rule is named, or nothing is told."""
+    blamed = 0
+    for v in strangers_fifth.FORMATS:
+        backend = made(changed(SOURCE.read_text(), v.says, *v.changes), v.says)
+        told = [verdict(judge(b, QUICK, "float64")) for b in (backend, RunsAlone(backend)) if only in v.says]
+        wrong = [t for t in told if t.passed or t.rule is not None or not t.slip]
+        blamed += bool(wrong)
+        print(*(f"{v.says}: {t.status}, {t.rule or 'no rule'}; {t.slip}" for t in told), sep="\n")
+    print(f"formats that are blamed on a rule: {blamed} of {len(strangers_fifth.FORMATS)}")
+    return blamed
+
+
 class RunsAlone:
     """`simulate` alone of a backend."""
 
@@ -238,7 +252,7 @@ def main() -> None:
     parser.add_argument("--controls", action="store_true", help="correct variants")
     given = parser.parse_args()
     if given.controls:
-        sys.exit(bool(controls(given.only)))
+        sys.exit(bool(controls(given.only) + formats(given.only)))
     asked: list[tuple[Mistake, str | None]] = [
         (m, None) for k, v in LISTS.items() if given.list in (None, k) for m in v
     ]

@@ -34,8 +34,10 @@ OF_POINTS = (
     Mistake("levers for small angles", ("K1",), "r = P @ Lambda.T",
             "r = P + np.cross([Lambda[2, 1] - Lambda[1, 2], Lambda[0, 2] - Lambda[2, 0],"
             " Lambda[1, 0] - Lambda[0, 1]], P) / 2"),
-    Mistake("dampers shared by the feet that touch", ("N1",), MADE, MADE + "    made[1] /= max(1, np.sum(xi >= 0))\n"),
-    Mistake("the deepest foot alone carries", ("N1", "N2"), MOVED, MOVED + "    xi = np.where(xi == xi.max(), xi, -1)\n"),
+    Mistake("dampers shared by the feet that touch", ("N1",), MADE,
+            MADE + "    made[1] /= max(1, np.sum(xi >= 0))\n"),
+    Mistake("the deepest foot alone carries", ("N1", "N2"), MOVED,
+            MOVED + "    xi = np.where(xi == xi.max(), xi, -1)\n"),
     Mistake("cone by the size of a normal force that would pull", ("T6", "T2"), CONE,
             CONE.replace("F_N", "abs(K_N * xi + C_N * xi_rate)")),
     Mistake("cone by the normal force of the step before", ("T6", "T2", "T3"), CONE, CONE.replace("F_N", "F_cone"),
@@ -47,7 +49,8 @@ OF_POINTS = (
             '(Lambda @ memory.get("Lambda", Lambda).T @ [*memory["s"][i], 0])[:2]'),
     Mistake("damper outside the cone", ("T1", "T2", "T3"), TRIAL, TRIAL.replace("C_T)", "0.0)"),
             more=(('"F_T": F_T, "s"', '"F_T": F_T - C_T * v_slide, "s"'),
-                  ("anchor_after(F_T, u_t, v_slide, K_T, C_T)\n    ", "anchor_after(F_T, u_t, v_slide, K_T, 0.0)\n    "))),
+                  ("anchor_after(F_T, u_t, v_slide, K_T, C_T)\n    ",
+                   "anchor_after(F_T, u_t, v_slide, K_T, 0.0)\n    "))),
     Mistake("sliding force along the friction of the step before", ("T3",), FORCES,
             FORCES + '    old = memory.get("F")\n'
             "    for i, c in enumerate(found if old is not None else []):\n"
@@ -140,7 +143,39 @@ TONNES = '''def in_tonnes(problem):
 
 class Backend:
 '''
+OTHER_AXES = '''AXES = rotation_less_identity(np.array([0.4, -0.7, 1.1])) + np.eye(3)
+
+
+def in_other_axes(problem):
+    """Body axes along another block's edges, say of a drawing."""
+    from dataclasses import replace
+
+    block, points, start = problem.block, problem.points, problem.start
+    block = replace(block, inertia=AXES.T @ block.inertia @ AXES)
+    turned = {"W": start.W @ AXES, "T": None if start.T is None else start.T @ AXES}
+    start = replace(start, Lambda=start.Lambda @ AXES, **turned)
+    return replace(problem, block=block, points=replace(points, P=points.P @ AXES), start=start)
+
+
+def in_the_blocks_axes(state):
+    """The same in the axes that were given."""
+    return state | {"Lambda": state["Lambda"] @ AXES.T, "W": AXES @ state["W"], "T": AXES @ state["T"]}
+
+
+class Backend:
+'''
 IN_PYTHON = (
+    Variant(
+        "other axes of the body inside",
+        (
+            ("class Backend:\n", OTHER_AXES),
+            ("        state, kept = started(problem), []\n",
+             "        problem = in_other_axes(problem)\n        state, kept = started(problem), []\n"),
+            ("kept.append(state)", "kept.append(in_the_blocks_axes(state))"),
+            (STEP, "        problem = in_other_axes(problem)\n"
+             "        return in_the_blocks_axes(advanced(problem, started(problem)))\n"),
+        ),
+    ),
     Variant(
         "millimetres and tonnes",
         (
@@ -155,7 +190,8 @@ IN_PYTHON = (
     Variant(
         "feet sorted along a slanting line, and handed out as they came",
         (
-            (MOVED, "order = np.argsort(points.P @ [1.0, 0.37, 0.0])\n    " + MOVED.replace("points.P", "points.P[order]")),
+            (MOVED, "order = np.argsort(points.P @ [1.0, 0.37, 0.0])\n    "
+             + MOVED.replace("points.P", "points.P[order]")),
             (MADE, MADE.replace("PROPERTIES])", "PROPERTIES])[:, order]")),
             ('memory["s"][i]', 'memory["s"][order[i]]'),
             ('memory["anchored"][i]', 'memory["anchored"][order[i]]'),
@@ -233,10 +269,10 @@ IN_C = (
 
 #: What is handed out with too few digits speaks of no rule: it fails, and is told as a matter of format.
 FORMATS = (
-    Variant("rows in single precision", (("row[k] for row in kept", "np.asarray(row[k], np.float32) for row in kept"),)),
+    Variant("rows in single precision",
+            (("row[k] for row in kept", "np.asarray(row[k], np.float32) for row in kept"),)),
     Variant("rows of nine digits",
             ((ROWS, ROWS.replace("row[k] for", "np.vectorize(lambda x: float(f'{x:.9g}'))(row[k]) for")),)),
     Variant("rows of twelve digits",
             ((ROWS, ROWS.replace("row[k] for", "np.vectorize(lambda x: float(f'{x:.12g}'))(row[k]) for")),)),
 )  # fmt: skip
-

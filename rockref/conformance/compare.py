@@ -19,6 +19,9 @@ LOOK = 10.0
 #: And in the profile of other integrators inside two: their bars are those of whole schemes.
 LOOK_SCHEME = 2.0
 FLAGS = ("touching", "sliding", "anchored")
+#: What a start may lose in single precision: a conversion of units, a quaternion; eight ulps.
+SINGLE = 8 * float(np.finfo(np.float32).eps)
+ELSEWHERE = "the first row is not the start that was given"
 
 
 @dataclass(frozen=True)
@@ -170,6 +173,8 @@ def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> li
     checks = [compare_one(name, vector, out, profile) for name in asked_for(vector, out, profile)]
     if vector.piece == "simulate" and out.get("t") is not None:
         checks += rows_at_wrong_instants(vector, out["t"])
+    if vector.piece == "simulate":
+        checks += first_row_elsewhere(vector, out, profile)
     decided_wrongly = any(c.failed for c in checks if c.name.partition("@")[0] in FLAGS)
     if not decided_wrongly:
         return checks
@@ -242,6 +247,25 @@ def rows_at_wrong_instants(vector: Vector, got: Any) -> list[Check]:
     problem = problem_of(vector.inputs)
     said = wrong_instants(got, problem.step * output_steps(problem), problem.step)
     return [Check(vector.id, vector.layer, "S2", "t", "outside", float("inf"), note=said)] if said else []
+
+
+def first_row_elsewhere(vector: Vector, out: dict[str, Any], profile: str) -> list[Check]:
+    """A failure of S2 for each of x, Lambda and W of which the first row is not the start that was given."""
+    found = []
+    for key in ("x", "Lambda", "W"):
+        try:
+            got = np.asarray(out[key], float)[0]
+        except (KeyError, TypeError, ValueError, IndexError):
+            continue
+        start = np.asarray(vector.inputs[key], float)
+        size = size_and_unit(key)[0] + (SINGLE * float(np.max(np.abs(start))) if profile == "float32" else 0.0)
+        ratio = in_bars(got, start, np.full(start.shape, size))
+        if np.max(ratio) > 1:
+            at = tuple(int(i) for i in np.unravel_index(int(np.argmax(ratio)), ratio.shape))
+            numbers = {"expected": float(start[at]), "bar": size, "got": float(got[at])}
+            found.append(Check(vector.id, vector.layer, "S2", f"{key}@0", "outside", float(ratio[at]), at, **numbers,
+                               note=ELSEWHERE))  # fmt: skip
+    return found
 
 
 def asked_for(vector: Vector, out: dict[str, Any], profile: str = "float64") -> list[str]:

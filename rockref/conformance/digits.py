@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.conformance import scheme
 from rockref.conformance.compare import Check
 from rockref.conformance.slips import pairs_of
 from rockref.conformance.vectors import Vector
@@ -18,8 +19,9 @@ FEW = 14
 LEAST = 30
 #: A number that was rounded is off by half a unit of its last digit, one that was cut by a whole one.
 CUT = 1.01
-#: Layers of extrapolated rows, 2 b - a: what the format takes away of both; their own digits tell of no format.
-OFF = {"LS": 3}
+#: Layers of extrapolated rows, and how many times what the format takes away they are off by: the sum of the weights.
+#: Their own digits tell of no format.
+OFF = {"LS": sum(map(abs, scheme.WEIGHTS))}
 
 
 def digits_of(x: float) -> tuple[int, int]:

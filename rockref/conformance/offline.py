@@ -29,8 +29,7 @@ def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[
         if layer in wanted and of_the_profile(layer, profile):
             yield from map(jsonlines.of_vector, vectors.layer(layer))
         if layer == "LS" and layer in wanted and profile == "scheme":
-            for v in vectors.layer(layer):
-                yield jsonlines.of_problem(f"{v.id}-half", "simulate", scheme.halved(vectors.problem_of(v.inputs)))
+            yield from with_smaller_steps()
         if layer == "L4" and layer in wanted and profile != "scheme":
             yield from map(jsonlines.of_vector, vectors.steps_as_runs())
     if "L5" in wanted:
@@ -39,6 +38,14 @@ def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[
         )
         for name in names:
             yield jsonlines.of_problem(name, "simulate", vectors.trajectory(name).problem)
+
+
+def with_smaller_steps() -> Iterator[dict[str, Any]]:
+    """Yield the requests of LS with half and a quarter of their step."""
+    for v in vectors.layer("LS"):
+        for parts, name in zip(scheme.PARTS[1:], ("half", "quarter"), strict=True):
+            problem = scheme.refined(vectors.problem_of(v.inputs), parts)
+            yield jsonlines.of_problem(f"{v.id}-{name}", "simulate", problem)
 
 
 def text(layers: Iterable[str], profile: str = "float64") -> str:

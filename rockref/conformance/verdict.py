@@ -8,13 +8,12 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-import numpy as np
-
-from rockref.conformance.compare import LOOK, Check, bar_of
+from rockref.conformance.compare import ELSEWHERE, Check
 from rockref.conformance.judge import LAYERS, Findings, finite, of_the_profile
 from rockref.conformance.rules import ALIKE_IN_RUNS, BY_ID, RULES, downstream
 from rockref.conformance.runs import RunCheck
 from rockref.conformance.vectors import AS_RUN, layer, manifest
+from rockref.conformance.whole_steps import rule_of_a_step
 
 LOOP = "All pieces pass by themselves; the run that is made of them does not."
 UNASKED = "Pieces that could tell the rule were not asked: ask for all layers, or begin with --quick."
@@ -28,8 +27,9 @@ SMALL = ("L0", "L1", "L2", "L3", "L7")
 SHORT = ("L5s", "LS")
 #: Of another integrator `rotate` shows the exponential, and not what is multiplied with it, and on which side.
 NOT_BY_PIECES = {"I3"}
-#: Places in L5s behind the runs that show moments of normal forces alone, and behind the first that shows friction.
-AFTER_PUSHING, AFTER_DRAGGING = 35.9, 45.6
+#: Places in L5s behind the runs that show moments of normal forces alone, behind the first that shows friction, and
+#: behind those that show moments of friction.
+AFTER_PUSHING, AFTER_DRAGGING, AFTER_TURNING = 35.9, 45.6, 64.55
 
 
 @dataclass
@@ -105,6 +105,8 @@ def place(check: Check) -> tuple[float, float]:
     number = float(check.vector.removesuffix(AS_RUN).rpartition("-")[2])
     if check.layer not in SHORT:
         return (check.rank, number)
+    if check.note == ELSEWHERE:
+        return (0.0, 0.0)
     at = places().get(check.vector, number)
     return (0.0, max(at, stand_ins().get((check.vector, check.name), at)))
 
@@ -123,7 +125,7 @@ def stand_ins() -> dict[tuple[str, str], float]:
     for v in layer("L5s"):
         for name, e in v.expect.items():
             if e.instead_of.startswith("F_T"):
-                found[v.id, name] = AFTER_DRAGGING
+                found[v.id, name] = AFTER_TURNING if name.startswith("Lambda") else AFTER_DRAGGING
             elif e.instead_of and name.startswith("Lambda"):
                 found[v.id, name] = AFTER_PUSHING
     return found
@@ -166,30 +168,18 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
             return check.rule, check, A_STEP
         if layers == SMALL or check.rule not in good:
             return check.rule, check, ""
-        if layers == ("L4",):
-            return in_company(checks) or (rule_of_a_step(findings, check), check, HANDED)
+        company = in_company(checks) if layers == ("L4",) or check.name.endswith("@0") else None
+        if company is not None or layers == ("L4",):
+            return company or (rule_of_a_step(findings.answers, check, findings.profile), check, HANDED)
         near = [rule for rule in ALIKE_IN_RUNS.get(check.rule, ()) if rule not in good]
-        if findings.profile == "scheme" and near:
-            return near[0], check, HANDED
-        others = [c for c in checks if c.layer in SHORT and c.rule not in good]
-        unproved = first(others)
-        whole = {"step", "integrate"} & set(pieces) if findings.profile != "scheme" else set()
-        if unproved is not None and not whole:
+        if findings.profile == "scheme":
+            # No step is shown: what it hands to the piece is as unproved as what stands near.
+            return (near[0] if near else check.rule), check, HANDED
+        unproved = first([c for c in checks if c.layer in SHORT and c.rule not in good])
+        if unproved is not None and not {"step", "integrate"} & set(pieces):
             return unproved.rule, unproved, ""
         return ("S2", check, LOOP) if all_asked(findings) else (None, check, UNASKED)
     return None, None, ""
-
-
-def rule_of_a_step(findings: Findings, check: Check) -> str:
-    """The rule of a result that is wrong in a whole step alone. A moment of the right size that points another way is
-    turned by another attitude: A3, not the sum."""
-    vector, out = next(((v, out) for v, out in findings.answers if v.id == check.vector), (None, {}))
-    if vector is None or check.name != "T" or not check.weighed:
-        return check.rule
-    expected = vector.expect["T"]
-    off = abs(np.linalg.norm(out["T"]) - np.linalg.norm(expected.value))
-    bar = bar_of(expected, findings.profile)
-    return "A3" if bar is not None and off <= LOOK * np.linalg.norm(bar) else check.rule
 
 
 def in_company(checks: Sequence[Check]) -> tuple[str, Check, str] | None:
@@ -197,7 +187,9 @@ def in_company(checks: Sequence[Check]) -> tuple[str, Check, str] | None:
     not to blame then. For who shows pieces of one foot, and is wrong where there are several."""
     check = first([c for c in checks if c.layer == "L5s"])
     at_start = check is not None and check.weighed and check.name.endswith("@0")
-    return (check.rule, check, COMPANY) if check is not None and at_start else None
+    if check is None or not at_start:
+        return None
+    return check.rule, check, "" if check.note == ELSEWHERE else COMPANY
 
 
 def unanswered(checks: Sequence[Check]) -> str:
@@ -296,7 +288,9 @@ def alike(v: Verdict) -> list[str]:
     if v.rule is None or v.check is None or v.check.layer not in SHORT:
         return []
     small = status_of_rules([c for c in v.findings.checks if c.layer in SMALL])
-    return [rule for rule in ALIKE_IN_RUNS.get(v.rule, ()) if small[rule] == "not shown"]
+    # Rates that are handed out otherwise than they were given may be those of the channel.
+    near = ("M1",) if v.check.note == ELSEWHERE and v.check.name == "W@0" else ALIKE_IN_RUNS.get(v.rule, ())
+    return [rule for rule in near if small[rule] == "not shown"]
 
 
 def remarks(v: Verdict) -> list[str]:

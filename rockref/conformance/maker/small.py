@@ -16,6 +16,7 @@ from rockref.conformance.maker import (
     cases_body,
     cases_derived,
     cases_full,
+    cases_habits,
     cases_memory,
     cases_point,
     cases_scheme,
@@ -35,7 +36,14 @@ QUESTIONS = {
     "L2": (cases_body.assembly, cases_full.assembly),
     "L3": (cases_body.exponentials, cases_body.steps, cases_body.no_rotation, cases_full.steps),
     "L4": (cases_step.steps, cases_step.elsewhere),
-    "L5s": (cases_short.all_short, cases_alone.alone, cases_memory.memory, cases_apart.apart, cases_askew.askew),
+    "L5s": (
+        cases_short.all_short,
+        cases_alone.alone,
+        cases_memory.memory,
+        cases_apart.apart,
+        cases_askew.askew,
+        cases_habits.habits,
+    ),
     "L7": (cases_derived.channel,),
 }
 LAYERS = (*QUESTIONS, "LS")

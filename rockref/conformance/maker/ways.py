@@ -104,6 +104,23 @@ MIDPOINT = """static void step(void) {
     evaluate(v, W);
 }
 """
+ADAMS_BASHFORTH = """static int begun;
+static real v_b[3], W_b[3], a_b[3], A_b[3];
+static void step(void) {
+    real none[3] = {0, 0, 0}, A[3], mean[3];
+    kicked(A, none, W, 1);
+    if (!begun) memcpy(v_b, v, sizeof v), memcpy(W_b, W, sizeof W), memcpy(a_b, a, sizeof a), memcpy(A_b, A, sizeof A);
+    for (int j = 0; j < 3; j++) {
+        real v_n = v[j], W_n = W[j];
+        x[j] += h / 2 * (3 * v[j] - v_b[j]), mean[j] = (3 * W[j] - W_b[j]) / 2;
+        v[j] += h / 2 * (3 * a[j] - a_b[j]), W[j] += h / 2 * (3 * A[j] - A_b[j]);
+        v_b[j] = v_n, W_b[j] = W_n, a_b[j] = a[j], A_b[j] = A[j];
+    }
+    begun = 1, turned(mean, h, L), evaluate(v, W);
+}
+"""
+#: An integrator that looks back at the step before forgets it where the next run begins.
+FORGETTING: Changes = (("mass = plain(", "begun = 0, mass = plain("),)
 #: Where the step of the tutorial begins and ends.
 BEGIN, END = "static void step(void) {", "\n/* The questions. */"
 #: The integrators from which the bars of the profile "scheme" are measured, with the law's own; None: a change.
@@ -113,6 +130,8 @@ SCHEMES: dict[str, str | None] = {
     "midpoint": MIDPOINT,
     "velocities before": None,
 }
+#: Of those of short runs one that looks back a step is a part, too: its first step is a poorer one.
+OF_SHORT_RUNS = (*SCHEMES, "Adams-Bashforth")
 #: The law's own step with the forces of the velocities of the step before.
 VELOCITIES_BEFORE: Changes = (("evaluate(v_p, W_p);", "(void)v_p, (void)W_p, evaluate(v, W);"),)
 
@@ -128,8 +147,10 @@ def changed(text: str, changes: Changes) -> str:
 
 def with_scheme(text: str, name: str) -> str:
     """Return the text with the step of another integrator."""
-    step = SCHEMES[name]
+    step = ADAMS_BASHFORTH if name == "Adams-Bashforth" else SCHEMES[name]
     if step is None:
         return changed(text, VELOCITIES_BEFORE)
+    if step is ADAMS_BASHFORTH:
+        text = changed(text, FORGETTING)
     begin, end = text.index(BEGIN), text.index(END)
     return text[:begin] + HELP + step + text[end:]

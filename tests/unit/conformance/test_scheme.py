@@ -7,25 +7,31 @@ from rockref.conformance import in_words, vectors
 from rockref.conformance.backend import load
 from rockref.conformance.compare import no_answer
 from rockref.conformance.judge import judge
-from rockref.conformance.scheme import extrapolated, halved
+from rockref.conformance.scheme import extrapolated, refined
 from rockref.conformance.verdict import verdict
 from rockref.conformance.zoo.mistakes import BY_ID
 from rockref.conformance.zoo.run import BlackBox
 
 
-def test_extrapolation_leaves_nothing_of_first_order():
+def test_extrapolation_leaves_nothing_of_first_and_second_order():
     h = 0.01
-    rows = [{"t": [0, 1], "x": np.array([1.0, 2.0]) + step + 3 * step**2, "W": None} for step in (h, h / 2)]
-    out = extrapolated(*rows)
-    assert np.allclose(out["x"], [1.0, 2.0], atol=2 * h**2) and not np.allclose(rows[0]["x"], [1.0, 2.0], atol=h / 2)
+    rows = [{"t": [0, 1], "x": np.array([1.0, 2.0]) + k + 3 * k**2 + k**3, "W": None} for k in (h, h / 2, h / 4)]
+    out = extrapolated(rows)
+    assert np.allclose(out["x"], [1.0, 2.0], rtol=0, atol=h**3)
+    assert not np.allclose(2 * rows[1]["x"] - rows[0]["x"], [1.0, 2.0], rtol=0, atol=h**2), "two rows do not do"
     assert "W" not in out and out["t"] == [0, 1]
-    with pytest.raises(ValueError, match="half the step"):
-        extrapolated({"x": np.zeros(3)}, {"x": np.zeros(2)})
+    with pytest.raises(ValueError, match="smaller steps"):
+        extrapolated([{"x": np.zeros(3)}, {"x": np.zeros(2)}, {"x": np.zeros(3)}])
 
 
-def test_half_the_step_is_the_same_run():
+def test_what_does_not_depend_on_the_step_stays_to_the_bit():
+    same = {"x": np.array([0.1, 1e-17, 7.0])}
+    assert np.array_equal(extrapolated([same, same, same])["x"], same["x"])
+
+
+def test_a_part_of_the_step_is_the_same_run():
     problem = vectors.problem_of(vectors.layer("LS")[0].inputs)
-    assert halved(problem).step == problem.step / 2 and halved(problem).duration == problem.duration
+    assert refined(problem, 4).step == problem.step / 4 and refined(problem, 4).duration == problem.duration
 
 
 def test_short_runs_of_other_integrators_show_places_rates_and_poses():
