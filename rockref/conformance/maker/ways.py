@@ -104,23 +104,23 @@ MIDPOINT = """static void step(void) {
     evaluate(v, W);
 }
 """
-ADAMS_BASHFORTH = """static int begun;
+ADAMS_BASHFORTH = """static int started;
 static real v_b[3], W_b[3], a_b[3], A_b[3];
 static void step(void) {
     real none[3] = {0, 0, 0}, A[3], mean[3];
     kicked(A, none, W, 1);
-    if (!begun) memcpy(v_b, v, sizeof v), memcpy(W_b, W, sizeof W), memcpy(a_b, a, sizeof a), memcpy(A_b, A, sizeof A);
+    if (!started) memcpy(v_b, v, sizeof v), memcpy(W_b, W, sizeof W), memcpy(a_b, a, sizeof a), memcpy(A_b, A, sizeof A);
     for (int j = 0; j < 3; j++) {
         real v_n = v[j], W_n = W[j];
         x[j] += h / 2 * (3 * v[j] - v_b[j]), mean[j] = (3 * W[j] - W_b[j]) / 2;
         v[j] += h / 2 * (3 * a[j] - a_b[j]), W[j] += h / 2 * (3 * A[j] - A_b[j]);
         v_b[j] = v_n, W_b[j] = W_n, a_b[j] = a[j], A_b[j] = A[j];
     }
-    begun = 1, turned(mean, h, L), evaluate(v, W);
+    started = 1, turned(mean, h, L), evaluate(v, W);
 }
 """
 #: An integrator that looks back at the step before forgets it where the next run begins.
-FORGETTING: Changes = (("mass = plain(", "begun = 0, mass = plain("),)
+FORGETTING: Changes = (("mass = plain(", "started = 0, mass = plain("),)
 #: Where the step of the tutorial begins and ends.
 BEGIN, END = "static void step(void) {", "\n/* The questions. */"
 #: The integrators from which the bars of the profile "scheme" are measured, with the law's own; None: a change.
