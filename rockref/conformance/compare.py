@@ -268,6 +268,14 @@ def first_row_elsewhere(vector: Vector, out: dict[str, Any], profile: str) -> li
     return found
 
 
+def of_the_right_shape(checks: list[Check]) -> list[Check]:
+    """The checks without those of first rows where rows have another shape elsewhere: where there are as many of them as
+    a row is long, they have the right one by chance."""
+    if all(c.weighed for c in checks):
+        return checks
+    return [c for c in checks if c.note != ELSEWHERE]
+
+
 def asked_for(vector: Vector, out: dict[str, Any], profile: str = "float64") -> list[str]:
     """The results that are weighed: those that stand in for others only where the others are not shown; of another
     integrator in a short run those before its first step."""

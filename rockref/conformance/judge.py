@@ -10,7 +10,7 @@ from typing import Any
 
 from rockref.conformance import asking, scheme, vectors
 from rockref.conformance.claims import ClaimCheck, judge_claims
-from rockref.conformance.compare import Check, compare, no_answer
+from rockref.conformance.compare import Check, compare, no_answer, of_the_right_shape
 from rockref.conformance.rules import PIECES
 from rockref.conformance.runs import RunCheck, judge_runs
 from rockref.conformance.shaken import judge_shaken
@@ -122,6 +122,7 @@ def judge(
             _properties(backend, findings, examples)
         else:
             _small(backend, findings, asked_in(layer, backend), report)
+    findings.checks = of_the_right_shape(findings.checks)
     findings.remarks += getattr(backend, "remarks", [])
     findings.seconds = time.perf_counter() - begin
     return findings

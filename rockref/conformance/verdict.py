@@ -168,10 +168,11 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
             return check.rule, check, A_STEP
         if layers == SMALL or check.rule not in good:
             return check.rule, check, ""
-        company = in_company(checks) if layers == ("L4",) or check.name.endswith("@0") else None
-        if company is not None or layers == ("L4",):
-            return company or (rule_of_a_step(findings.answers, check, findings.profile), check, HANDED)
+        if layers == ("L4",):
+            return in_company(checks) or (rule_of_a_step(findings.answers, check, findings.profile), check, HANDED)
         near = [rule for rule in ALIKE_IN_RUNS.get(check.rule, ()) if rule not in good]
+        if check.name.endswith("@0") and not near:
+            return check.rule, check, COMPANY
         if findings.profile == "scheme":
             # No step is shown: what it hands to the piece is as unproved as what stands near.
             return (near[0] if near else check.rule), check, HANDED

@@ -109,7 +109,8 @@ static real v_b[3], W_b[3], a_b[3], A_b[3];
 static void step(void) {
     real none[3] = {0, 0, 0}, A[3], mean[3];
     kicked(A, none, W, 1);
-    if (!started) memcpy(v_b, v, sizeof v), memcpy(W_b, W, sizeof W), memcpy(a_b, a, sizeof a), memcpy(A_b, A, sizeof A);
+    if (!started) memcpy(v_b, v, sizeof v), memcpy(W_b, W, sizeof W);
+    if (!started) memcpy(a_b, a, sizeof a), memcpy(A_b, A, sizeof A);
     for (int j = 0; j < 3; j++) {
         real v_n = v[j], W_n = W[j];
         x[j] += h / 2 * (3 * v[j] - v_b[j]), mean[j] = (3 * W[j] - W_b[j]) / 2;
