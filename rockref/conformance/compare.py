@@ -269,8 +269,8 @@ def first_row_elsewhere(vector: Vector, out: dict[str, Any], profile: str) -> li
 
 
 def of_the_right_shape(checks: list[Check]) -> list[Check]:
-    """The checks without those of first rows where rows have another shape elsewhere: where there are as many of them as
-    a row is long, they have the right one by chance."""
+    """The checks without those of first rows where rows have another shape elsewhere: where there are as many of them
+    as a row is long, they have the right one by chance."""
     if all(c.weighed for c in checks):
         return checks
     return [c for c in checks if c.note != ELSEWHERE]

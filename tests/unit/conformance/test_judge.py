@@ -277,7 +277,9 @@ def turned(law, key):
 def test_rows_of_another_shape_speak_of_no_rule(key):
     v = verdict(judge(turned(NumpyEngine(), key), ["L5s"]))
     assert v.rule is None and f"{key} has shape" in v.check.note and "speaks of no rule" in v.says
-    assert set(v.rules.values()) <= {"no answer", "not shown", "pass", "fail"} and v.rules["S2"] == "no answer"
+    # Of three rows the places have the right shape by chance.
+    assert set(v.rules.values()) <= {"no answer", "not shown", "pass", "fail"}
+    assert v.rules["S2"] == ("fail" if key == "x" else "no answer")
 
 
 def test_too_few_rows_are_the_fault_of_the_run():
