@@ -262,7 +262,7 @@ def first_row_elsewhere(vector: Vector, out: dict[str, Any], profile: str) -> li
         ratio = in_bars(got, start, np.full(start.shape, size))
         if np.max(ratio) > 1:
             at = tuple(int(i) for i in np.unravel_index(int(np.argmax(ratio)), ratio.shape))
-            numbers = {"expected": float(start[at]), "bar": size, "got": float(got[at])}
+            numbers: dict[str, Any] = {"expected": float(start[at]), "bar": size, "got": float(got[at])}
             found.append(Check(vector.id, vector.layer, "S2", f"{key}@0", "outside", float(ratio[at]), at, **numbers,
                                note=ELSEWHERE))  # fmt: skip
     return found
