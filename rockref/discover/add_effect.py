@@ -39,6 +39,7 @@ from rockref.discover.fit_store import FitStore
 from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened
 from rockref.discover.progress import StageCounter, StageReport
+from rockref.discover.threads import one_blas_thread
 from rockref.discover.verdict.calibration import calibration
 from rockref.effects import catalogue
 from rockref.measure.records.release import Experiment
@@ -132,6 +133,7 @@ class Addition:
         }
 
 
+@one_blas_thread()
 def add_effect(
     effect: str,
     path: str | Path,

@@ -26,6 +26,7 @@ from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened, own_effects
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.selection.search import Search
+from rockref.discover.threads import one_blas_thread
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.detection import detection
 from rockref.discover.verdict.rules import Verdict, alternatives, decide
@@ -95,6 +96,7 @@ class Diagnosis:
         }
 
 
+@one_blas_thread()
 def diagnose(
     path: str | Path,
     model: Model | None = None,

@@ -35,6 +35,7 @@ from rockref.discover.selection.halving import halving
 from rockref.discover.selection.score_test import proposals
 from rockref.discover.selection.search import CONTRADICTED, STEPS, Search
 from rockref.discover.selection.tone import tone
+from rockref.discover.threads import one_blas_thread
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.rules import contradicting_run
 from rockref.effects import catalogue
@@ -104,6 +105,7 @@ def number_record(n) -> dict[str, Any]:
     return {"value": n.value, "low": n.low, "high": n.high, "unit": n.unit, "z_in_prior": round(n.z, 3)}
 
 
+@one_blas_thread()
 def fit_baseline(
     path: str | Path,
     effects: tuple[str, ...] = (),

@@ -26,6 +26,7 @@ from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.discover.progress import StageReport
+from rockref.discover.threads import one_blas_thread
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.detection import cosines, eliminated, limit
 from rockref.effects.base import Effect
@@ -269,6 +270,7 @@ def alternatives(runs: Sequence[Release]) -> list[Release]:
     return [Release(round(largest * f, 4), turned) for f in FURTHER_TILTS for turned in (False, True)]
 
 
+@one_blas_thread()
 def plan(
     model: Model,
     runs: Sequence[Release],

@@ -13,6 +13,15 @@ Item = TypeVar("Item")
 Found = TypeVar("Found")
 
 
+@contextmanager
+def one_blas_thread() -> Iterator[None]:
+    """Let linear algebra run on one thread: its small products wait on all cores for each other, where blocks move."""
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(limits=1, user_api="blas"):
+        yield
+
+
 class Crew:
     """How many threads are at work: one, and those that it has others do its work, while it waits for them."""
 
