@@ -80,7 +80,9 @@ class Listener:
         self.valid = np.zeros((len(runs), self.N), bool)
         for i, ((_, crv), n) in enumerate(zip(records, counts, strict=True)):
             self.measured[i, :n], self.valid[i, :n] = crv[:n], True
-        self.sigma = np.stack([noise_of(run, self.gyro) for run in runs])
+        # Noise is the instrument's: where a block is never calm about an axis, another run tells it.
+        calmest = np.min([noise_of(run, self.gyro) for run in runs], axis=0)
+        self.sigma = np.tile(calmest, (len(runs), 1))
         self.slope = np.stack(
             [steepest(self.measured[i], self.sigma[i], self.gyro.sample_rate) for i in range(len(runs))]
         )
