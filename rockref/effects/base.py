@@ -75,7 +75,8 @@ class Effect:
     to start from beside zero, where a small step shows nothing), `of_run` (a size and its phase that every run has of
     its own: a fit finds their cosine and sine parts), `not_with_block` (quantities of a film or a floor, which do
     not grow with the block: `rockref.effects.natural`), `by_ratio` (factors that only act by their ratios: a common one
-    is a number of the law; a fit holds their geometric mean at one).
+    is a number of the law; a fit holds their geometric mean at one), `anywhere` (quantities that are feet, as the law's
+    own: where a fit starts over the whole prior, they are drawn between low and high).
     The hooks in the order of the step. Arrays as in the model; `m` is the effect's own memory, whose entries may be
     replaced (never changed in place).
 
@@ -115,6 +116,7 @@ class Effect:
     of_run: ClassVar[tuple[str, str] | tuple[()]] = ()
     not_with_block: ClassVar[tuple[str, ...]] = ()
     by_ratio: ClassVar[tuple[str, ...]] = ()
+    anywhere: ClassVar[tuple[str, ...]] = ()
 
     @classmethod
     def typical(cls) -> Effect:

@@ -68,7 +68,7 @@ class HypothesisEvidence:
         """Return the loss of each run by axis as it would be were the floor that of white noise."""
         floors = self.floor_by_run_and_axis
         return {
-            run: [x * WHITE / f for x, f in zip(axes, floors.get(run, [WHITE] * 3), strict=True)]
+            run: [x * WHITE / f for x, f in zip(axes, floors.get(run, [WHITE] * len(axes)), strict=True)]
             for run, axes in self.loss_by_run_and_axis.items()
         }
 

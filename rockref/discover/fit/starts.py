@@ -53,20 +53,22 @@ def first_impact(fitter: Fitter) -> float:
 
 
 def draws(fitter: Fitter, effects: Sequence[str], z: np.ndarray, count: int) -> list[FittedModel]:
-    """Return starts over the whole prior of the law: `count` quasi-random ones, and the nominal one.
+    """Return starts over the whole prior of the law, and of effects that are feet: `count` quasi-random ones, and z.
 
-    z : numbers of the releases and the effects, which all starts share.
+    z : numbers of the releases and of other effects, which all starts share.
     """
     from scipy.special import ndtri
     from scipy.stats import qmc
 
     parameters = fitter.problem.parameters(effects)
-    law = [k for k, p in enumerate(parameters) if p.run is None and not p.effect]
-    share = qmc.Sobol(len(law), seed=fitter.problem.seed).random(count)
+    feet = [k for k, p in enumerate(parameters) if p.run is None and (not p.effect or p.drawn)]
+    shares = qmc.Sobol(len(feet), seed=fitter.problem.seed).random(count)
     found = [FittedModel(tuple(effects), z.copy())]
-    for row in ndtri(np.clip(share, *INSIDE)):
+    for row in np.clip(shares, *INSIDE):
         start = z.copy()
-        start[law] = row
+        for k, share in zip(feet, row, strict=True):
+            between = parameters[k].drawn
+            start[k] = ndtri(share) if between is None else parameters[k].z_of(np.interp(share, (0, 1), between))
         found.append(FittedModel(tuple(effects), start))
     return found
 

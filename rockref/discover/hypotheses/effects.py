@@ -10,6 +10,7 @@ from rockref.discover.hypotheses import candidates
 from rockref.discover.hypotheses.counted import Parameter as Counted
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.effects import catalogue
+from rockref.effects.base import Effect
 from rockref.effects.natural import SOURCE, NaturalUnits, factor_of
 from rockref.effects.scale import from_scale, prior_of, to_scale
 
@@ -23,10 +24,10 @@ def effect_parameters(
     typical sizes grow.
     """
     kind = catalogue.find(id)
-    return tuple(counted_in_priors(p) for p in candidates.parameters_of(kind, runs, tone, units))
+    return tuple(counted_in_priors(p, units) for p in candidates.parameters_of(kind, runs, tone, units))
 
 
-def counted_in_priors(p: Counted) -> Parameter:
+def counted_in_priors(p: Counted, units: NaturalUnits = SOURCE) -> Parameter:
     """Return a number counted in typical sizes as one that is counted in prior deviations."""
     kind, key = candidates.kind_and_key(p.name)
     shapes = kind is not None and prior_of(kind, key).role in ("shape", "form")
@@ -34,7 +35,14 @@ def counted_in_priors(p: Counted) -> Parameter:
         p.name, p.set, p.centre, p.spread * p.prior, "log" if p.log else "linear", p.run, p.low, p.high,
         typical=0.0 if shapes else 1 / p.prior, one_sided=not p.log and p.low >= p.centre, unit=p.unit,
         moves_target=kind is not None and kind.changes_target(), by_ratio=kind is not None and key in kind.by_ratio,
+        drawn=between(kind, key, units) if kind is not None and key in kind.anywhere else None,
     )  # fmt: skip
+
+
+def between(kind: type[Effect], key: str, units: NaturalUnits) -> tuple[float, float]:
+    """Return the plausible ends of a quantity on a block with these units."""
+    q, factor = kind.quantities[key], factor_of(kind, key, units)
+    return factor * q.low, factor * q.high
 
 
 def own_value(p: Parameter, z: float) -> float:

@@ -26,7 +26,8 @@ class Parameter:
         function of z gives the share of the way.
     set(model, value) -> model, for run `run` or for all (None).  typical : z of one typical size of an effect, else 0.
     low, high : hard limits.  moves_target : whether the number changes what the run listens to.  by_ratio : whether it
-    is one of an effect's factors that only act by their ratios.
+    is one of an effect's factors that only act by their ratios.  drawn : values between which starts over the whole
+    prior draw a number of an effect, if they do.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Parameter:
     unit: str = ""
     moves_target: bool = False
     by_ratio: bool = False
+    drawn: tuple[float, float] | None = None
 
     @property
     def effect(self) -> str:

@@ -185,7 +185,7 @@ class Search:
         seen = seen_at_release(self.fitter, other)
         if seen is not None and seen.effects != now.effects:
             beam.append(self.anywhere(seen))
-        if not self.is_explained(self.best(beam)) and now.loss - WHITE <= LEAVES[0] * (other.loss - WHITE):
+        if not self.is_explained(self.best(beam)):
             beam.append(self.anywhere(now))
 
     def add(self, beam: list[FittedModel], added: Sequence[FittedModel]) -> None:

@@ -41,6 +41,7 @@ class FootDefects(Effect):
     }
     only_on = "four_points"
     priors = {"delta_diag": Prior(high=quantities["delta_diag"].high)}
+    anywhere = ("delta_long1", "delta_long2", "delta_long3", "delta_long4", "delta_diag")
     seeds = ({},)  # all typical: while inner points stand at their corners, no small step shows what they do
     sentence = "No base is flat: each foot touches at its outer corner and at an inner point, at different heights."
     equation = r"P_{int} = P_{corner}\,(1 - \delta_{diag}/\|P_{corner}\|)_{xy},\quad z_{ext} = -h/2 + \delta_{long,i}"
