@@ -53,8 +53,7 @@ def diagnose(
     your own, --seed and --workers.
 
     Of tests on a shake table (kind = "shaken"): which of damping, friction, feet, and faults of the table the outcomes
-    ask for; with --model, --output, --runs, --step, --seed, --workers and --json. Takes 38 runs of every test for each
-    of --runs.
+    ask for; with --model, --output, --runs, --step, --seed, --workers and --json. Each test is run 40 times --runs.
 
     \b
     Example:

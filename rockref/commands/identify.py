@@ -45,8 +45,9 @@ def identify(
 ) -> None:
     """Find the parameters of the law from the fit runs: evolutionary search, then least squares on the signals.
 
-    Every run has a release angle of its own. Holdout runs are looked at when the parameters are fixed, and are in the
-    table. Interrupted at any moment, --resume gives the same end. Exit code 1 if the fit is not at the noise floor.
+    Every run has a release angle of its own. Held-out runs are compared only after the parameters are found; the table
+    shows them, too. After an interruption --resume goes on to the same end. Exit code 1 if the fit is not at the noise
+    floor.
 
     \b
     Example:

@@ -38,7 +38,7 @@ def plan(
 ) -> None:
     """Foretell, by simulation, which effects a planned campaign could detect and which it would confuse.
 
-    Says which further run would help most, and what as many repeats of one release would give against varied ones.
+    Says which further run would help most, and whether repeats of one release or varied releases would show more.
     With --outcomes: how many tests on a shake table tell two probabilities of falling apart, and nothing else.
     Exit code 0, or 2 if the input cannot be used.
 

@@ -51,10 +51,10 @@ def simulate(
 ) -> None:
     """Simulate a release and write time, body rates, pose, point forces and contacts.
 
-    The columns carry their units; rates are those of an ideal gyroscope, but for the sensor effects of the model. A
-    block that overturns is a result, and said so.
+    The columns carry their units. Rates are those of an ideal gyroscope, unless the model has sensor effects. A block
+    that overturns is no error: the summary says so.
 
-    With --base the block stands on a plate that moves, and what is said are the extremes of the run, which ends when
+    With --base the block stands on a plate that moves. The summary then gives the extremes of the run, which ends when
     the block has fallen or rests after the record. The rows of --output go on for the whole duration.
 
     \b
