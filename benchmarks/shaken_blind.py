@@ -113,14 +113,14 @@ def judge(root: Path, runs: int, workers: int | None) -> None:
         print(folder.name, found.sentence(), flush=True)
 
 
-def opened(root: Path) -> None:
-    """Print verdict beside truth. Refuses while a case has no verdict."""
+def opened(root: Path, partly: bool) -> None:
+    """Print verdict beside truth. Refuses while a case has no verdict; `partly` gives such cases up for good."""
     missing = [folder.name for folder in root.glob("case-*") if not (folder / "verdict.json").exists()]
-    if missing:
+    if missing and not partly:
         raise SystemExit(f"no verdict yet: {', '.join(sorted(missing))}")
     truth, same = unseal(root)
     print(f"the truth is {'the sealed one' if same else 'NOT the one that was sealed'}")
-    for name, hid in truth.items():
+    for name, hid in ((n, h) for n, h in truth.items() if n not in missing):
         said = json.loads((root / name / "verdict.json").read_text(encoding="utf-8"))
         ranked = ", ".join(
             f"{' '.join(a['effects']) or 'nothing'} {a['probability']:.2f}" for a in said["alternatives"][:3]
@@ -138,13 +138,16 @@ def main() -> None:
     parser.add_argument("--controls", type=int, default=0, help="make so many cases with nothing hidden, and no others")
     parser.add_argument("--runs", type=int, default=8, help="of each test at each size")
     parser.add_argument("--workers", type=int)
+    parser.add_argument(
+        "--partly", action="store_true", help="open although some cases have no verdict, and never will"
+    )
     given = parser.parse_args()
     if given.step == "make":
         make(given.folder, given.seed, ("nothing",) * given.controls or HIDDEN)
     elif given.step == "judge":
         judge(given.folder, given.runs, given.workers)
     else:
-        opened(given.folder)
+        opened(given.folder, given.partly)
 
 
 if __name__ == "__main__":

@@ -79,6 +79,11 @@ def test_the_help_says_whole_sentences(capsys):
     assert "what it could not tell." in " ".join(out.split())
 
 
+def test_the_help_of_a_command_names_its_arguments_without_types_of_python(capsys):
+    _, out, _ = run(capsys, "new", "--help")
+    assert "FOLDER  The experiment folder" in out and "<" not in out and "LOGS......" not in out
+
+
 def test_errors_of_the_system_name_the_file(capsys, command_that):
     command_that(PermissionError(13, "Permission denied", "out.csv"))
     code, _, err = run(capsys, "act")

@@ -96,6 +96,7 @@ GIVE = "Write gyro_scale:name=number, with commas between."
         ("x=1,x=2", "E-KEY", "'x' is given twice", "Give each parameter once."),
         ("1.02", "E-TYPE", "'1.02' is no parameter", GIVE),
         ("x=much", "E-TYPE", "'much' is no number", GIVE),
+        ("x=1,02", "E-TYPE", "'02' is no parameter", "The decimal mark is a point: write x=1.02."),
         ("x=1=2", "E-TYPE", "'1=2' is no number", GIVE),
         ("x=1:2", "E-TYPE", "'1:2' is no number", GIVE),
         ("X=1", "E-KEY", "gyro_scale has no parameter 'X'", "Did you mean 'x'?"),
