@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gzip
 import importlib.util
+import math
 import re
-import shutil
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
@@ -23,10 +25,17 @@ def program(path: str) -> ModuleType:
 
 def two_runs(folder: Path) -> Path:
     """A folder with a fit run and a holdout run of the control experiment, so that work on it is quick."""
+    return shortened(folder, CONTROL, ("01", "03"))
+
+
+def shortened(folder: Path, experiment: Path, ids: Sequence[str], seconds: float = math.inf) -> Path:
+    """A folder with some runs of a shipped experiment, up to an instant [s]."""
     folder.mkdir(exist_ok=True)
-    head, *runs = (CONTROL / "experiment.toml").read_text(encoding="utf-8").split("[[run]]")
-    kept = [r for r in runs if re.search(r'id = "0[13]"', r)]
+    head, *runs = (experiment / "experiment.toml").read_text(encoding="utf-8").split("[[run]]")
+    kept = [r for r in runs if re.search(rf'id = "({"|".join(ids)})"', r)]
     (folder / "experiment.toml").write_text("[[run]]".join([head, *kept]), encoding="utf-8")
-    for k in ("01", "03"):
-        shutil.copy(CONTROL / f"run{k}.csv.gz", folder)
+    for id in ids:
+        header, *rows = gzip.decompress((experiment / f"run{id}.csv.gz").read_bytes()).decode().splitlines()
+        rows = [row for row in rows if float(row.partition(",")[0]) < seconds]
+        (folder / f"run{id}.csv.gz").write_bytes(gzip.compress("\n".join([header, *rows, ""]).encode(), mtime=0))
     return folder
