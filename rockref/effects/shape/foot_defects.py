@@ -81,8 +81,7 @@ class FootDefects(Effect):
         def both(a, ratio=1.0):
             return np.concatenate([a, a * ratio], axis=-1)
 
-        ratios = {"K_N": 1.0, "K_T": 1.0, "C_N": self.beta_int, "C_T": self.beta_int}
-        ratios |= {"mu_0": self.mu_int, "mu": self.mu_int}
+        ratios = dict(K_N=1.0, K_T=1.0, C_N=self.beta_int, C_T=self.beta_int, mu_0=self.mu_int, mu=self.mu_int)
         return block, replace(
             points,
             P=np.concatenate([outer, inner], axis=-2),
