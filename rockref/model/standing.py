@@ -26,6 +26,8 @@ AT_REST = 1e-10
 #: three feet carry; where fewer do, so much that the step stays short. A block on two feet of a diagonal tips away from
 #: it with a stiffness of -m g h, a thousandth to a tenth of that of soft feet: the shares there are close together.
 DAMPING = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 1.0)
+#: Tilt [rad] by which a block is tipped off a balance on two feet. Decided: far above rounding, below every foot.
+TIPPED = 1e-7
 #: Largest tilt [rad] of a block that stands. Decided: no foot is so long that a block on it stands askew by more.
 MOST_ASKEW = 0.1
 
@@ -97,9 +99,12 @@ def equilibrium(block: Block, points: ContactPoints) -> tuple[np.ndarray, np.nda
     for _ in range(ITERATIONS):
         _, gradient, curvature = at(q)
         askew = np.max(np.abs(q[1:])) > MOST_ASKEW * b
-        if askew or np.max(np.abs(gradient)) < AT_REST * weight:
+        if askew:
             break
-        step = descent(q, at, np.sum(K))
+        at_rest = np.max(np.abs(gradient)) < AT_REST * weight
+        step = None if at_rest else descent(q, at, np.sum(K))
+        if step is None:
+            step = tipped(gradient, curvature, b)
         if step is None:
             break
         q = q + step
@@ -107,6 +112,15 @@ def equilibrium(block: Block, points: ContactPoints) -> tuple[np.ndarray, np.nda
     if askew or not stable or np.max(np.abs(gradient)) > LEFT_OVER * weight:
         raise falls("springs and weight find no equilibrium near the upright")
     return vertical(q, b), q[0]
+
+
+def tipped(gradient: np.ndarray, curvature: np.ndarray, b: float) -> np.ndarray | None:
+    """Return the step that tips a block which balances on two feet to the lower side; None where it stands."""
+    values, vectors = np.linalg.eigh(curvature.astype(float))
+    if values[0] >= 0:
+        return None
+    way = vectors[:, 0] * (-1 if vectors[:, 0] @ gradient.astype(float) > 0 else 1)
+    return (TIPPED * b * way).astype(gradient.dtype)
 
 
 def descent(q: np.ndarray, at, stiffness) -> np.ndarray | None:

@@ -112,3 +112,11 @@ def test_a_block_that_leans_away_from_its_third_foot_stops_on_the_other_one():
     P = points.P + np.column_stack([np.zeros((4, 2)), [3.4e-4, 0.0, 0.0, 0.0]])
     carried = carrying(replace(points, P=P), standing_posture(block, replace(points, P=P)))
     assert carried.sum() == 3 and carried[[1, 3]].all()
+
+
+def test_a_block_balanced_on_two_feet_tips_to_one_of_the_others():
+    model = rockref.Model(mass=66.0, width=0.12, depth=0.12, height=0.5, points="four_points").replace(K_N=2e7)
+    block, points = model.body()
+    P = points.P + np.column_stack([np.zeros((4, 2)), [0.0, 5e-5, 0.0, 5e-5]])
+    carried = carrying(replace(points, P=P), standing_posture(block, replace(points, P=P)))
+    assert carried[[0, 2]].all() and carried.sum() == 3
