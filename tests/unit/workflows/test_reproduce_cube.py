@@ -52,16 +52,12 @@ def test_the_story_is_a_folder_with_a_page_and_what_it_was_made_from(asked, tmp_
     assert asked == [("load", "data"), ("compare", None), ("diagnose", {}), ("compare", ["explained"])]
 
 
-def test_quick_it_tries_one_effect_with_few_iterations(asked, tmp_path):
-    reproduce_cube.reproduce_cube(tmp_path / "out", tmp_path / "data", True, lambda line: None)
-    (only,) = [facts for name, facts in asked if name == "diagnose"]
-    assert only["candidates"] == ("mass_eccentricity",) and max(n for _, n in only["stages"]) <= 2
-
-
-def test_the_folder_of_tosses_may_be_named_by_the_environment(asked, tmp_path, monkeypatch):
+def test_quick_it_tries_one_effect_of_the_tosses_that_the_environment_names(asked, tmp_path, monkeypatch):
     monkeypatch.setenv(reproduce_cube.VARIABLE, str(tmp_path / "named"))
     reproduce_cube.reproduce_cube(tmp_path / "out", None, True, lambda line: None)
     assert asked[0] == ("load", "named")
+    (only,) = [facts for name, facts in asked if name == "diagnose"]
+    assert only["candidates"] == ("mass_eccentricity",) and max(n for _, n in only["stages"]) <= 2
 
 
 def test_without_a_folder_of_tosses_it_says_where_to_get_them(asked, tmp_path, monkeypatch):

@@ -88,14 +88,17 @@ def test_limits_and_confusion_stand_where_they_are_known(named):
     assert "Would be detected above" in text and "Hardly told apart" in text and "0.970" in text
 
 
-@pytest.mark.parametrize("after, dots", [(None, 1), ({"main": 0.2, "transverse": 0.5, "longitudinal": 0.3}, 2)])
-def test_shares_of_the_axes_are_drawn_before_and_after_the_fit(named, after, dots):
+def test_shares_of_the_axes_are_drawn_before_and_after_the_fit(named):
     d, c = named
-    signature = d.signature | ({"remaining_axis_shares": after} if after else {})
-    text = diagnosis_page(replace(d, signature=signature), c).html()
-    assert "Shares of the axes in the misfit" in text and ("after the best fit" in text) is (dots == 2)
-    bare = diagnosis_page(replace(d, signature={"axis": "main"}), c).html()
-    assert "Shares of the axes in the misfit" not in bare
+
+    def drawn(**signature):
+        text = diagnosis_page(replace(d, signature=signature), c).html()
+        return "Shares of the axes in the misfit" in text, "after the best fit" in text
+
+    after = {"main": 0.2, "transverse": 0.5, "longitudinal": 0.3}
+    assert drawn(**d.signature) == (True, False)
+    assert drawn(**d.signature, remaining_axis_shares=after) == (True, True)
+    assert drawn(axis="main")[0] is False
 
 
 def test_an_effect_of_the_user_s_own_is_told_without_an_equation(monkeypatch):
