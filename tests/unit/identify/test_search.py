@@ -78,7 +78,7 @@ def test_killed_at_any_moment_and_resumed_ends_the_same(tmp_path):
         before = evaluated()
         process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL)
         while process.poll() is None and evaluated() == before:
-            time.sleep(0.001)
+            time.sleep(0.005)
         time.sleep(wait)
         kills += process.poll() is None
         process.kill()
