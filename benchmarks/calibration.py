@@ -2,8 +2,9 @@
 
     python benchmarks/calibration.py SET... [--chart reliability.png]
 
-Each number of `calibration.toml` is moved alone; a table says how many verdicts each value changes, and what becomes of
-the scores. The chart compares stated probabilities with the share of verdicts that are right.
+First, how often each word was right. Then each number of `calibration.toml` is moved alone; a table says how many
+verdicts each value changes, and what becomes of the scores. The chart compares stated probabilities with the share of
+verdicts that are right.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from rockref.blind.scoring.evaluation import OPENED
-from rockref.blind.scoring.intervals import reliability
+from rockref.blind.scoring.intervals import by_word, reliability
 from rockref.blind.scoring.judging import EVIDENCE, VERDICT, decided_from
 from rockref.blind.scoring.marks import mark
 from rockref.discover.evidence.evidence import Evidence
@@ -106,6 +107,8 @@ def main() -> None:
     cases, numbers = cases_of(given.sets), calibration()
     today = marks_of(cases, numbers)
     print(f"{len(cases)} cases; today: {summary(today)}")
+    for row in by_word(today):
+        print(f"  {row['verdict']}: right {row['right']} of {row['n']}")
     for name, values in TRIED.items():
         for value in values:
             marks = marks_of(cases, replace(numbers, **{name: float(value)}))

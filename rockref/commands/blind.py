@@ -160,6 +160,8 @@ def _print(found: dict, as_json: bool) -> None:
     typer.echo(table.as_text(found["by_block"]))
     for line in found["failures"]:
         typer.echo(f"- {line}")
+    if found["by_word"]:
+        typer.echo(f"\nHow often each word was right\n\n{intervals.words_as_text(found['by_word'])}")
     for block, rows in found["reliability"].items():
         if rows:
             typer.echo(f"\nProbabilities, {block}\n\n{intervals.as_text(rows)}")

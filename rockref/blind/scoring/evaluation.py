@@ -12,7 +12,7 @@ from rockref.blind.cases.blocks import NEAR, OTHER
 from rockref.blind.cases.making import run_all
 from rockref.blind.cases.sealing import MANIFEST, OPENED, SEALED, digests, unseal, write_json
 from rockref.blind.scoring import table
-from rockref.blind.scoring.intervals import reliability
+from rockref.blind.scoring.intervals import by_word, reliability
 from rockref.blind.scoring.judging import VERDICT, decided, judge_case
 from rockref.blind.scoring.marks import mark
 from rockref.jobs.folder_lock import alone_in
@@ -80,7 +80,8 @@ def marked(folder: Path, truth: dict[str, Any], verdicts: Mapping[str, dict[str,
     """Mark verdicts by name against an opened truth.
 
     Returns `scores` (rows over all cases), `by_block` (rows of cases near the source, and of other blocks),
-    `reliability` (stated probabilities against right verdicts, by block), `marks` (one a case), `failures` (lines).
+    `reliability` (stated probabilities against right verdicts, by block), `by_word` (how often each word of a verdict
+    was right), `marks` (one a case), `failures` (lines).
     """
     by_name = {case["name"]: case for case in truth["cases"]}
     marks = [mark(by_name[name], verdict) for name, verdict in verdicts.items()]
@@ -90,6 +91,7 @@ def marked(folder: Path, truth: dict[str, Any], verdicts: Mapping[str, dict[str,
         "scores": table.scores(marks),
         "by_block": {block: table.scores(some, block) for block, some in of.items()},
         "reliability": {block: reliability(some) for block, some in of.items()},
+        "by_word": by_word(marks),
         "failures": table.failures(marks),
         "marks": marks,
     }

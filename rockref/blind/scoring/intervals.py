@@ -35,6 +35,27 @@ def reliability(marks: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     return rows
 
 
+def by_word(marks: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return of each word of a verdict how often it was right: `verdict`, `right`, `n`, and the Wilson interval."""
+    said: dict[str, list[bool]] = {}
+    for m in marks:
+        said.setdefault(m["verdict"], []).append(bool(m["right"]))
+    rows = []
+    for word, right in sorted(said.items(), key=lambda item: -len(item[1])):
+        low, high = wilson(sum(right), len(right))
+        rows.append({"verdict": word, "right": sum(right), "n": len(right), "low": low, "high": high})
+    return rows
+
+
+def words_as_text(rows: list[dict[str, Any]]) -> str:
+    """Return the table of `by_word` in Markdown."""
+    lines = ["| verdict | right | interval |", "| --- | ---: | --- |"]
+    for r in rows:
+        interval = f"{100 * r['low']:.0f} to {100 * r['high']:.0f} %"
+        lines.append(f"| `{r['verdict']}` | {r['right']} of {r['n']} | {interval} |")
+    return "\n".join(lines)
+
+
 def as_text(rows: list[dict[str, Any]]) -> str:
     """Return the table of stated probabilities in Markdown."""
     lines = ["| probability | stated, mean | right | interval |", "| --- | ---: | ---: | --- |"]

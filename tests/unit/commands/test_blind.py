@@ -73,7 +73,13 @@ def test_no_case_at_all_is_refused(capsys, tmp_path):
 def found_with(value, met, **more):
     row = {"score": "a", "value": value, "low": 0.3, "high": 0.9, "n": 4, "hits": 2, "goal": ">= 0.9", "met": met}
     rows = {"near": [row | {"percent": True}], "other": []}
-    return {"by_block": rows, "reliability": {"near": []}, "failures": ["case-001"], "sealed": {"truth": True}} | more
+    return {
+        "by_block": rows,
+        "by_word": [],
+        "reliability": {"near": []},
+        "failures": ["case-001"],
+        "sealed": {"truth": True},
+    } | more
 
 
 @pytest.mark.parametrize("command", ["score", "judge"])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rockref.blind.scoring.intervals import as_text, reliability, wilson
+from rockref.blind.scoring.intervals import as_text, by_word, reliability, wilson, words_as_text
 
 
 @pytest.mark.parametrize(
@@ -26,3 +26,11 @@ def test_probabilities_are_counted_by_bins_that_hold_their_lower_edge():
     assert rows[0]["stated"] == pytest.approx(0.92) and rows[0]["low"] < 0.5 < rows[0]["high"]
     assert as_text(rows).splitlines()[2].startswith("| 0.9 to 0.95 | 92.0 % | 1 of 2 |")
     assert reliability([]) == []
+
+
+def test_each_word_is_counted_with_how_often_it_was_right():
+    marks = [{"verdict": "named", "right": True}, {"verdict": "none", "right": False}, {"verdict": "named", "right": 0}]
+    rows = by_word(marks)
+    assert [(r["verdict"], r["right"], r["n"]) for r in rows] == [("named", 1, 2), ("none", 0, 1)]
+    assert (rows[0]["low"], rows[0]["high"]) == wilson(1, 2)
+    assert "| `named` | 1 of 2 | 9 to 91 % |" in words_as_text(rows)
