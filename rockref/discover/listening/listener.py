@@ -33,6 +33,8 @@ ROWS = 128
 MADE_OF = tuple(f.name for f in fields(Model) if f.name not in ("uncertainty", "origin"))
 #: Innovations count no further than this many noise widths; decided: the robust loss is flat there.
 FARTHEST = 1e3
+#: Share by which measured and stated noise may differ and agree; decided: forty samples tell noise to a ninth.
+AGREES = 0.12
 #: Samples over which the steepest change about a sample is taken, and what of it is noise, in noise widths of a
 #: difference (decided: five samples hold an impact's corner; 1.3 differences are rarely exceeded by noise alone).
 STEEPEST, STEEP_NOISE = 5, 1.3
@@ -80,9 +82,7 @@ class Listener:
         self.valid = np.zeros((len(runs), self.N), bool)
         for i, ((_, crv), n) in enumerate(zip(records, counts, strict=True)):
             self.measured[i, :n], self.valid[i, :n] = crv[:n], True
-        # Noise is the instrument's: where a block is never calm about an axis, another run tells it.
-        calmest = np.min([noise_of(run, self.gyro) for run in runs], axis=0)
-        self.sigma = np.tile(calmest, (len(runs), 1))
+        self.sigma = np.tile(noise_of(runs, self.gyro), (len(runs), 1))
         self.slope = np.stack(
             [steepest(self.measured[i], self.sigma[i], self.gyro.sample_rate) for i in range(len(runs))]
         )
@@ -206,14 +206,27 @@ def record_of(run: Run) -> tuple[np.ndarray, np.ndarray]:
     return run.t, run.crv
 
 
-def noise_of(run: Run, gyro: Gyro) -> np.ndarray:
-    """Return the noise of a sample of each axis (3,) [rad/s], measured in calm stretches; at least that of rounding."""
-    stated = math.hypot(gyro.noise, gyro.resolution / math.sqrt(12))
-    try:
-        measured = noise_floor(*record_of(run)).sigma
-    except InputError:
+def noise_of(runs: Sequence[Run], gyro: Gyro) -> np.ndarray:
+    """Return the noise of a sample of each axis (3,) [rad/s]: the stated one, where calm stretches of the runs agree.
+
+    Noise is the instrument's: where a block is never calm about an axis, the calmest run tells it. At least that of
+    rounding.
+    """
+    rounding = gyro.resolution / math.sqrt(12)
+    stated = math.hypot(gyro.noise, rounding)
+    measured = [found for run in runs if (found := calm_noise(run)) is not None]
+    if not measured:
         return np.full(3, stated)
-    return np.maximum(measured, gyro.resolution / math.sqrt(12))
+    calmest = np.maximum(np.min(measured, axis=0), rounding)
+    return np.where(np.abs(calmest - stated) <= AGREES * stated, stated, calmest)
+
+
+def calm_noise(run: Run) -> np.ndarray | None:
+    """Return the noise of each axis (3,) [rad/s] in calm stretches of a run; None of a run that is too short."""
+    try:
+        return noise_floor(*record_of(run)).sigma
+    except InputError:
+        return None
 
 
 def steepest(crv: np.ndarray, sigma: np.ndarray, rate: float) -> np.ndarray:

@@ -8,7 +8,7 @@ import pytest
 
 from rockref import Model
 from rockref.discover.fit.objective import WHITE, loss
-from rockref.discover.listening.listener import Job, Listener, Memory
+from rockref.discover.listening.listener import Job, Listener, Memory, noise_of
 from rockref.discover.listening.target import between, grid, target_of
 from rockref.discover.provenance import ZERO_OFFSETS
 from rockref.effects.catalogue import parse
@@ -36,10 +36,6 @@ def mean_losses(listener: Listener, model: Model) -> np.ndarray:
 def test_innovations_are_white_at_the_truth(effects):
     e, model = made(effects)
     listener = Listener(e, e.runs, END, workers=1)
-    true = np.hypot(GYRO.noise, GYRO.resolution / np.sqrt(12))
-    # The calmest tenth of forty windows of forty samples, and of two runs the calmer one.
-    assert np.all(np.abs(listener.sigma / true - 1) < 0.12)
-    listener.sigma[:] = true
     found = mean_losses(listener, model)
     # 900 innovations of a run and axis: the mean loss of white noise scatters by 0.04; the model listens to the noise
     # of six samples, which shows about the height in the clatter most.
@@ -142,3 +138,14 @@ def test_rates_between_samples_are_those_of_a_band_limited_signal():
     bound = (2 * np.pi * np.array([10, 40, 80]) / 500) ** 6 * 3.52 / 720
     assert np.all(error <= bound) and np.all(error < straight / 10)
     assert np.allclose(between(t, signal(t), np.array([-1.0, 9.0])), signal(t)[[0, -1]])
+
+
+def test_noise_is_the_stated_one_where_the_calmest_run_agrees():
+    e, _ = made()
+    true = np.hypot(GYRO.noise, GYRO.resolution / np.sqrt(12))
+    assert np.all(noise_of(e.runs, GYRO) == true)
+    rough = replace(e.runs[0], crv=e.runs[0].crv + np.random.default_rng(2).normal(0.0, 5 * true, e.runs[0].crv.shape))
+    assert np.all(noise_of((rough, e.runs[1]), GYRO) == true)  # one run is rough, the other one tells
+    # A data sheet that is wrong is not believed: the measured noise is within an eighth of the true one.
+    found = noise_of(e.runs, replace(GYRO, noise=2 * GYRO.noise))
+    assert np.all(np.abs(found / true - 1) < 0.125)
