@@ -1,7 +1,9 @@
 """Which effect is missing, from outcomes on a shake table.
 
-1. Run every test many times, with the model as it is and with each candidate at several sizes, under the same draws.
-2. Find how probable the outcomes of the tests are at each size: a parabola a candidate, all with one value at zero.
+1. Run every test many times, with the model as it is and with each candidate at several sizes, under the same draws;
+   at more sizes about the best one where the outcomes ask loudly for a candidate.
+2. Find how probable the outcomes of the tests are at each size: a parabola a candidate, all with one value at zero; one
+   of its own about its best size for a loud candidate.
 3. Weigh each candidate by the integral over its sizes, with motions held out that no size has seen.
 4. Decide by the rules of records: named, indicated, a class, nothing, or something else.
 """
@@ -19,7 +21,8 @@ from rockref.discover.evidence.evidence import Evidence
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.outcomes.candidates import CANDIDATES, Candidate, Setting
 from rockref.discover.outcomes.likelihood import Likelihood, likelihood, simulated
-from rockref.discover.outcomes.weighing import Profile, evidence_of
+from rockref.discover.outcomes.sizes import profile
+from rockref.discover.outcomes.weighing import evidence_of, held_out
 from rockref.discover.verdict.calibration import Calibration, calibration
 from rockref.discover.verdict.rules import Verdict, decide
 from rockref.discover.verdict.sentences import sentence
@@ -27,8 +30,6 @@ from rockref.model.errors import InputError
 from rockref.shake.ensemble import AFTER
 from rockref.shake.experiment import ShakenExperiment
 
-#: Sizes at which a candidate is run [typical sizes]; decided: from what matters little to twice what is often found.
-SIZES = (0.5, 1.0, 2.0)
 #: Runs of each test at each size; decided: a share of falls is then known to 0.15 where it is one half.
 RUNS = 12
 #: Standard errors by which outcomes are less probable than the model's own runs, from which they are unexplained.
@@ -51,7 +52,9 @@ class OutcomeDiagnosis:
                 f"{' and '.join(self.verdict.best.effects) or 'the baseline'}, the outcomes are less probable than "
                 f"runs of the model itself by {excess:.1f} standard errors."
             )
-        return sentence(self.verdict, self.evidence)
+        ends = [e for e in self.verdict.effects if e in self.evidence.signature["open_ends"]]
+        more = f" The interval of {' and '.join(ends)} ends with the sizes that were tried." if ends else ""
+        return sentence(self.verdict, self.evidence) + more
 
     def to_dict(self) -> dict[str, Any]:
         """Return evidence, verdict and probabilities as plain values."""
@@ -94,26 +97,13 @@ def diagnose_outcomes(
         return likelihood(experiment, simulated(setting, runs, step, after, seed, workers))
 
     say(f"the baseline: {runs} runs of {len(experiment.motion)} tests")
-    null, profiles = at(base), []
+    null, fitted, profiles = at(base), ~held_out(experiment), []
     for k, c in enumerate(candidates, 1):
         say(f"{k} of {len(candidates)}: {c.id}")
-        made = profile(c, lambda size, c=c: at(c.apply(base, size)))  # type: ignore[misc]
+        made = profile(c, null, fitted, lambda size, c=c: at(c.apply(base, size)))  # type: ignore[misc]
         profiles += [made] if len(made.z) else []
     found = evidence_of(experiment, null, profiles)
     return OutcomeDiagnosis(found, decide(found, numbers(found)))
-
-
-def profile(candidate: Candidate, at: Callable[[float], Likelihood]) -> Profile:
-    """Return a candidate at its sizes; left out is one at which no block stands or the step is too large."""
-    found = {}
-    for z in (*(-s for s in SIZES if candidate.signed), *SIZES):
-        try:
-            found[z] = at(z * candidate.typical)
-        except InputError as e:
-            if e.code not in ("E-STAND", "E-STEP"):
-                raise
-    sizes = sorted(found)
-    return Profile(candidate, np.array(sizes), tuple(found[z] for z in sizes))
 
 
 def numbers(evidence: Evidence) -> Calibration:

@@ -2,74 +2,40 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from rockref.discover.evidence.evidence import Evidence, HypothesisEvidence, Number
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.outcomes.candidates import Candidate
+from rockref.discover.outcomes.curves import Curves, Profile
 from rockref.discover.outcomes.likelihood import Likelihood, quantities, there
 from rockref.shake.experiment import ShakenExperiment
 
 #: Nats that count as one. Where nothing is hidden no candidate gains more than 1.3 nats counted singly (two sets of 48
 #: tests, eight runs of each); decided: twice that, since falls and maxima of a test come from one run.
 TEMPERATURE = 2.0
-#: Nats below the best size by which a size loses half its weight in the curve; decided: some standard errors.
-FAR = 10.0
+#: Share of the posterior in an interval.
+SHARE = 0.9
 #: One motion in so many is held out.
 HELD_OUT = 4
 #: The name of the held-out motions in the evidence.
 HELD = "held-out motions"
 
 
-@dataclass(frozen=True, eq=False)
-class Profile:
-    """A candidate at its sizes: z (k,) in typical sizes, without zero, and the likelihood at each."""
-
-    candidate: Candidate
-    z: np.ndarray
-    at: tuple[Likelihood, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Curves:
-    """The likelihood over the size of every candidate: parabolas that share their value at zero, the baseline.
-
-    Few runs estimate each likelihood with an error of some nats, and the largest of many would be an error. So one
-    least-squares fit goes through all sizes of all candidates; one at which the outcomes are by `FAR` nats less
-    probable than at the best size counts half.
-    """
-
-    null: Likelihood
-    profiles: tuple[Profile, ...]
-
-    def sums(self, part: str, tests: np.ndarray, k: int | None, z: Any) -> np.ndarray:
-        """Return the sums over some tests of one part of the likelihood, (q, ...), of candidate k at sizes z."""
-        rows = [(self.null, 0, 0.0), *((one, c, x) for c, p in enumerate(self.profiles)
-                                       for one, x in zip(p.at, p.z, strict=True))]  # fmt: skip
-        known = np.array([getattr(one, part)[:, tests].sum(axis=1) for one, _, _ in rows])
-        level = np.array([one.measured[:, tests].sum() for one, _, _ in rows])
-        root = 1.0 / np.sqrt(1.0 + ((level.max() - level) / FAR) ** 2)[:, None]
-        design = np.zeros((len(rows), 1 + 2 * len(self.profiles)))
-        design[:, 0] = 1.0
-        for row, (_, c, x) in zip(design, rows, strict=True):
-            row[1 + 2 * c : 3 + 2 * c] = x, x * x
-        found = np.linalg.lstsq(root * design, root * known, rcond=None)[0]
-        zero, b, a = (found[0], 0 * found[0], 0 * found[0]) if k is None else found[[0, 1 + 2 * k, 2 + 2 * k]]
-        sizes = np.asarray(z)[..., None]
-        return np.moveaxis(zero + sizes * b + sizes**2 * a, -1, 0)
-
-
 class Weighed(NamedTuple):
-    """A candidate's most probable size with its 90 % interval [typical sizes], log probability and eigenvalue there."""
+    """A candidate's most probable size with its 90 % interval [typical sizes], log probability and eigenvalue there.
+
+    open : the interval ends where no larger size was run
+    """
 
     z: float
     low: float
     high: float
     log_p: float
     eigenvalue: float
+    open: bool = False
 
 
 def held_out(experiment: ShakenExperiment) -> np.ndarray:
@@ -78,22 +44,39 @@ def held_out(experiment: ShakenExperiment) -> np.ndarray:
 
 
 def weighed(curves: Curves, k: int, tests: np.ndarray) -> Weighed:
-    """Return the size of candidate k. The eigenvalue makes Laplace's formula give the integral over all sizes.
+    """Return the size of candidate k: the mode of its posterior at `TEMPERATURE`, and the 90 % that are densest.
 
-    The prior is normal with a deviation of one typical size, and one-sided where the effect has one sign only.
+    The prior is normal with a deviation of one typical size, and one-sided where the effect has one sign only. The
+    eigenvalue makes Laplace's formula give the integral over all sizes.
     """
-    ends = curves.profiles[k].z
-    z = np.linspace(min(0.0, ends[0]), max(0.0, ends[-1]), 801)
+    z = np.linspace(*curves.reach(k), 801)
     log_p = curves.sums("measured", tests, k, z).sum(axis=0)
-    at = int(np.argmax(log_p - 0.5 * z * z))
-    prior = np.exp(-0.5 * z * z)
-    weight = prior / prior.sum() * np.exp((log_p - log_p.max()) / TEMPERATURE)
-    integral = log_p.max() / TEMPERATURE + np.log(weight.sum())
+    sides = 1.0 if curves.profiles[k].candidate.signed else 2.0
+    log_density = log_p / TEMPERATURE - 0.5 * z * z + np.log(sides / np.sqrt(2.0 * np.pi))
+    at = int(np.argmax(log_density))
+    density = np.exp(log_density - log_density[at])
+    integral = log_density[at] + np.log(np.trapezoid(density, z))
     occam = integral - (log_p[at] - 0.5 * z[at] ** 2) / TEMPERATURE
-    share = np.cumsum(weight) / weight.sum()
-    low, high = (float(z[min(int(np.searchsorted(share, q)), len(z) - 1)]) for q in (0.05, 0.95))
     eigenvalue = 1.0 + TEMPERATURE * max(float(np.expm1(-2.0 * occam)), 0.0)
-    return Weighed(float(z[at]), low, high, float(log_p[at]), eigenvalue)
+    low, high, is_open = interval(z, density, curves.tried(k).z)
+    return Weighed(float(z[at]), low, high, float(log_p[at]), eigenvalue, is_open)
+
+
+def interval(z: np.ndarray, density: np.ndarray, tried: np.ndarray) -> tuple[float, float, bool]:
+    """Return the densest 90 % of a posterior on a grid z, and whether it ends with the sizes that were tried.
+
+    It reaches half the spacing of the sizes about the mode to either side: what is between two sizes was not seen.
+    """
+    at = int(np.argmax(density))
+    order = np.argsort(-density)
+    enough = int(np.searchsorted(np.cumsum(density[order]), SHARE * density.sum())) + 1
+    inside = z[order[:enough]]
+    above = int(np.clip(np.searchsorted(tried, z[at]), 1, len(tried) - 1))
+    half = 0.5 * (tried[above] - tried[above - 1])
+    low, high = max(min(inside.min(), z[at] - half), tried[0]), min(max(inside.max(), z[at] + half), tried[-1])
+    step = z[1] - z[0]
+    ends = (tried[0] < 0.0 and low <= tried[0] + step) or high >= tried[-1] - step
+    return float(low), float(high), bool(ends)
 
 
 def evidence_of(experiment: ShakenExperiment, null: Likelihood, profiles: list[Profile]) -> Evidence:
@@ -102,7 +85,7 @@ def evidence_of(experiment: ShakenExperiment, null: Likelihood, profiles: list[P
     A loss is in nats an outcome: WHITE where outcomes are as probable as runs of the most probable model itself are.
     """
     held, names = held_out(experiment), quantities(experiment)
-    counts, curves = there(names, experiment), Curves(null, tuple(profiles))
+    counts, curves = there(names, experiment), Curves(null, tuple(profiles), ~held)
     baseline = Weighed(0.0, 0.0, 0.0, float(curves.sums("measured", ~held, None, 0.0).sum()), 1.0)
     fits = [(None, baseline), *((k, weighed(curves, k, ~held)) for k in range(len(profiles)))]
     top, w = max(fits, key=lambda pair: pair[1].log_p - 0.5 * pair[1].z ** 2)
@@ -120,6 +103,7 @@ def evidence_of(experiment: ShakenExperiment, null: Likelihood, profiles: list[P
     signature = {
         "temperature": TEMPERATURE, "quantities": list(names), "largest_standard_error": float(by_quantity.max()),
         "standard_error": float(np.sqrt(null.variance_of_all[~held].sum()) / size.sum()),
+        "open_ends": [profiles[k].candidate.id for k, one in fits if k is not None and one.open],
     }  # fmt: skip
     held_samples = {HELD: int(counts[:, held].sum())} if held.any() else {}
     return Evidence(experiment.name, experiment.digest, int(size.sum()), held_samples, hypotheses, signature=signature)

@@ -24,6 +24,8 @@ def candidates_table(record: dict[str, Any]) -> Table:
         for n in h["numbers"].values():
             unit, scale = UNITS.get(n["unit"], (n["unit"], 1.0))
             size = f"{scale * n['value']:.3g} ({scale * n['low']:.3g} to {scale * n['high']:.3g}) {unit}".rstrip()
+        if set(h["effects"]) & set(record["evidence"]["signature"].get("open_ends", ())):
+            size += ", no further tried"
         held = "-"
         if h["held_out"]:
             held = f"{sum(null['held_out'].values()) - sum(h['held_out'].values()):+.3f}"
