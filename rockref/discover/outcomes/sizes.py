@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from rockref.discover.outcomes.candidates import Candidate
-from rockref.discover.outcomes.curves import Curves, Profile
+from rockref.discover.outcomes.curves import FAR, Curves, Profile
 from rockref.discover.outcomes.likelihood import Likelihood
 from rockref.model.errors import InputError
 
@@ -49,11 +49,9 @@ def further(curves: Curves) -> list[float]:
     """
     if not curves.loud:
         return []
-    z, _, _ = tried = curves.tried(0)
+    z, _, level = tried = curves.tried(0)
     near, best = tried.near(), tried.best
-    outer = [
-        2.0 * z[i] for i in (near.start, near.stop - 1) if i in (0, len(z) - 1) and 0.0 < 2.0 * abs(z[i]) <= LARGEST
-    ]
+    outer = [2.0 * z[i] for i in (0, len(z) - 1) if level[i] > level[best] - FAR and 0.0 < 2.0 * abs(z[i]) <= LARGEST]
     if outer:
         return outer
     if near.stop - near.start >= ENOUGH:

@@ -12,6 +12,7 @@ from rockref.discover.outcomes.candidates import CANDIDATES, Setting, displaceme
 from rockref.discover.outcomes.likelihood import log_density, log_probabilities
 from rockref.model.base_motion import BaseMotion
 from rockref.model.errors import InputError
+from rockref.report.terminal.outcome_text import candidates_table
 from rockref.shake.ensemble import Draws
 from rockref.shake.experiment import ShakenExperiment
 
@@ -94,6 +95,10 @@ def test_a_hidden_effect_is_named_with_its_size(monkeypatch):
     number = found.evidence.of(("contact_friction",)).numbers["contact_friction.log_factor"]
     # 72 slides with a scatter of 0.3 tell half a friction's logarithm to 0.02; three of that.
     assert number.value == pytest.approx(-0.4, abs=0.06) and number.low < number.value < number.high
+    assert "ends with the sizes" not in found.sentence()
+    found.evidence.signature["open_ends"] = ["contact_friction"]
+    assert found.sentence().endswith("The interval of contact_friction ends with the sizes that were tried.")
+    assert any("no further tried" in row[1] for row in candidates_table(found.to_dict()).rows)
 
 
 def test_nothing_is_named_where_nothing_is_hidden(monkeypatch):
