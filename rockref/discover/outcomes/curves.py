@@ -16,7 +16,7 @@ from rockref.discover.outcomes.likelihood import Likelihood
 FAR = 10.0
 #: Nats by which the best size must beat the baseline for a curve of its own; decided: twice what the luck of few runs
 #: gained at most, at the best of forty sizes, where nothing was hidden.
-LOUD = 32.0
+STRONG = 32.0
 #: Sizes through which a local curve goes at least: those that determine a parabola.
 LEAST = 3
 
@@ -64,7 +64,7 @@ class Curves:
     least-squares fit goes through all sizes of all candidates, with one value at zero, the baseline; a size at which
     the outcomes are by `FAR` nats less probable than at the best one counts half.
 
-    A likelihood that changes by more than `LOUD` nats is no parabola from zero to its best size. Such a candidate has a
+    A likelihood that changes by more than `STRONG` nats is no parabola from zero to its best size. Such a candidate has a
     parabola of its own, through the sizes about its best one (`Tried.near`), and says nothing about the others.
 
     fitted : (n,) which tests say what sizes are near, for held-out tests as well
@@ -82,20 +82,20 @@ class Curves:
         return Tried(z, at, self._level(at))
 
     @cached_property
-    def loud(self) -> frozenset[int]:
-        """Return the candidates whose best size beats the baseline by more than `LOUD` nats."""
+    def strong(self) -> frozenset[int]:
+        """Return the candidates whose best size beats the baseline by more than `STRONG` nats."""
         zero = self._level((self.null,))[0]
-        return frozenset(k for k in range(len(self.profiles)) if self.tried(k).level.max() > zero + LOUD)
+        return frozenset(k for k in range(len(self.profiles)) if self.tried(k).level.max() > zero + STRONG)
 
     def reach(self, k: int) -> tuple[float, float]:
-        """Return the sizes between which candidate k may lie: the next beyond those near, for a loud one; else all."""
+        """Return the sizes between which candidate k may lie: the next beyond those near, for a strong one; else all."""
         z, _, _ = tried = self.tried(k)
-        near = tried.near() if k in self.loud else slice(0, len(z))
+        near = tried.near() if k in self.strong else slice(0, len(z))
         return float(z[max(near.start - 1, 0)]), float(z[min(near.stop, len(z) - 1)])
 
     def sums(self, part: str, tests: np.ndarray, k: int | None, z: Any) -> np.ndarray:
         """Return the sums over some tests of one part of the likelihood, (q, ...), of candidate k at sizes z."""
-        found = self._local(part, tests, k) if k in self.loud else self._shared(part, tests, k)
+        found = self._local(part, tests, k) if k in self.strong else self._shared(part, tests, k)
         sizes = np.asarray(z)[..., None]
         return np.moveaxis(found[0] + sizes * found[1] + sizes**2 * found[2], -1, 0)
 
@@ -103,8 +103,8 @@ class Curves:
         return np.array([one.measured[:, self.fitted].sum() for one in at])
 
     def _local(self, part: str, tests: np.ndarray, k: int | None) -> np.ndarray:
-        """Return the coefficients (3, q) of candidate k, loud, from constant to square."""
-        assert k is not None  # the baseline is never loud
+        """Return the coefficients (3, q) of candidate k, strong, from constant to square."""
+        assert k is not None  # the baseline is never strong
         tried = self.tried(k)
         near = tried.near()
         known = np.array([getattr(one, part)[:, tests].sum(axis=1) for one in tried.at[near]])
@@ -112,8 +112,8 @@ class Curves:
         return np.linalg.lstsq(design, known, rcond=None)[0]
 
     def _shared(self, part: str, tests: np.ndarray, k: int | None) -> np.ndarray:
-        """Return the coefficients (3, q) of candidate k, not loud, or of the baseline (None)."""
-        quiet = [c for c in range(len(self.profiles)) if c not in self.loud]
+        """Return the coefficients (3, q) of candidate k, not strong, or of the baseline (None)."""
+        quiet = [c for c in range(len(self.profiles)) if c not in self.strong]
         rows = [(self.null, 0, 0.0), *((one, c, x) for c, i in enumerate(quiet)
                 for one, x in zip(self.profiles[i].at, self.profiles[i].z, strict=True))]  # fmt: skip
         known = np.array([getattr(one, part)[:, tests].sum(axis=1) for one, _, _ in rows])

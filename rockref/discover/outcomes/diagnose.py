@@ -1,9 +1,9 @@
 """Which effect is missing, from outcomes on a shake table.
 
 1. Run every test many times, with the model as it is and with each candidate at several sizes, under the same draws;
-   at more sizes about the best one where the outcomes ask loudly for a candidate.
+   at more sizes about the best one where the outcomes ask strongly for a candidate.
 2. Find how probable the outcomes of the tests are at each size: a parabola a candidate, all with one value at zero; one
-   of its own about its best size for a loud candidate.
+   of its own about its best size for a strong candidate.
 3. Weigh each candidate by the integral over its sizes, with motions held out that no size has seen.
 4. Decide by the rules of records: named, indicated, a class, nothing, or something else.
 """

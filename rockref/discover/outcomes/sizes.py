@@ -1,4 +1,4 @@
-"""The sizes at which a candidate is run: a few for all, more about the best one where outcomes ask loudly for it."""
+"""The sizes at which a candidate is run: a few for all, more about the best one where outcomes ask strongly for it."""
 
 from __future__ import annotations
 
@@ -42,12 +42,12 @@ def starting(candidate: Candidate) -> tuple[float, ...]:
 
 
 def further(curves: Curves) -> list[float]:
-    """Return the sizes to add for the only candidate: none unless it is loud.
+    """Return the sizes to add for the only candidate: none unless it is strong.
 
     Where the sizes that are near reach the last one, twice that is added. Else the spacing about the best size is
     halved until enough sizes are near.
     """
-    if not curves.loud:
+    if not curves.strong:
         return []
     z, _, level = tried = curves.tried(0)
     near, best = tried.near(), tried.best

@@ -1,4 +1,4 @@
-"""Size and interval of a loud candidate, where the log-likelihood is known in closed form and is no parabola."""
+"""Size and interval of a strong candidate, where the log-likelihood is known in closed form and is no parabola."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,7 @@ def found(log_p, refuse=lambda z: False):
 @pytest.mark.parametrize("best", [-1.0, -0.6, 1.37, -3.1])
 def test_value_and_interval_are_those_of_the_posterior_though_it_is_skew(best):
     curves, said = found(lambda z: skew(z, best))
-    assert 0 in curves.loud and not said.open
+    assert 0 in curves.strong and not said.open
     z = np.linspace(best - 1.0, best + 1.0, 20001)
     density = np.exp(skew(z, best) / TEMPERATURE - 0.5 * z * z)
     order = np.argsort(-density)
@@ -51,7 +51,7 @@ def test_value_and_interval_are_those_of_the_posterior_though_it_is_skew(best):
 
 
 def test_a_parabola_from_zero_would_be_wrong_here():
-    """The seeded fault: one curve over the first sizes alone, as for a candidate that is not loud."""
+    """The seeded fault: one curve over the first sizes alone, as for a candidate that is not strong."""
     z = np.array([0.0, *starting(FRICTION)])
     level = skew(z, -0.6)
     root = 1.0 / np.sqrt(1.0 + ((level.max() - level) / 10.0) ** 2)
@@ -66,9 +66,9 @@ def test_an_interval_is_not_narrower_than_the_sizes_are_apart():
 
 def test_an_interval_that_ends_with_the_sizes_says_so():
     curves, said = found(lambda z: 50.0 * z)
-    assert 0 in curves.loud and curves.profiles[0].z[-1] == LARGEST and said.open and said.high == LARGEST
+    assert 0 in curves.strong and curves.profiles[0].z[-1] == LARGEST and said.open and said.high == LARGEST
     curves, said = found(lambda z: 4.0 * z)
-    assert not curves.loud and said.open and said.high == starting(FRICTION)[-1]
+    assert not curves.strong and said.open and said.high == starting(FRICTION)[-1]
 
 
 def test_what_outcomes_hardly_ask_for_gets_no_more_sizes():
