@@ -64,8 +64,8 @@ class Curves:
     least-squares fit goes through all sizes of all candidates, with one value at zero, the baseline; a size at which
     the outcomes are by `FAR` nats less probable than at the best one counts half.
 
-    A likelihood that changes by more than `STRONG` nats is no parabola from zero to its best size. Such a candidate has a
-    parabola of its own, through the sizes about its best one (`Tried.near`), and says nothing about the others.
+    A likelihood that changes by more than `STRONG` nats is no parabola from zero to its best size. Such a candidate has
+    a parabola of its own, through the sizes about its best one (`Tried.near`), and says nothing about the others.
 
     fitted : (n,) which tests say what sizes are near, for held-out tests as well
     """
@@ -88,7 +88,7 @@ class Curves:
         return frozenset(k for k in range(len(self.profiles)) if self.tried(k).level.max() > zero + STRONG)
 
     def reach(self, k: int) -> tuple[float, float]:
-        """Return the sizes between which candidate k may lie: the next beyond those near, for a strong one; else all."""
+        """Return the sizes between which candidate k may lie: a strong one by those next to the near ones; else all."""
         z, _, _ = tried = self.tried(k)
         near = tried.near() if k in self.strong else slice(0, len(z))
         return float(z[max(near.start - 1, 0)]), float(z[min(near.stop, len(z) - 1)])
