@@ -51,4 +51,6 @@ def _in_own_record(fitter: Fitter, h: FittedModel, stage: Stage, seed: int) -> t
         progress=StageCounter({}), refined=lambda h, stage: None,
     )  # fmt: skip
     again = Fitter(own)
-    return again, again.evaluate(FittedModel(h.effects, h.z.copy()), stage)
+    evaluated = again.evaluate(FittedModel(h.effects, h.z.copy()), stage)
+    listener.simulated += own.listener.simulated
+    return again, evaluated

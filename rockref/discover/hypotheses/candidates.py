@@ -158,12 +158,6 @@ def within_base(p: P, model: Model) -> P:
     return replace(p, high=kind.largest_on(key, model.width, model.depth))
 
 
-def is_inverse(name: str) -> bool:
-    """Return whether a parameter, by its name in a fit ("effect.quantity"), is found as its inverse."""
-    kind, key = kind_and_key(name)
-    return kind is not None and prior_of(kind, key).scale == "inverse"
-
-
 def value_of(parameter: Parameter, z: float) -> float:
     """Return the effect's own number at z (an inverse is turned back)."""
     kind, key = kind_and_key(parameter.name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -137,8 +137,3 @@ CANDIDATES = (
     Candidate("table_pitching", "rate", "rad/m", 0.1, table_pitching),
     Candidate("axis_delay", "delay", "s", 0.02, axis_delay),
 )
-
-
-def by_id(candidates: tuple[Candidate, ...] = CANDIDATES) -> Mapping[str, Candidate]:
-    """Return candidates by their name."""
-    return {candidate.id: candidate for candidate in candidates}
