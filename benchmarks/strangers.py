@@ -37,10 +37,10 @@ import strangers_second
 import strangers_third
 from strangers_list import HARMLESS, Mistake
 
-from rockref.conformance.executable import Executable
-from rockref.conformance.judge import LAYERS, judge
+from rockref.conformance.backends.executable import Executable
+from rockref.conformance.judge.findings import LAYERS, judge
+from rockref.conformance.judge.verdict import alike, suspects, verdict
 from rockref.conformance.vectors import flat
-from rockref.conformance.verdict import alike, suspects, verdict
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 SOURCE, SOURCE_C = EXAMPLES / "backend_numpy.py", EXAMPLES / "backend_c/backend.c"

@@ -253,6 +253,6 @@ class Backend:
 
 
 if __name__ == "__main__":
-    from rockref.conformance.jsonlines import serve
+    from rockref.conformance import serve
 
     serve(Backend())

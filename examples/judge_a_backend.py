@@ -10,10 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from rockref.conformance.backend import load
-from rockref.conformance.in_words import text
+from rockref.conformance import load, text, verdict
 from rockref.conformance.judge import judge
-from rockref.conformance.verdict import verdict
 
 PIECES = ("L0", "L1", "L2", "L3", "L4", "L7")
 BACKEND = load(f"{Path(__file__).parent / 'backend_numpy.py'}:Backend")

@@ -173,10 +173,11 @@ def conform(backend: Any, *, layers: Sequence[str] | str | None = None, profile:
     `layers` are those of ``rockref conform --layers``, as ``"L1,L2"``. ``result.passed`` is the verdict.
     Raises InputError.
     """
-    from rockref.conformance import in_files, in_words
-    from rockref.conformance.backend import load as load_backend
-    from rockref.conformance.judge import judge, used_profile
-    from rockref.conformance.verdict import as_json, verdict
+    from rockref.conformance.backends.load import load as load_backend
+    from rockref.conformance.judge.findings import judge, used_profile
+    from rockref.conformance.judge.verdict import as_json, verdict
+    from rockref.conformance.reports import terminal
+    from rockref.conformance.reports.page import page as page_of
     from rockref.model.storage import write_bytes
     from rockref.report.output import made_folder
 
@@ -186,10 +187,10 @@ def conform(backend: Any, *, layers: Sequence[str] | str | None = None, profile:
 
     def page(folder: Path) -> Path:
         path = made_folder(folder) / "index.html"
-        write_bytes(path, in_files.page(found).encode())
+        write_bytes(path, page_of(found).encode())
         return path
 
-    return Result("conformance", found, lambda: in_words.text(found), found_dict=lambda: as_json(found), page=page)
+    return Result("conformance", found, lambda: terminal.text(found), found_dict=lambda: as_json(found), page=page)
 
 
 def _of_model(

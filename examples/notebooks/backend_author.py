@@ -18,7 +18,7 @@
 
 # %%
 import rockref
-from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance import NumpyEngine
 
 # %% [markdown]
 # The law itself passes. A layer holds the vectors of one level: `L1` one contact point, `L2` sums and moments, `L3`

@@ -94,7 +94,7 @@ def conform(
     """
     from rockref.commands._physics import physics
     from rockref.commands._results import usable_files
-    from rockref.conformance.judge import LAYERS
+    from rockref.conformance.judge.findings import LAYERS
     from rockref.model.errors import InputError
 
     rest = rest or []
@@ -137,17 +137,17 @@ def _layers(layers: str | None, quick: bool, every: tuple[str, ...]) -> list[str
 
 def _backend(target: str, rest: list[str], timeout: float) -> tuple[Any, set[str] | None]:
     """Return the backend, and the layers to which it has answers (None: whatever it is asked)."""
-    from rockref.conformance.backend import load
+    from rockref.conformance.backends.load import load
     from rockref.model.errors import InputError
 
     if target == "exe":
-        from rockref.conformance.executable import Executable
+        from rockref.conformance.backends.executable import Executable
 
         if not rest:
             raise InputError("E-ARGUMENT", "exe", "no program is given", "rockref conform exe ./program [arguments].")
         return Executable(rest, small=max(timeout / 60, 1.0), long=timeout), None
     if target == "judge":
-        from rockref.conformance.offline import Recorded
+        from rockref.conformance.judge.offline import Recorded
 
         if len(rest) != 1:
             raise InputError("E-ARGUMENT", "judge", f"has {len(rest)} files", "rockref conform judge responses.jsonl.")
@@ -166,10 +166,13 @@ def _judge(
     files: dict[str, Any],
 ) -> None:
     from rockref.commands._results import say_written
-    from rockref.conformance import in_files, in_words
-    from rockref.conformance.judge import judge, used_profile
-    from rockref.conformance.verdict import as_json as in_json
-    from rockref.conformance.verdict import verdict
+    from rockref.conformance.judge.findings import judge, used_profile
+    from rockref.conformance.judge.verdict import as_json as in_json
+    from rockref.conformance.judge.verdict import verdict
+    from rockref.conformance.reports import terminal
+    from rockref.conformance.reports.junit import junit
+    from rockref.conformance.reports.page import badge
+    from rockref.conformance.reports.page import page as page_of
     from rockref.model.storage import write_bytes
 
     show = sys.stderr.isatty() and not as_json
@@ -183,7 +186,7 @@ def _judge(
     if show:
         typer.echo("\r" + " " * 40 + "\r", nl=False, err=True)
     written: list[Path] = []
-    for name, make in (("junit", in_files.junit), ("badge", in_files.badge), ("html", in_files.page)):
+    for name, make in (("junit", junit), ("badge", badge), ("html", page_of)):
         if files[name] is not None:
             data = make(found)
             write_bytes(files[name], data if isinstance(data, bytes) else data.encode())
@@ -192,7 +195,7 @@ def _judge(
         typer.echo(json.dumps(in_json(found), indent=1))
     else:
         say_written(written)
-        typer.echo(in_words.text(found, sys.stdout.isatty() if colour is None else colour), nl=False, color=True)
+        typer.echo(terminal.text(found, sys.stdout.isatty() if colour is None else colour), nl=False, color=True)
     if not found.passed:
         raise typer.Exit(1)
 
@@ -202,13 +205,14 @@ def _progress(layer: str, share: float) -> None:
 
 
 def _files(action: str, rest: list[str], layers: list[str], profile: str, output: Path | None) -> None:
-    from rockref.conformance import jsonlines, offline
-    from rockref.conformance.backend import load
+    from rockref.conformance.backends import json_lines
+    from rockref.conformance.backends.load import load
+    from rockref.conformance.judge import offline
     from rockref.model.errors import InputError
     from rockref.model.storage import write_text
 
     if action == "serve":
-        jsonlines.serve(load(rest[0] if rest else "numpy"))
+        json_lines.serve(load(rest[0] if rest else "numpy"))
         return
     if action == "export":
         made = offline.text(layers, profile)
@@ -218,7 +222,7 @@ def _files(action: str, rest: list[str], layers: list[str], profile: str, output
                 "E-ARGUMENT", "answer", f"has {len(rest)} arguments", "rockref conform answer BACKEND requests.jsonl."
             )
         backend = load(rest[0])
-        made = "".join(jsonlines.line(jsonlines.answer(backend, q)) for q in offline.requests_in(Path(rest[1])))
+        made = "".join(json_lines.line(json_lines.answer(backend, q)) for q in offline.requests_in(Path(rest[1])))
     if output is None:
         typer.echo(made, nl=False)
     else:
@@ -227,7 +231,7 @@ def _files(action: str, rest: list[str], layers: list[str], profile: str, output
 
 def _example(rest: list[str], output: Path | None) -> None:
     """Write one of the backends to start from."""
-    from rockref.conformance.examples import source
+    from rockref.conformance.backends.examples import source
     from rockref.model.storage import write_text
 
     text = source(rest[0] if rest else "python")
@@ -238,7 +242,7 @@ def _example(rest: list[str], output: Path | None) -> None:
 
 
 def _zoo(as_json: bool, quick: bool, output: Path | None) -> None:
-    from rockref.conformance.zoo.run import falls_short, in_words, page, run_zoo
+    from rockref.conformance.faults.run import falls_short, in_words, page, run_zoo
     from rockref.model.storage import write_text
 
     found = run_zoo(black_box=not quick, progress=_progress if sys.stderr.isatty() and not as_json else None)

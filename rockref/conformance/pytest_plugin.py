@@ -27,7 +27,7 @@ def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config
     target = config.getoption("--rockref-backend")
     if not target:
         return
-    from rockref.conformance.judge import chosen_layers, used_profile
+    from rockref.conformance.judge.findings import chosen_layers, used_profile
     from rockref.model.errors import InputError
 
     try:
@@ -43,38 +43,40 @@ def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config
 
 def usable(target: str) -> Any:
     """Return the backend. Raises InputError (E-BACKEND) where there is none, or it has no `simulate`."""
-    from rockref.conformance import asking
-    from rockref.conformance.backend import load
+    from rockref.conformance.backends import call
+    from rockref.conformance.backends.load import load
     from rockref.model.errors import InputError
 
     backend = load(target)
-    if not asking.has(backend, "simulate"):
+    if not call.has(backend, "simulate"):
         raise InputError("E-BACKEND", target, "has no simulate(problem)", "It is the one mandatory piece.")
     return backend
 
 
 def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
     """Return what becomes a test: the kind of test, its name, and what it is about."""
-    from rockref.conformance import asking, claims, vectors
-    from rockref.conformance.judge import NOT_OF_THE_SCHEME, asked_in, of_the_profile
+    from rockref.conformance import vectors
+    from rockref.conformance.backends import call
+    from rockref.conformance.judge import claims
+    from rockref.conformance.judge.findings import NOT_OF_THE_SCHEME, asked_in, of_the_profile
 
     if layer == "L5":
         windows = () if profile == "scheme" else vectors.window_names()
         return [(RunItem, name, name) for name in windows + vectors.trajectory_names()]
     if layer == "L6":
-        return [(PropertyItem, p[1].__name__, p) for p in properties(profile) if asking.has(backend, p[0])]
+        return [(PropertyItem, p[1].__name__, p) for p in properties(profile) if call.has(backend, p[0])]
     if layer == "LE":
         found = claims.claims() if profile == "float64" else ()
-        return [(ClaimItem, c.id, c) for c in found if asking.has(backend, c.piece)]
+        return [(ClaimItem, c.id, c) for c in found if call.has(backend, c.piece)]
     if layer == "LB":
-        from rockref.conformance.shaken import PIECE, shaken_vectors
+        from rockref.conformance.judge.shaken import PIECE, shaken_vectors
 
-        there = profile == "float64" and asking.has(backend, PIECE)
+        there = profile == "float64" and call.has(backend, PIECE)
         return [(ShakenItem, v.id, v) for v in shaken_vectors()] if there else []
     if not of_the_profile(layer, profile):
         return []
     not_asked = NOT_OF_THE_SCHEME if profile == "scheme" else set()
-    shown = [v for v in asked_in(layer, backend) if asking.has(backend, v.piece) and v.piece not in not_asked]
+    shown = [v for v in asked_in(layer, backend) if call.has(backend, v.piece) and v.piece not in not_asked]
     return [(VectorItem, v.id, v) for v in shown]
 
 
@@ -84,7 +86,7 @@ def properties(profile: str) -> tuple[Any, ...]:
     if profile != "float64":
         return ()
     try:
-        from rockref.conformance.properties import PROPERTIES
+        from rockref.conformance.judge.properties import PROPERTIES
     except ImportError as e:
         raise pytest.UsageError("L6 (properties) needs hypothesis: pip install hypothesis.") from e
     return PROPERTIES
@@ -115,8 +117,8 @@ class VectorItem(_Item):
 
     def runtest(self) -> None:
         """Put the question, weigh the answer."""
-        from rockref.conformance.in_words import numbers
-        from rockref.conformance.judge import answered
+        from rockref.conformance.judge.findings import answered
+        from rockref.conformance.reports.terminal import numbers
         from rockref.conformance.rules import BY_ID
 
         backend, vector, profile = self.given
@@ -133,9 +135,9 @@ class RunItem(_Item):
 
     def runtest(self) -> None:
         """Run it, compare row by row."""
-        from rockref.conformance.asking import as_mapping
-        from rockref.conformance.in_words import run_line
-        from rockref.conformance.runs import judge_rows
+        from rockref.conformance.backends.call import as_mapping
+        from rockref.conformance.judge.trajectories import judge_rows
+        from rockref.conformance.reports.terminal import run_line
         from rockref.conformance.vectors import trajectory
 
         backend, name, profile = self.given
@@ -153,7 +155,7 @@ class PropertyItem(_Item):
 
     def runtest(self) -> None:
         """Draw the states, look for one that breaks it."""
-        from rockref.conformance.properties import judge_one
+        from rockref.conformance.judge.properties import judge_one
 
         backend, (_, rule, drawn), _ = self.given
         judged = judge_one(backend, rule, drawn, EXAMPLES)
@@ -166,8 +168,8 @@ class ShakenItem(_Item):
 
     def runtest(self) -> None:
         """Ask for the run, weigh the answer."""
-        from rockref.conformance.in_words import bars
-        from rockref.conformance.shaken import judge_vector
+        from rockref.conformance.judge.shaken import judge_vector
+        from rockref.conformance.reports.terminal import bars
 
         backend, vector, _ = self.given
         judged = judge_vector(backend, vector)
@@ -182,8 +184,8 @@ class ClaimItem(_Item):
 
     def runtest(self) -> None:
         """Ask for the effect, weigh the answer."""
-        from rockref.conformance.claims import judge_claim
-        from rockref.conformance.in_words import bars
+        from rockref.conformance.judge.claims import judge_claim
+        from rockref.conformance.reports.terminal import bars
 
         backend, claim, _ = self.given
         judged = judge_claim(backend, claim)

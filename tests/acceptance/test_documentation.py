@@ -23,7 +23,7 @@ PAGES = [
 ALONE = ("compare_models", "judge_a_backend", "overview_picture")
 ELSEWHERE = {
     "find_a_missing_effect": "docs/tutorial/find_a_missing_effect.md",
-    "backend_numpy": "tests/unit/conformance/test_judge.py",
+    "backend_numpy": "tests/unit/conformance/judge/test_findings.py",
     "my_effect": "docs/howto/own_effect.md",
     "own_experiment": "docs/howto/own_experiment.md",
     "review_the_physics": "docs/tutorial/review_the_physics.md",

@@ -10,8 +10,8 @@ import pytest
 import typer
 
 from rockref import InputError, Model, cli
-from rockref.conformance.jsonlines import answer
-from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance.backends.json_lines import answer
+from rockref.conformance.backends.law import NumpyEngine
 from rockref.effects import catalogue
 from tests.shipped import two_runs
 from tests.tosses import write_tosses

@@ -27,13 +27,19 @@ from unittest import mock
 from xml.etree import ElementTree
 
 from rockref.api import Model
-from rockref.conformance import claims, in_files, in_words, jsonlines, offline, vectors
-from rockref.conformance.executable import Executable, Misbehaved
-from rockref.conformance.judge import Findings, answered, described
-from rockref.conformance.law_backend import NumpyEngine
-from rockref.conformance.runs import judge_rows
+from rockref.conformance import vectors
+from rockref.conformance.backends import json_lines
+from rockref.conformance.backends.executable import Executable, Misbehaved
+from rockref.conformance.backends.law import NumpyEngine
+from rockref.conformance.judge import claims, offline
+from rockref.conformance.judge.findings import Findings, answered, described
+from rockref.conformance.judge.trajectories import judge_rows
+from rockref.conformance.judge.verdict import as_json, verdict
+from rockref.conformance.reports import terminal
+from rockref.conformance.reports.junit import junit
+from rockref.conformance.reports.page import badge
+from rockref.conformance.reports.page import page as page_of
 from rockref.conformance.vectors import Vector
-from rockref.conformance.verdict import as_json, verdict
 from rockref.effects import catalogue
 from rockref.measure.experiment import load_experiment
 from rockref.measure.reading.table import read_table
@@ -233,11 +239,11 @@ RUN = "window_spinning_0050ms"
 def told(findings: Findings) -> None:
     """A verdict in every form: words, JSON, JUnit that a parser reads, badge, page."""
     found = verdict(findings)
-    in_words.text(found, True).encode()
+    terminal.text(found, True).encode()
     json.dumps(as_json(found), allow_nan=False)
-    ElementTree.fromstring(in_files.junit(found))
-    ElementTree.fromstring(in_files.badge(found))
-    in_files.page(found).encode()
+    ElementTree.fromstring(junit(found))
+    ElementTree.fromstring(badge(found))
+    page_of(found).encode()
 
 
 def answers(data: bytes, folder: Path) -> None:
@@ -276,12 +282,12 @@ def requests(data: bytes, folder: Path) -> None:
     path.write_bytes(data)
     lines = data.decode("utf-8", "replace").split("\n")
     with watched(folder):
-        jsonlines.serve(Reading(), lines, out)
+        json_lines.serve(Reading(), lines, out)
     said = [json.loads(line) for line in out.getvalue().splitlines()]
     assert len(said) <= len(lines) and all(isinstance(reply, dict) for reply in said)
     with reading(folder):
         for request in offline.requests_in(path):
-            jsonlines.line(jsonlines.answer(Reading(), request))
+            json_lines.line(json_lines.answer(Reading(), request))
 
 
 READERS: dict[str, Callable[[bytes, Path], None]] = {

@@ -15,8 +15,10 @@ import numpy as np
 from hypothesis import strategies as st
 
 from rockref.api import Model
-from rockref.conformance import claims, jsonlines, vectors
-from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance import vectors
+from rockref.conformance.backends import json_lines
+from rockref.conformance.backends.law import NumpyEngine
+from rockref.conformance.judge import claims
 from rockref.effects.catalogue import EFFECTS
 from rockref.model.rotation import exponential, quaternion
 from tests.fuzz.readers import RUN, questions
@@ -148,9 +150,9 @@ def program() -> list[bytes]:
     """What the law answers to the questions that a program is asked, all of them and a few; other behaviour."""
     law, out = NumpyEngine(), io.StringIO()
     asked: list[dict[str, Any]] = [{"cmd": "start", "protocol": 1}]
-    asked += [jsonlines.question(f"q{i}", v.piece, v.inputs) for i, v in enumerate(questions(), 1)]
-    asked.append(jsonlines.of_problem(f"q{len(asked)}", "simulate", vectors.trajectory(RUN).problem))
-    jsonlines.serve(law, map(jsonlines.line, asked), out)
+    asked += [json_lines.question(f"q{i}", v.piece, v.inputs) for i, v in enumerate(questions(), 1)]
+    asked.append(json_lines.of_problem(f"q{len(asked)}", "simulate", vectors.trajectory(RUN).problem))
+    json_lines.serve(law, map(json_lines.line, asked), out)
     first, *rest = out.getvalue().encode().splitlines(keepends=True)
     return [
         first + b"".join(rest),
@@ -163,7 +165,7 @@ def program() -> list[bytes]:
 def answers() -> list[bytes]:
     """A file of the law's answers to a vector of each piece."""
     law, out = NumpyEngine(), io.StringIO()
-    jsonlines.serve(law, [jsonlines.line(jsonlines.of_vector(v)) for v in questions()], out)
+    json_lines.serve(law, [json_lines.line(json_lines.of_vector(v)) for v in questions()], out)
     text = out.getvalue().encode()
     return [text, b'{"protocol":1,"capabilities":["rotate","step"]}\n' + text[:2000], b'{"id":"a","out":{}}\r\n']
 
@@ -172,8 +174,8 @@ def requests() -> list[bytes]:
     """The questions to a vector of each piece; start, stop, a claim."""
     claim = claims.claims()[0]
     inputs = claim.inputs | {"effect": claim.effect, "parameters": claim.parameters}
-    effect_ = jsonlines.line(jsonlines.question("e", "effect", inputs))
-    lines = [jsonlines.line(jsonlines.of_vector(v)) for v in questions()]
+    effect_ = json_lines.line(json_lines.question("e", "effect", inputs))
+    lines = [json_lines.line(json_lines.of_vector(v)) for v in questions()]
     start = '{"cmd":"start","protocol":1}\n'
     return [(start + line).encode() for line in [*lines, effect_]] + [b'{"cmd":"stop"}\n', b'{"cmd":"run","id":[]}\n']
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rockref.conformance.maker import make as vectors
+from rockref.conformance.generator import make as vectors
 from tests.golden import make_table_3_1, table_3_1_files
 
 

@@ -11,7 +11,7 @@ import shutil
 import numpy as np
 import pytest
 
-from rockref.conformance.maker import cases_base, cases_effects, fingerprints, make, small, trajectories
+from rockref.conformance.generator import base_motion, effects, fingerprints, make, small_layers, trajectories
 from tests.golden.make import table_3_1
 
 pytestmark = [
@@ -25,10 +25,10 @@ def there(name: str) -> bytes:
     return (make.FOLDER / name).read_bytes()
 
 
-@pytest.mark.parametrize("layer", small.LAYERS)
+@pytest.mark.parametrize("layer", small_layers.LAYERS)
 def test_vectors_of_rules(layer):
     refused: list[str] = []
-    assert small.written(small.document(layer, refused)) == there(f"{layer}.json")
+    assert small_layers.written(small_layers.document(layer, refused)) == there(f"{layer}.json")
 
 
 #: Effects whose vectors are filtered by SciPy, which rounds otherwise from one version or processor to another: two
@@ -44,7 +44,7 @@ def record_of(vector: dict) -> tuple[np.ndarray, float]:
 
 def test_vectors_of_effects():
     lines: list[str] = []
-    made, kept = json.loads(cases_effects.document(lines.append)), json.loads(there("LE.json"))
+    made, kept = json.loads(effects.document(lines.append)), json.loads(there("LE.json"))
     assert lines == [], "none is refused"
     pairs = list(zip(made.pop("vectors"), kept.pop("vectors"), strict=True))
     assert made == kept
@@ -58,7 +58,7 @@ def test_vectors_of_effects():
 
 
 def test_vectors_of_a_plate_that_moves():
-    assert small.written(cases_base.document()) == there("LB.json")
+    assert small_layers.written(base_motion.document()) == there("LB.json")
 
 
 def test_runs_and_what_the_manifest_says_of_them():
@@ -67,7 +67,7 @@ def test_runs_and_what_the_manifest_says_of_them():
     assert {name for name, data in made.items() if data != there(name)} == set()
     kept = json.loads(there("MANIFEST.json"))
     assert (kept["trajectories"], kept["windows"]) == (runs, windows)
-    documents = {layer: json.loads(there(f"{layer}.json")) for layer in small.LAYERS}
+    documents = {layer: json.loads(there(f"{layer}.json")) for layer in small_layers.LAYERS}
     again = make.manifest(documents, runs, windows)
     assert {key: again[key] for key in again if key != "made_with"} == {
         key: kept[key] for key in kept if key != "made_with"

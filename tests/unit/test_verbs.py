@@ -47,7 +47,7 @@ def test_a_comparison_says_draws_and_saves_itself(compared, tmp_path):
 
 
 def test_a_backend_is_judged(tmp_path):
-    judged = rockref.conform("rockref.conformance.law_backend:NumpyEngine", layers="L1")
+    judged = rockref.conform("rockref.conformance.backends.law:NumpyEngine", layers="L1")
     assert judged.passed and judged.save_page(tmp_path).read_text().startswith("<!")
     with pytest.raises(InputError) as refused:
         judged.plot()

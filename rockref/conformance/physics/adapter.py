@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.asking import ANYTHING
-from rockref.conformance.backend import from_file
+from rockref.conformance.backends.call import ANYTHING
+from rockref.conformance.backends.load import from_file
 from rockref.conformance.physics.scene import Gravity, Motion, Scene, Start
 from rockref.model.errors import InputError
 

@@ -9,14 +9,15 @@ from xml.etree import ElementTree
 import pytest
 
 from rockref import cli
-from rockref.conformance import judge as judging
-from rockref.conformance import offline, vectors
-from rockref.conformance.zoo import run as zoo
+from rockref.conformance import vectors
+from rockref.conformance.faults import run as zoo
+from rockref.conformance.judge import findings as judging
+from rockref.conformance.judge import offline
 from tests.unit.commands import terminal
 
 ROOT = Path(__file__).resolve().parents[3]
 #: The law with a gyroscope that is wrong by a half.
-WRONG = """from rockref.conformance.law_backend import NumpyEngine
+WRONG = """from rockref.conformance.backends.law import NumpyEngine
 class Backend(NumpyEngine):
     def channel(self, **q):
         return {k: 1.5 * v for k, v in super().channel(**q).items()}

@@ -8,8 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.conformance import claims, pytest_plugin, vectors
-from rockref.conformance.law_backend import NumpyEngine
+from rockref.conformance import pytest_plugin, vectors
+from rockref.conformance.backends.law import NumpyEngine
+from rockref.conformance.judge import claims
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/backend_numpy.py"
 
@@ -50,7 +51,7 @@ def test_every_layer_has_its_tests():
 
 def test_properties_and_precision_of_the_backend(tmp_path):
     (tmp_path / "mine.py").write_text(
-        "from rockref.conformance.law_backend import NumpyEngine\n"
+        "from rockref.conformance.backends.law import NumpyEngine\n"
         "import numpy as np\n"
         "class Single(NumpyEngine):\n"
         "    def __init__(self):\n"

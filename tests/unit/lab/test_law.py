@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("wasmtime", reason="wasmtime runs WebAssembly outside a browser: the extra `lab`")
 
 import rockref
-from rockref.conformance.judge import judge
+from rockref.conformance.judge.findings import judge
 from rockref.effects.catalogue import EFFECTS
 from rockref.lab import build, golden, layout
 from rockref.lab.backend import WasmBackend

@@ -1,0 +1,1 @@
+"""The zoo: seeded faults that the judge must find and name, and controls that it must leave alone."""

@@ -1,0 +1,1 @@
+"""Questions to who shows `simulate` only: short runs, each laid out so that one rule decides."""

@@ -1,0 +1,58 @@
+"""The first row of a run is the start; a run knows nothing of the one before; a block may have any number of feet."""
+
+import numpy as np
+
+from rockref.conformance import vectors
+from rockref.conformance.backends.law import NumpyEngine
+from rockref.conformance.faults.mistakes import BY_ID
+from rockref.conformance.faults.run import BlackBox
+from rockref.conformance.judge.compare_answer import ELSEWHERE, first_row_elsewhere
+from rockref.conformance.judge.findings import judge
+from rockref.conformance.judge.verdict import suspects, verdict
+
+
+def of_number(number):
+    return next(v for v in vectors.layer("L5s") if int(v.id[-4:]) == number)
+
+
+def test_a_first_row_that_is_not_the_start_speaks_of_the_run_before_anything_else():
+    v = verdict(judge(BlackBox(BY_ID["Z139"].backend()), ["L5s"]))
+    assert (v.rule, v.check.name, v.check.note) == ("S2", "x@0", ELSEWHERE)
+    rates = verdict(judge(BlackBox(BY_ID["Z35"].backend()), ["L5s"]))
+    assert suspects(rates) == ["S2", "M1"], "rates in other axes may be those of the channel"
+
+
+def test_a_start_may_lose_what_is_too_small_to_be_physical():
+    vector = of_number(36)
+    rows = {k: np.stack([vector.inputs[k]] * 2) for k in ("x", "Lambda", "W")}
+    for size, failures in ((1e-13, 0), (1e-11, 1)):
+        moved = rows | {"x": rows["x"] + size}
+        assert len(first_row_elsewhere(vector, moved, "float64")) == failures
+    assert first_row_elsewhere(vector, rows | {"x": rows["x"].astype(np.float32)}, "float32") == []
+
+
+class Remembering(NumpyEngine):
+    """The law, whose feet slide at a start if they did at the end of the run before."""
+
+    left = np.zeros(8, bool)
+
+    def simulate(self, problem):
+        if problem.points.n == 8:
+            start = problem.start
+            object.__setattr__(start, "sliding", start.sliding | self.left)
+        response = super().simulate(problem)
+        self.left = response.final_state.sliding if problem.points.n == 8 else self.left
+        return response
+
+
+def test_who_remembers_the_run_before_is_found_by_runs_one_after_another():
+    numbers = [int(v.id[-4:]) for v in vectors.layer("L5s")]
+    assert numbers == sorted(numbers), "they are asked in this order"
+    v = verdict(judge(Remembering(), ["L5s"]))
+    assert "L5s-T6-0162" in {c.vector for c in v.findings.failures}
+
+
+def test_a_block_may_stand_on_more_feet_and_on_fewer():
+    assert {len(v.inputs["P"]) for v in vectors.layer("L5s")} == {3, 8, 12}
+    v = verdict(judge(BlackBox(BY_ID["Z136"].backend()), ["L5s"]))
+    assert v.rule == "N1" and v.check.vector == "L5s-N1-0157"
