@@ -40,7 +40,7 @@ SHARED = ("mass", "g", "inertia", "P", "K_N", "C_N", "K_T", "C_T", "mu_0", "mu",
 
 
 def rounded_up(bar: np.ndarray) -> Any:
-    """Bars with two digits, rounded up, as nested lists."""
+    """Return bars with two digits, rounded up, as nested lists."""
 
     def up(b: float) -> float:
         if b == 0 or not math.isfinite(b):
@@ -54,12 +54,13 @@ def rounded_up(bar: np.ndarray) -> Any:
 
 
 def in_hex(value: Any) -> Any:
-    """Nested lists of hexadecimal floats."""
+    """Return nested lists of hexadecimal floats."""
     return [in_hex(v) for v in value] if isinstance(value, list) else float(value).hex()
 
 
 def stored(value: Any) -> Any:
-    """A number or an array as it stands in the files: hexadecimal, the decimal beside; flags and names as they are."""
+    """Return a number or an array as it stands in the files: hexadecimal, the decimal beside; flags and names as they
+    are."""
     if isinstance(value, np.ndarray | np.generic):
         if np.asarray(value).dtype == bool:
             return {"flags": np.asarray(value).tolist()}
@@ -71,7 +72,7 @@ def stored(value: Any) -> Any:
 
 
 def result_of(b: Barred, rule: tuple[str, str], route: str) -> dict[str, Any]:
-    """An expected result as it stands in the files."""
+    """Return an expected result as it stands in the files."""
     entry = stored(b.value)
     entry["bar"] = None if b.bar is None else rounded_up(b.bar)
     entry["bar_float32"] = None if b.bar_float32 is None else rounded_up(b.bar_float32)
@@ -80,7 +81,7 @@ def result_of(b: Barred, rule: tuple[str, str], route: str) -> dict[str, Any]:
 
 
 def entry_of(case: Case, number: int, sets: dict[str, Any]) -> dict[str, Any]:
-    """A vector as it stands in the files, not yet hunted with."""
+    """Return a vector as it stands in the files, not yet hunted with."""
     inputs = {k: stored(v) for k, v in case.inputs.items()}
     entry: dict[str, Any] = {"id": f"{case.layer}-{case.rule}-{number:04d}", "layer": case.layer, "rule": case.rule}
     entry |= {"piece": case.piece, "equation": BY_ID[case.rule].equation, "flags": list(case.flags), "hunts": []}
@@ -107,7 +108,7 @@ def entry_of(case: Case, number: int, sets: dict[str, Any]) -> dict[str, Any]:
 
 
 def vectors(layer: str, refused: list[str]) -> tuple[dict[str, Any], Iterator[dict[str, Any]]]:
-    """The shared inputs (filled while the iterator runs) and the admitted vectors; ids of the refused ones are
+    """Return the shared inputs (filled while the iterator runs) and the admitted vectors; ids of the refused ones are
     added."""
     sets: dict[str, Any] = {}
 
@@ -124,7 +125,8 @@ def vectors(layer: str, refused: list[str]) -> tuple[dict[str, Any], Iterator[di
 
 
 def numbered(layer: str) -> Iterator[tuple[int, Case]]:
-    """The questions of a layer with their numbers; those to other integrators have the numbers of their short runs."""
+    """Yield the questions of a layer with their numbers; those to other integrators have the numbers of their short
+    runs."""
     if layer == "LS":
         yield from scheme.all_of_them()
         return
@@ -132,14 +134,14 @@ def numbered(layer: str) -> Iterator[tuple[int, Case]]:
 
 
 def document(layer: str, refused: list[str]) -> dict[str, Any]:
-    """The file of one layer."""
+    """Return the file of one layer."""
     sets, entries = vectors(layer, refused)
     found = list(entries)
     return {"schema": SCHEMA, "layer": layer, "sets": sets, "vectors": found}
 
 
 def written(thing: Any) -> bytes:
-    """JSON with one vector a line, the same bytes for the same content."""
+    """Return JSON with one vector a line, the same bytes for the same content."""
     if "vectors" not in thing:
         return (json.dumps(thing, indent=1, ensure_ascii=False) + "\n").encode()
     head = {k: v for k, v in thing.items() if k != "vectors"}

@@ -42,7 +42,7 @@ STATE = ("x", "v", "Lambda", "W", "s", "anchored", "sliding")
 
 
 def window_id(window: Window) -> str:
-    """Name of a window: scene and instant in milliseconds."""
+    """Return the name of a window: scene and instant in milliseconds."""
     return f"window_{window.scene}_{round(window.instant * 1000):04d}ms"
 
 

@@ -49,7 +49,7 @@ class Check:
 
     @property
     def failed(self) -> bool:
-        """Whether it is outside."""
+        """Return whether it is outside."""
         return self.grade == "outside"
 
     @property
@@ -59,24 +59,26 @@ class Check:
 
 
 def bar_of(expected: Expected, profile: str) -> np.ndarray | None:
-    """The bar in a profile; None where the profile does not judge this number."""
+    """Return the bar in a profile; None where the profile does not judge this number."""
     return expected.bar_float32 if profile == "float32" else expected.bar
 
 
 def grade_of(worst: float, negligible: bool = False, look: float = LOOK) -> str:
-    """The grade of a deviation in bars; `negligible`: it was larger, and too small to be physical."""
+    """Return the grade of a deviation in bars; `negligible`: it was larger, and too small to be physical."""
     if worst == 0:
         return "bitwise"
     return "inside" if worst <= 1 else "outside" if worst > look else "negligible" if negligible else "look"
 
 
 def look_of(profile: str, layer: str) -> float:
-    """From how many bars on a result is outside: what has no integrator in it is weighed by other schemes, too."""
+    """Return from how many bars on a result is outside: what has no integrator in it is weighed by other schemes,
+    too."""
     return LOOK_SCHEME if profile == "scheme" and layer in ("LS", "L5") else LOOK
 
 
 def in_bars(got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
-    """|got - expected| / bar, the difference taken in the wider of the two precisions; infinite where not a number."""
+    """Return |got - expected| / bar, the difference taken in the wider of the two precisions; infinite where not a
+    number."""
     wide = np.longdouble if np.asarray(got).dtype == np.longdouble else np.float64
     with np.errstate(all="ignore"):
         apart = np.abs(np.asarray(got, wide) - expected.astype(wide)).astype(float)
@@ -87,7 +89,8 @@ def in_bars(got: Any, expected: np.ndarray, bar: np.ndarray) -> np.ndarray:
 def weighed_in_bars(
     got: Any, expected: np.ndarray, bar: np.ndarray, size: float, look: float = LOOK
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Deviations in bars, those below a physical `size` no more than what passes; and where that made a difference."""
+    """Return the deviations in bars, those below a physical `size` no more than what passes; and where that made a
+    difference."""
     ratio = in_bars(got, expected, bar)
     with np.errstate(all="ignore"):
         small = (np.abs(np.asarray(got, float) - expected) <= size) & (ratio > look)
@@ -95,7 +98,7 @@ def weighed_in_bars(
 
 
 def compare_number(name: str, layer: str, got: Any, expected: Expected, bar: np.ndarray, look: float) -> dict[str, Any]:
-    """Grade, worst place and numbers there."""
+    """Return the grade, worst place and numbers there."""
     size, unit = size_and_unit(name, layer)
     ratio, small = weighed_in_bars(got, expected.value, bar, size, look)
     # Of those that are set to what passes, the place of the largest difference.
@@ -113,7 +116,8 @@ def compare_number(name: str, layer: str, got: Any, expected: Expected, bar: np.
 
 
 def compare_flag(name: str, vector: Vector, got: Any, expected: np.ndarray) -> dict[str, Any]:
-    """Flags are equal or not; whether a foot slides is negligible where it changes the force by nothing."""
+    """Compare flags, which are equal or not; whether a foot slides is negligible where it changes the force by
+    nothing."""
     wrong = np.asarray(got, bool) != expected
     if not np.any(wrong):
         return {"grade": "bitwise"}
@@ -127,7 +131,7 @@ def compare_flag(name: str, vector: Vector, got: Any, expected: np.ndarray) -> d
 
 
 def compare_one(name: str, vector: Vector, out: dict[str, Any], profile: str) -> Check:
-    """One expected result."""
+    """Compare one expected result."""
     expected = vector.expect[name]
     traced = expected.rule != expected.rule_traced and bool(out.get("trace"))
     rule = expected.rule_traced if traced else expected.rule
@@ -156,7 +160,7 @@ def compare_one(name: str, vector: Vector, out: dict[str, Any], profile: str) ->
 
 
 def unreadable(got: np.ndarray) -> str:
-    """What stands in the place of numbers."""
+    """Return what stands in the place of numbers."""
     odd = next((x for x in got.ravel().tolist() if not isinstance(x, int | float)), None)
     if odd is None:
         return "holds null, which is no number (is it a NaN?)"
@@ -164,7 +168,8 @@ def unreadable(got: np.ndarray) -> str:
 
 
 def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> list[Check]:
-    """All expected results of a vector against one answer; an answer without a single result of its piece is none."""
+    """Compare all expected results of a vector against one answer; an answer without a single result of its piece is
+    none."""
     if all(out.get(name) is None for name in RESULTS[vector.piece]):
         return no_answer(vector, f"gives none of {', '.join(RESULTS[vector.piece])}")
     said = wrong_shape(vector, out) if vector.piece == "simulate" else ""
@@ -183,8 +188,8 @@ def compare(vector: Vector, out: dict[str, Any], profile: str = "float64") -> li
 
 
 def wrong_shape(vector: Vector, out: dict[str, Any]) -> str:
-    """What is wrong with the shape of the rows of a short run: N rows of 3 rates, 3 coordinates, a matrix 3 by 3, and
-    so on."""
+    """Return what is wrong with the shape of the rows of a short run: N rows of 3 rates, 3 coordinates, a matrix 3 by
+    3, and so on."""
     rows, n = len(output_steps(problem_of(vector.inputs))), len(vector.inputs["P"])
     right = {"W": (rows, 3), "x": (rows, 3), "Lambda": (rows, 3, 3), "F": (rows, n, 3), "anchored": (rows, n)}
     for key, shape in right.items():
@@ -199,7 +204,7 @@ def wrong_shape(vector: Vector, out: dict[str, Any]) -> str:
 
 
 def likely_shape(found: tuple[int, ...], right: tuple[int, ...]) -> str:
-    """What rows of another shape seem to be, and how they should be; "" where nothing is known."""
+    """Return what rows of another shape seem to be, and how they should be; "" where nothing is known."""
     if len(right) == 3 and found[1:] == (4,):
         return ": quaternions? give the matrices, three lists of three numbers a row"
     if len(right) > 1 and len(found) < len(right) and np.prod(found) == np.prod(right):
@@ -210,7 +215,8 @@ def likely_shape(found: tuple[int, ...], right: tuple[int, ...]) -> str:
 
 
 def rows_of_another_number(vector: Vector, out: dict[str, Any]) -> list[Check]:
-    """A failure of S2 where all rows are as they should be, but there are more or fewer; from it all others follow."""
+    """Return a failure of S2 where all rows are as they should be, but there are more or fewer; from it all others
+    follow."""
     if not shows(out, "W"):
         return []
     rows, found = len(output_steps(problem_of(vector.inputs))), np.shape(out["W"])[:1]
@@ -223,7 +229,7 @@ def rows_of_another_number(vector: Vector, out: dict[str, Any]) -> list[Check]:
 
 
 def shows(out: dict[str, Any], key: str) -> bool:
-    """Whether there are rows of a quantity, of one length."""
+    """Return whether there are rows of a quantity, of one length."""
     try:
         return out.get(key) is not None and len(np.shape(out[key])) > 0
     except ValueError:
@@ -231,7 +237,7 @@ def shows(out: dict[str, Any], key: str) -> bool:
 
 
 def wrong_instants(got: Any, wanted: np.ndarray, step: float) -> str:
-    """What is wrong with the instants of the rows: each is within half a step of what was asked."""
+    """Return what is wrong with the instants of the rows: each is within half a step of what was asked."""
     try:
         got = np.asarray(got, float)
     except (TypeError, ValueError):
@@ -243,14 +249,14 @@ def wrong_instants(got: Any, wanted: np.ndarray, step: float) -> str:
 
 
 def rows_at_wrong_instants(vector: Vector, got: Any) -> list[Check]:
-    """A failure of S2 where the rows of a short run are not at their instants."""
+    """Return a failure of S2 where the rows of a short run are not at their instants."""
     problem = problem_of(vector.inputs)
     said = wrong_instants(got, problem.step * output_steps(problem), problem.step)
     return [Check(vector.id, vector.layer, "S2", "t", "outside", float("inf"), note=said)] if said else []
 
 
 def first_row_elsewhere(vector: Vector, out: dict[str, Any], profile: str) -> list[Check]:
-    """A failure of S2 for each of x, Lambda and W of which the first row is not the start that was given."""
+    """Return a failure of S2 for each of x, Lambda and W of which the first row is not the start that was given."""
     found = []
     for key in ("x", "Lambda", "W"):
         try:
@@ -269,16 +275,16 @@ def first_row_elsewhere(vector: Vector, out: dict[str, Any], profile: str) -> li
 
 
 def of_the_right_shape(checks: list[Check]) -> list[Check]:
-    """The checks without those of first rows where rows have another shape elsewhere: where there are as many of them
-    as a row is long, they have the right one by chance."""
+    """Return the checks without those of first rows where rows have another shape elsewhere: where there are as many of
+    them as a row is long, they have the right one by chance."""
     if all(c.weighed for c in checks):
         return checks
     return [c for c in checks if c.note != ELSEWHERE]
 
 
 def asked_for(vector: Vector, out: dict[str, Any], profile: str = "float64") -> list[str]:
-    """The results that are weighed: those that stand in for others only where the others are not shown; of another
-    integrator in a short run those before its first step."""
+    """Return the results that are weighed: those that stand in for others only where the others are not shown; of
+    another integrator in a short run those before its first step."""
 
     def shown(name: str) -> bool:
         return out.get(PARTS.get(name.partition("@")[0], name.partition("@")[0])) is not None
@@ -289,8 +295,8 @@ def asked_for(vector: Vector, out: dict[str, Any], profile: str = "float64") -> 
 
 
 def no_answer(vector: Vector, note: str) -> list[Check]:
-    """The checks of a vector to which there was no usable answer: of results that stand in for others only where there
-    are no others."""
+    """Return the checks of a vector to which there was no usable answer: of results that stand in for others only where
+    there are no others."""
     asked = [(name, e) for name, e in vector.expect.items() if not e.instead_of] or list(vector.expect.items())
     return [
         Check(vector.id, vector.layer, e.rule, name, "outside", float("inf"), note=note, weighed=False)

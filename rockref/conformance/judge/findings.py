@@ -47,7 +47,7 @@ class Findings:
 
 
 def described(backend: Any) -> dict[str, Any]:
-    """Name, language, precision and version of a backend, as far as it says."""
+    """Return name, language, precision and version of a backend, as far as it says."""
     name = getattr(backend, "name", type(backend).__name__)
     language, precision = getattr(backend, "language", "Python"), getattr(backend, "precision", "float64")
     facts = {"name": name, "language": language, "precision": precision, "version": getattr(backend, "version", "")}

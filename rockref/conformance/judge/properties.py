@@ -75,21 +75,21 @@ def upright(run: str, z: float, steps: int, v: Any = (0, 0, 0), W: Any = (0, 0, 
 
 
 def no_tension(backend: Any, q: dict[str, Any]) -> None:
-    """The normal force never pulls, and is zero above the plate."""
+    """Assert that the normal force never pulls, and is zero above the plate."""
     F_N = float(as_mapping(backend.contact_law(**point(q)), "contact_law")["F_N"])
     assert F_N >= 0, f"F_N = {F_N}"
     assert q["xi"] >= 0 or F_N == 0, f"F_N = {F_N} at xi = {q['xi']}"
 
 
 def inside_the_cone(backend: Any, q: dict[str, Any]) -> None:
-    """Friction is never larger than mu F_N."""
+    """Assert that friction is never larger than mu F_N."""
     out = as_mapping(backend.contact_law(**point(q)), "contact_law")
     size, limit = float(np.hypot(*out["F_T"])), q["mu"] * float(out["F_N"])
     assert size <= limit * (1 + ROUNDING) + FORCE, f"|F_T| = {size}, mu F_N = {limit}"
 
 
 def anchor_fits_the_force(backend: Any, q: dict[str, Any]) -> None:
-    """After the step, spring to the anchor and damper give the friction force, sticking or sliding."""
+    """Assert that after the step spring to the anchor and damper give the friction force, sticking or sliding."""
     if q["xi"] < 0:
         return
     p = point(q)
@@ -102,7 +102,7 @@ def anchor_fits_the_force(backend: Any, q: dict[str, Any]) -> None:
 
 
 def same_in_every_direction(backend: Any, q: dict[str, Any]) -> None:
-    """Turned by a quarter about the vertical, the plate answers with the turned force."""
+    """Assert that the plate, turned by a quarter about the vertical, answers with the turned force."""
 
     def quarter(a: np.ndarray) -> np.ndarray:
         return np.array([-a[1], a[0]])
@@ -114,14 +114,14 @@ def same_in_every_direction(backend: Any, q: dict[str, Any]) -> None:
 
 
 def rotations_are_rotations(backend: Any, Theta: np.ndarray) -> None:
-    """exp(Theta^) is orthogonal, and exp(-Theta^) undoes it."""
+    """Assert that exp(Theta^) is orthogonal, and exp(-Theta^) undoes it."""
     there, back = (np.asarray(as_mapping(backend.rotate(Theta=t), "rotate")["Lambda"]) for t in (Theta, -Theta))
     off = max(np.abs(there @ there.T - np.eye(3)).max(), np.abs(there @ back - np.eye(3)).max())
     assert off <= max(ROUNDING, ANGLE), f"off by {off}"
 
 
 def free_flight_keeps_momentum(backend: Any, W: np.ndarray) -> None:
-    """Far above the plate the angular momentum in plate axes stays, in a run of 20 steps."""
+    """Assert that far above the plate the angular momentum in plate axes stays, in a run of 20 steps."""
     problem = upright("table_3_1", 2.0, 20, W=W)
     out = as_mapping(backend.simulate(problem), "simulate")
     J = problem.block.inertia
@@ -131,7 +131,7 @@ def free_flight_keeps_momentum(backend: Any, W: np.ndarray) -> None:
 
 
 def mirrored(backend: Any, v: np.ndarray) -> None:
-    """A run mirrored at the plane y-z is the mirrored run: an upright block, pushed."""
+    """Assert that a run mirrored at the plane y-z is the mirrored run: an upright block, pushed."""
     mirror = np.array([-1.0, 1.0, 1.0])
     one, other = (
         as_mapping(backend.simulate(upright("planar", STANDING, 10, v=u)), "simulate") for u in (v, v * mirror)
@@ -149,7 +149,7 @@ def apart(backend: Any, W: np.ndarray) -> float:
 
 
 def deterministic(backend: Any, W: np.ndarray) -> None:
-    """The same question has the same answer, to rounding."""
+    """Assert that the same question has the same answer, to rounding."""
     off = apart(backend, W)
     assert off <= ANGLE, f"two runs of the same problem differ by {off} rad/s"
 
@@ -199,7 +199,7 @@ def judge_one(
         except SystemExit as e:
             raise RuntimeError(f"asked to end the program ({e})") from e
 
-    sentence = (rule.__doc__ or rule.__name__).splitlines()[0]
+    sentence = (rule.__doc__ or rule.__name__).splitlines()[0].removeprefix("Assert that ")
     try:
         holds()
     except Exception as e:  # the backend may raise anything

@@ -58,12 +58,12 @@ class Verdict:
 
     @property
     def passed(self) -> bool:
-        """Whether everything that was judged is inside."""
+        """Return whether everything that was judged is inside."""
         return self.status == "PASS"
 
 
 def status_of_rules(checks: Sequence[Check]) -> dict[str, str]:
-    """By rule: fail, "no answer" (none that can be weighed), look, pass, or "not shown"."""
+    """Return by rule: fail, "no answer" (none that can be weighed), look, pass, or "not shown"."""
     found = {}
     for rule in RULES:
         own = [c for c in checks if c.rule == rule.id and c.grade not in ("not shown", "not judged")]
@@ -79,9 +79,8 @@ def status_of_rules(checks: Sequence[Check]) -> dict[str, str]:
 
 
 def with_consequences(rules: dict[str, str], named: str | None, checks: Sequence[Check]) -> dict[str, str]:
-    """The statuses with "follows" where a failure can be a consequence of the rule that is named: the rule feeds on
-    it, or all its
-    failures hang on a wrong decision or are those of whole steps."""
+    """Return the statuses with "follows" where a failure can be a consequence of the rule that is named: the rule feeds
+    on it, or all its failures hang on a wrong decision or are those of whole steps."""
     if named is None:
         return rules
     after, found = downstream(named), dict(rules)
@@ -95,13 +94,13 @@ def with_consequences(rules: dict[str, str], named: str | None, checks: Sequence
 
 
 def first(checks: Sequence[Check]) -> Check | None:
-    """The failure that comes first in the order of the rules, wrong decisions before what follows from them."""
+    """Return the failure that comes first in the order of the rules, wrong decisions before what follows from them."""
     failed = [c for c in checks if c.failed and not c.follows] or [c for c in checks if c.failed]
     return min(failed, key=place) if failed else None
 
 
 def place(check: Check) -> tuple[float, float]:
-    """Where a failure stands: by rule and number; short runs by place alone, as they build on each other."""
+    """Return where a failure stands: by rule and number; short runs by place alone, as they build on each other."""
     number = float(check.vector.removesuffix(AS_RUN).rpartition("-")[2])
     if check.layer not in SHORT:
         return (check.rank, number)
@@ -113,14 +112,14 @@ def place(check: Check) -> tuple[float, float]:
 
 @lru_cache
 def places() -> dict[str, float]:
-    """The short runs that are judged elsewhere than at their own number."""
+    """Return the short runs that are judged elsewhere than at their own number."""
     return {v.id: v.place for name in SHORT for v in layer(name) if v.place is not None}
 
 
 @lru_cache
 def stand_ins() -> dict[tuple[str, str], float]:
-    """From where on what stands in for forces is judged, by vector and result: a moment turns the block, too, whatever
-    the normal force is, and moves it where friction holds the feet."""
+    """Return from where on what stands in for forces is judged, by vector and result: a moment turns the block, too,
+    whatever the normal force is, and moves it where friction holds the feet."""
     found: dict[tuple[str, str], float] = {}
     for v in layer("L5s"):
         for name, e in v.expect.items():
@@ -132,7 +131,7 @@ def stand_ins() -> dict[tuple[str, str], float]:
 
 
 def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
-    """The layers in the order in which a failure in them is believed: small before long.
+    """Return the layers in the order in which a failure in them is believed: small before long.
 
     Who shows a step but not the contact law is first asked by short runs, which tell the contact rules apart.
     """
@@ -142,18 +141,18 @@ def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
 
 @lru_cache
 def layers_of_pieces() -> dict[str, str]:
-    """The layer in which each piece is asked by itself."""
+    """Return the layer in which each piece is asked by itself."""
     return {v.piece: name for name in (*SMALL, "L4") for v in layer(name)}
 
 
 def all_asked(findings: Findings) -> bool:
-    """Whether every piece that is shown was asked by itself: only then can it be said that all of them pass."""
+    """Return whether every piece that is shown was asked by itself: only then can it be said that all of them pass."""
     asked = {layers_of_pieces()[p] for p in findings.pieces}
     return {name for name in asked if of_the_profile(name, findings.profile)} <= set(findings.layers)
 
 
 def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
-    """The first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
+    """Return the first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
     checks, pieces = findings.checks, findings.pieces
     good = {r for r, s in status_of_rules([c for c in checks if c.layer in SMALL]).items() if s in ("pass", "look")}
     if findings.profile == "scheme":
@@ -184,7 +183,7 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
 
 
 def in_company(checks: Sequence[Check]) -> tuple[str, Check, str] | None:
-    """The rule that is wrong at the start state of a short run already, before any step: what a step hands on is
+    """Return the rule that is wrong at the start state of a short run already, before any step: what a step hands on is
     not to blame then. For who shows pieces of one foot, and is wrong where there are several."""
     check = first([c for c in checks if c.layer == "L5s"])
     at_start = check is not None and check.weighed and check.name.endswith("@0")
@@ -194,19 +193,19 @@ def in_company(checks: Sequence[Check]) -> tuple[str, Check, str] | None:
 
 
 def unanswered(checks: Sequence[Check]) -> str:
-    """What is said where the first failure is no answer that can be weighed."""
+    """Return what is said where the first failure is no answer that can be weighed."""
     if not any(c.weighed for c in checks if c.grade not in ("not shown", "not judged")):
         return "No question was answered in a way that can be weighed: that speaks of no rule."
     return "The first failure is an answer that is missing or of another shape: that speaks of no rule."
 
 
 def not_asked(f: Findings) -> list[str]:
-    """The layers of the profile that were not asked."""
+    """Return the layers of the profile that were not asked."""
     return [name for name in LAYERS if of_the_profile(name, f.profile) and name not in f.layers]
 
 
 def something_judged(findings: Findings) -> bool:
-    """Whether any result was weighed at all: who shows nothing of what is asked has not passed."""
+    """Return whether any result was weighed at all: who shows nothing of what is asked has not passed."""
     shown = any(c.grade not in ("not shown", "not judged") for c in findings.checks)
     claimed = any(e.grade != "not shown" for e in findings.effects)
     return shown or claimed or bool(findings.runs or findings.properties)
@@ -248,7 +247,7 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
 
 
 def slip_of(findings: Findings, check: Check | None) -> tuple[str, str]:
-    """A common slip in words, and a sentence where the first failure is that of a start evaluated anew."""
+    """Return a common slip in words, and a sentence where the first failure is that of a start evaluated anew."""
     from rockref.conformance.judge.causes.slips import evaluated_anew, told
 
     shown = next((a for a in findings.answers if check is not None and a[0].id == check.vector), None)
@@ -256,8 +255,8 @@ def slip_of(findings: Findings, check: Check | None) -> tuple[str, str]:
 
 
 def format_of(findings: Findings) -> tuple[str, bool]:
-    """The format of the numbers in words, where it is short; and whether it takes away all that is missing of them: no
-    rule is to blame then."""
+    """Return the format of the numbers in words, where it is short; and whether it takes away all that is missing of
+    them: no rule is to blame then."""
     from rockref.conformance.judge.causes.digits import cut_short
 
     failed = [c for c in findings.failures if c.layer in (*SMALL, *SHORT, "L4") and not c.follows]
@@ -285,7 +284,8 @@ def resembling(found: Verdict, backend: Any) -> None:
 
 
 def alike(v: Verdict) -> list[str]:
-    """Rules that the runs cannot tell from the one that is named, and of which no piece says that they are right."""
+    """Return the rules that the runs cannot tell from the one that is named, and of which no piece says that they are
+    right."""
     if v.rule is None or v.check is None or v.check.layer not in SHORT:
         return []
     small = status_of_rules([c for c in v.findings.checks if c.layer in SMALL])
@@ -295,7 +295,8 @@ def alike(v: Verdict) -> list[str]:
 
 
 def remarks(v: Verdict) -> list[str]:
-    """What is remarked of a backend: what it was told, and what differs by more than bars and less than it matters."""
+    """Return what is remarked of a backend: what it was told, and what differs by more than bars and less than it
+    matters."""
     f = v.findings
     small = [c for c in f.checks if c.grade == "negligible"]
     counted = (
@@ -313,12 +314,12 @@ def remarks(v: Verdict) -> list[str]:
 
 
 def suspects(v: Verdict) -> list[str]:
-    """The rules that may be wrong, the likeliest first."""
+    """Return the rules that may be wrong, the likeliest first."""
     return [] if v.rule is None else [v.rule, *alike(v)]
 
 
 def grades(verdict: Verdict) -> dict[str, int]:
-    """How many results have each grade."""
+    """Return how many results have each grade."""
     found: dict[str, int] = {}
     f = verdict.findings
     for grade in [*(c.grade for c in f.checks), *(r.grade for r in f.runs), *(e.grade for e in f.effects)]:
@@ -327,7 +328,7 @@ def grades(verdict: Verdict) -> dict[str, int]:
 
 
 def check_as_json(check: Check) -> dict[str, Any]:
-    """A check for JSON."""
+    """Return a check for JSON."""
     fields = ("vector", "layer", "rule", "name", "grade", "index", "expected", "bar", "got", "note", "follows")
     entry = {k: getattr(check, k) for k in fields} | {
         "equation": BY_ID[check.rule].equation,
@@ -338,7 +339,7 @@ def check_as_json(check: Check) -> dict[str, Any]:
 
 
 def run_as_json(run: RunCheck) -> dict[str, Any]:
-    """A run for JSON, without its curve."""
+    """Return a run for JSON, without its curve."""
     impacts = [{k: finite(v) if isinstance(v, float) else v for k, v in i.items()} for i in run.impacts]
     entry = {"id": run.id, "grade": run.grade, "bars": finite(run.worst), "horizon_s": run.horizon_s, "note": run.note}
     first_ = None if run.first is None else {k: finite(v) if isinstance(v, float) else v for k, v in run.first.items()}
@@ -346,7 +347,7 @@ def run_as_json(run: RunCheck) -> dict[str, Any]:
 
 
 def as_json(v: Verdict) -> dict[str, Any]:
-    """The verdict as one object for machines."""
+    """Return the verdict as one object for machines."""
     f = v.findings
     return {
         "verdict": v.status,
@@ -377,11 +378,11 @@ def as_json(v: Verdict) -> dict[str, Any]:
 
 
 def neighbour(id_: str, cosine: float) -> dict[str, Any]:
-    """A similar mistake of the zoo, for JSON."""
+    """Return a similar mistake of the zoo, for JSON."""
     return {"mistake": id_, "cosine": round(cosine, 3), **manifest()["mistakes"][id_]}
 
 
 def downstream_of(rule: str) -> list[str]:
-    """Rules that feed on a rule, in order."""
+    """Return the rules that feed on a rule, in order."""
     after = downstream(rule)
     return [r.id for r in RULES if r.id in after]

@@ -48,28 +48,28 @@ FLOOR = negligible.LENGTH
 
 @lru_cache
 def running(name: str) -> Any:
-    """A program that answers many questions."""
+    """Start a program that answers many questions."""
     return programs.program(name)
 
 
 def answer(name: str, problem: Problem) -> dict[str, Any]:
-    """A run of a program."""
+    """Return a run of a program."""
     return {k: np.asarray(v, np.longdouble) for k, v in running(name).simulate(problem).items()}
 
 
 def last(out: dict[str, Any]) -> dict[str, np.ndarray]:
-    """The last row."""
+    """Return the last row."""
     return {k: out[k][-1] for k in SHOWN}
 
 
 def solved(name: str, problem: Problem, parts: int = 1) -> dict[str, np.ndarray]:
-    """The last row of a program's run with a part of the step and less, extrapolated as an answer is."""
+    """Return the last row of a program's run with a part of the step and less, extrapolated as an answer is."""
     return last(extrapolated([answer(name, refined(problem, parts * k)) for k in OF_AN_ANSWER]))
 
 
 def converged(q: dict[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """The last row of a run, converged, by name, and its bars. Raises AssertionError where another integrator with the
-    small step gives something else."""
+    """Return the last row of a run, converged, by name, and its bars. Raises AssertionError where another integrator
+    with the small step gives something else."""
     problem = problem_of(q)
     right, less = (last(answer("long", refined(problem, parts))) for parts in (PARTS, PARTS // 2))
     schemes = [solved(name, problem) for name in ("double", *ways.OF_SHORT_RUNS)]
@@ -90,7 +90,7 @@ def converged(q: dict[str, Any]) -> tuple[dict[str, np.ndarray], dict[str, np.nd
 
 
 def asked(case: Case) -> Case | None:
-    """A short run as a question to other integrators; None where it is one of the law's own scheme."""
+    """Return a short run as a question to other integrators; None where it is one of the law's own scheme."""
     names = {name.partition("@")[0] for name in (*case.fields, *case.instead)} & {*SHOWN, "x_T"}
     if next(iter(case.fields.values()))[0] in ("N1", "N2") and case.instead:
         names -= {"Lambda"}  # a moment
@@ -109,7 +109,7 @@ def asked(case: Case) -> Case | None:
 
 
 def all_of_them() -> Iterator[tuple[int, Case]]:
-    """Every question, with the number of its short run."""
+    """Yield every question, with the number of its short run."""
     number = 0
     groups = (
         basic.all_short,

@@ -51,7 +51,7 @@ class Format:
 
     @property
     def words(self) -> str:
-        """What is wrong with the format, and its cure; "" where nothing is."""
+        """Return what is wrong with the format, and its cure; "" where nothing is."""
         if self.single:
             return "all numbers are those of single precision: hand out doubles, or be judged by --profile float32"
         if self.digits is None and self.decimals is None:
@@ -62,7 +62,7 @@ class Format:
         )
 
     def explains(self, check: Check) -> bool:
-        """Whether a check is outside by no more than the format takes away."""
+        """Return whether a check is outside by no more than the format takes away."""
         if check.got is None or check.expected is None or not math.isfinite(check.got):
             # Instants of the shortest steps are zero in few decimals.
             return check.name == "t" and self.decimals is not None
