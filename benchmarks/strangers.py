@@ -6,7 +6,7 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | fifth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | sixth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
@@ -34,6 +34,7 @@ import strangers_fourth
 import strangers_list
 import strangers_schemes
 import strangers_second
+import strangers_sixth
 import strangers_third
 from strangers_list import HARMLESS, Mistake
 
@@ -52,6 +53,7 @@ LISTS = {
     "third": strangers_third.MISTAKES,
     "fourth": strangers_fourth.MISTAKES,
     "fifth": strangers_fifth.MISTAKES,
+    "sixth": strangers_sixth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -178,7 +180,12 @@ def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple
 
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
-IN_PYTHON = (*strangers_controls.IN_PYTHON, *strangers_fourth.IN_PYTHON, *strangers_fifth.IN_PYTHON)
+IN_PYTHON = (
+    *strangers_controls.IN_PYTHON,
+    *strangers_fourth.IN_PYTHON,
+    *strangers_fifth.IN_PYTHON,
+    *strangers_sixth.IN_PYTHON,
+)
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
 

@@ -57,7 +57,7 @@ def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
     """Return what becomes a test: the kind of test, its name, and what it is about."""
     from rockref.conformance import vectors
     from rockref.conformance.backends import call
-    from rockref.conformance.judge import claims
+    from rockref.conformance.judge import claims, shaken
     from rockref.conformance.judge.findings import NOT_OF_THE_SCHEME, asked_in, of_the_profile
 
     if layer == "L5":
@@ -65,14 +65,10 @@ def asked(backend: Any, layer: str, profile: str) -> list[tuple[Any, str, Any]]:
         return [(RunItem, name, name) for name in windows + vectors.trajectory_names()]
     if layer == "L6":
         return [(PropertyItem, p[1].__name__, p) for p in properties(profile) if call.has(backend, p[0])]
-    if layer == "LE":
-        found = claims.claims() if profile == "float64" else ()
-        return [(ClaimItem, c.id, c) for c in found if call.has(backend, c.piece)]
-    if layer == "LB":
-        from rockref.conformance.judge.shaken import PIECE, shaken_vectors
-
-        there = profile == "float64" and call.has(backend, PIECE)
-        return [(ShakenItem, v.id, v) for v in shaken_vectors()] if there else []
+    if layer in ("LE", "LB"):
+        judge = claims.judge_claim if layer == "LE" else shaken.judge_vector
+        found = () if profile != "float64" else claims.claims() if layer == "LE" else shaken.shaken_vectors()
+        return [(ClaimItem, c.id, (judge, c)) for c in found if call.has(backend, getattr(c, "piece", shaken.PIECE))]
     if not of_the_profile(layer, profile):
         return []
     not_asked = NOT_OF_THE_SCHEME if profile == "scheme" else set()
@@ -163,33 +159,16 @@ class PropertyItem(_Item):
             raise Failed(f"{judged.name}: {judged.note}")
 
 
-class ShakenItem(_Item):
-    """One run on a plate that moves; skipped where the backend does not make it."""
-
-    def runtest(self) -> None:
-        """Ask for the run, weigh the answer."""
-        from rockref.conformance.judge.shaken import judge_vector
-        from rockref.conformance.reports.terminal import bars
-
-        backend, vector, _ = self.given
-        judged = judge_vector(backend, vector)
-        if judged.grade == "not shown":
-            pytest.skip("motion of the plate is not claimed")
-        if judged.failed:
-            raise Failed(f"{judged.effect}: {judged.note or bars(judged.worst)}")
-
-
 class ClaimItem(_Item):
-    """One effect that the backend claims; one that it does not is skipped."""
+    """One effect, or one run on a plate that moves; skipped where the backend does not claim it."""
 
     def runtest(self) -> None:
-        """Ask for the effect, weigh the answer."""
-        from rockref.conformance.judge.claims import judge_claim
+        """Ask for it, weigh the answer."""
         from rockref.conformance.reports.terminal import bars
 
-        backend, claim, _ = self.given
-        judged = judge_claim(backend, claim)
+        backend, (judge, vector), _ = self.given
+        judged = judge(backend, vector)
         if judged.grade == "not shown":
-            pytest.skip(f"{claim.effect} is not claimed")
+            pytest.skip(f"{judged.effect} is not claimed")
         if judged.failed:
             raise Failed(f"{judged.effect}: {judged.note or bars(judged.worst)}")

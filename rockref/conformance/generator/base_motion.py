@@ -1,7 +1,7 @@
-"""The vectors of a plate that moves (LB): short runs in which every mistake of `base_mistakes` shows.
+"""The vectors of a plate that moves (LB): short runs in which every mistake of `wrong_base_motion` shows.
 
 Values: the law's text in longdouble. They are taken only where a second route agrees within the bars: the same load as
-an effect of the run, from a record that is read by rational numbers. Bars as those of effects (`cases_effects`).
+an effect of the run, from a record that is read by rational numbers. Bars as those of effects (`effects`).
 """
 
 from __future__ import annotations

@@ -27,9 +27,8 @@ from rockref.model.simulate import output_steps
 
 ROUNDING_RUNS, SINGLE_RUNS = 8, 12
 SHOWN = ("W", "x", "Lambda")
-#: Comparison ends where the bar exceeds this share of the signal. float64: the issue's 1e-6. float32 and scheme:
-#: decided; a tenth of the
-#: signal still tells a wrong rule from a right one.
+#: Comparison ends where the bar exceeds this share of the signal. Decided: a millionth shows any rule; of float32 and
+#: other schemes, a tenth of the signal still tells a wrong rule from a right one.
 HORIZON = {"": 1e-6, "float32_": 0.1, "scheme_": 0.1}
 
 

@@ -51,10 +51,8 @@ def claims() -> tuple[Claim, ...]:
 def claim_of(entry: dict[str, Any], sets: dict[str, Any]) -> Claim:
     """Return a vector from its stored form; `sets` holds the inputs, which many share."""
     inputs = {k: value_of(v) for k, v in sets[entry["set"]].items()}
-    values = {k: np.asarray(value_of(v)) for k, v in entry["expect"].items()}
-    expect = {k: (v, np.full(v.shape, float(entry["expect"][k]["bar"]))) for k, v in values.items()}
     facts = (entry["id"], entry["effect"], entry["piece"], entry["parameters"])
-    return Claim(*facts, inputs, expect, entry["resolving"]["absent"], entry["branch"])
+    return Claim(*facts, inputs, expected_of(entry), entry["resolving"]["absent"], entry["branch"])
 
 
 def ask(backend: Any, claim: Claim) -> dict[str, Any] | None:
@@ -85,22 +83,28 @@ def explained(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
     """Compare one answer with its vector; one that is outside with the mistake that gives it, where one is known."""
     from rockref.conformance.judge.causes.wrong_effects import likely
 
-    check = compare(claim, answer)
+    check = compare(claim.effect, claim.expect, answer)
     words = likely(claim, answer) if check.failed and not check.note else ""
     return replace(check, note=f"{check.worst:.3g} bars off, {words}") if words else check
 
 
-def compare(claim: Claim, answer: dict[str, Any]) -> ClaimCheck:
-    """Compare one answer with its vector."""
+def expected_of(entry: dict[str, Any]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Return expected results of a stored vector, each with its bar, which is one number for all of it."""
+    values = {k: np.asarray(value_of(v)) for k, v in entry["expect"].items()}
+    return {k: (v, np.full(v.shape, float(entry["expect"][k]["bar"]))) for k, v in values.items()}
+
+
+def compare(claimed: str, expect: dict[str, tuple[np.ndarray, np.ndarray]], answer: dict[str, Any]) -> ClaimCheck:
+    """Compare one answer with expected results and bars; of what is claimed, by name. Of a run, W alone is a must."""
     worst, negligible = 0.0, False
-    for name, (right, bar) in claim.expect.items():
+    for name, (right, bar) in expect.items():
         got = answer.get(name)
         if got is None and name not in ("W", "crv_deg_s"):
             continue
         shape = None if got is None else np.shape(got)
         if shape != right.shape:
             note = f"{name} has shape {shape}, not {right.shape}"
-            return ClaimCheck(claim.effect, "outside", float("inf"), note)
+            return ClaimCheck(claimed, "outside", float("inf"), note)
         ratio, small = weighed_in_bars(np.asarray(got), right, bar, size_and_unit(name)[0])
         worst, negligible = max(worst, float(np.max(ratio))), negligible or bool(np.any(small))
-    return ClaimCheck(claim.effect, grade_of(worst, negligible), worst)
+    return ClaimCheck(claimed, grade_of(worst, negligible), worst)

@@ -14,9 +14,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.backends.call import ANYTHING, as_mapping, has, raised
-from rockref.conformance.judge.claims import ClaimCheck
-from rockref.conformance.judge.compare_answer import LOOK, grade_of, weighed_in_bars
-from rockref.conformance.judge.negligible import size_and_unit
+from rockref.conformance.judge.claims import ClaimCheck, compare, expected_of
 from rockref.conformance.vectors import as_shipped, problem_of, read_bytes, value_of
 from rockref.model.problem import Problem
 
@@ -46,9 +44,8 @@ def shaken_vectors() -> tuple[ShakenVector, ...]:
 def _vector(entry: dict[str, Any]) -> ShakenVector:
     inputs = {k: value_of(v) for k, v in entry["inputs"].items()}
     inputs["base"] = {k: value_of(v) for k, v in entry["base"].items()}
-    values = {k: np.asarray(value_of(v)) for k, v in entry["expect"].items()}
-    expect = {k: (v, np.full(v.shape, float(entry["expect"][k]["bar"]))) for k, v in values.items()}
-    return ShakenVector(entry["id"], entry["title"], problem_of(inputs), expect, entry["resolving"], entry["branch"])
+    problem, expect = problem_of(inputs), expected_of(entry)
+    return ShakenVector(entry["id"], entry["title"], problem, expect, entry["resolving"], entry["branch"])
 
 
 def judge_shaken(backend: Any) -> list[ClaimCheck]:
@@ -62,45 +59,24 @@ def judge_vector(backend: Any, vector: ShakenVector) -> ClaimCheck:
         answer = getattr(backend, PIECE)(vector.problem)
         if answer is None:
             return ClaimCheck("base motion", "not shown", vector=vector.id)
-        check = compare(vector, as_mapping(answer, "simulate"))
-        words = as_if(vector, as_mapping(answer, "simulate")) if check.failed and not check.note else ""
+        rows = as_mapping(answer, "simulate")
+        check = compare("base motion", vector.expect, rows)
+        words = as_if(vector, rows) if check.failed and not check.note else ""
     except ANYTHING as e:  # the backend is a stranger's
         return ClaimCheck("base motion", "outside", float("inf"), raised(e), vector.id)
     note = f"{check.worst:.3g} bars off, as if: {words}" if words else check.note
     return replace(check, vector=vector.id, note=note)
 
 
-def compare(vector: ShakenVector, answer: dict[str, Any]) -> ClaimCheck:
-    """Compare one answer with its vector."""
-    worst, negligible = 0.0, False
-    for name, (right, bar) in vector.expect.items():
-        got = answer.get(name)
-        if got is None and name != "W":
-            continue
-        shape = None if got is None else np.shape(got)
-        if shape != right.shape:
-            note = f"{name} has shape {shape}, not {right.shape}"
-            return ClaimCheck("base motion", "outside", float("inf"), note)
-        ratio, small = weighed_in_bars(np.asarray(got), right, bar, size_and_unit(name)[0])
-        worst, negligible = max(worst, float(np.max(ratio))), negligible or bool(np.any(small))
-    return ClaimCheck("base motion", grade_of(worst, negligible), worst)
-
-
 def as_if(vector: ShakenVector, answer: dict[str, Any]) -> str:
     """Return the mistake that gives this answer within ten bars, in words; "" where none that is known does."""
     from rockref.conformance.judge.causes.wrong_base_motion import OF_BASE, planted
+    from rockref.conformance.judge.causes.wrong_effects import gives
     from rockref.engines import run
 
     with np.errstate(all="ignore"):
         for mistake in OF_BASE:
             made = run(planted(vector.problem, mistake.load), engine="numpy")
-            ratios = [
-                weighed_in_bars(np.asarray(answer[name]), np.asarray(getattr(made, name)), bar, size_and_unit(name)[0])[
-                    0
-                ]
-                for name, (_, bar) in vector.expect.items()
-                if answer.get(name) is not None
-            ]
-            if max(float(np.max(r)) for r in ratios) <= LOOK:
+            if gives({name: getattr(made, name) for name in vector.expect}, answer, vector.expect):
                 return mistake.says
     return ""

@@ -3,6 +3,7 @@ from it."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -298,14 +299,10 @@ def remarks(v: Verdict) -> list[str]:
     """Return what is remarked of a backend: what it was told, and what differs by more than bars and less than it
     matters."""
     f = v.findings
-    small = [c for c in f.checks if c.grade == "negligible"]
-    counted = (
-        len([e for e in f.effects if e.grade == "negligible"])
-        + len(small)
-        + len([r for r in f.runs if r.grade == "negligible"])
-    )
+    counted = grades(v).get("negligible", 0)
     if not counted:
         return f.remarks
+    small = [c for c in f.checks if c.grade == "negligible"]
     first_ = f"; first {small[0].name} of {small[0].vector}: {small[0].note}" if small else ""
     differ = (
         f"{counted} results differ by more than ten bars and by less than 1 nN or 1 pm, which is no verdict{first_}."
@@ -320,11 +317,9 @@ def suspects(v: Verdict) -> list[str]:
 
 def grades(verdict: Verdict) -> dict[str, int]:
     """Return how many results have each grade."""
-    found: dict[str, int] = {}
     f = verdict.findings
-    for grade in [*(c.grade for c in f.checks), *(r.grade for r in f.runs), *(e.grade for e in f.effects)]:
-        found[grade] = found.get(grade, 0) + 1
-    return found
+    judged: list[Any] = [*f.checks, *f.runs, *f.effects]
+    return Counter(thing.grade for thing in judged)
 
 
 def check_as_json(check: Check) -> dict[str, Any]:

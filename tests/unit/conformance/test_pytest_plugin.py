@@ -128,12 +128,14 @@ class TestItems:
 
     def test_an_effect_holds_is_skipped_or_is_named(self, item):
         claim = next(c for c in claims.claims() if c.effect == "gyro_scale")
-        item(pytest_plugin.ClaimItem, claim).runtest()
+        item(pytest_plugin.ClaimItem, (claims.judge_claim, claim)).runtest()
         plain = SimpleNamespace(sensor=lambda effect, parameters, t, crv_deg_s: {"crv_deg_s": crv_deg_s})
         with pytest.raises(pytest_plugin.Failed, match="gyro_scale: .*as if it were left out"):
-            item(pytest_plugin.ClaimItem, claim, plain).runtest()
+            item(pytest_plugin.ClaimItem, (claims.judge_claim, claim), plain).runtest()
         with pytest.raises(pytest.skip.Exception, match="gyro_scale is not claimed"):
-            item(pytest_plugin.ClaimItem, claim, SimpleNamespace(sensor=lambda *a: None)).runtest()
+            item(
+                pytest_plugin.ClaimItem, (claims.judge_claim, claim), SimpleNamespace(sensor=lambda *a: None)
+            ).runtest()
 
     def test_the_message_alone_is_shown_where_a_vector_failed(self, item):
         made = item(pytest_plugin.ClaimItem, None)

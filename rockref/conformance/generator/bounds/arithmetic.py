@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import operator
 import random
+from collections.abc import Callable
 from typing import Any
 
 import mpmath
@@ -36,6 +38,15 @@ class LongDoubles:
     pi = 4 * np.arctan(np.longdouble(1))
 
 
+def _rounded(operation: Callable[[Any, Any], Any]) -> Any:
+    """Return an operation of two numbers that is done in the wider precision, and rounded at random."""
+
+    def done(self: _Rounded, other: Any) -> _Rounded:
+        return self.made(operation(*self._wide(other)))
+
+    return done
+
+
 class _Rounded(float):
     """A float whose every inexact operation rounds up or down at random (Monte Carlo arithmetic)."""
 
@@ -55,34 +66,13 @@ class _Rounded(float):
     def _wide(self, other: Any) -> tuple[Any, Any]:
         return (float(self), float(other)) if self.single else (np.longdouble(self), np.longdouble(other))
 
-    def __add__(self, other: Any) -> _Rounded:
-        a, b = self._wide(other)
-        return self.made(a + b)
-
-    def __sub__(self, other: Any) -> _Rounded:
-        a, b = self._wide(other)
-        return self.made(a - b)
-
-    def __rsub__(self, other: Any) -> _Rounded:
-        a, b = self._wide(other)
-        return self.made(b - a)
-
-    def __mul__(self, other: Any) -> _Rounded:
-        a, b = self._wide(other)
-        return self.made(a * b)
-
-    def __truediv__(self, other: Any) -> _Rounded:
-        a, b = self._wide(other)
-        return self.made(a / b)
-
-    def __rtruediv__(self, other: Any) -> _Rounded:
-        a, b = self._wide(other)
-        return self.made(b / a)
+    __add__ = __radd__ = _rounded(operator.add)
+    __mul__ = __rmul__ = _rounded(operator.mul)
+    __sub__, __rsub__ = _rounded(operator.sub), _rounded(lambda a, b: b - a)
+    __truediv__, __rtruediv__ = _rounded(operator.truediv), _rounded(lambda a, b: b / a)
 
     def __neg__(self) -> _Rounded:
         return type(self)(-float(self))
-
-    __radd__, __rmul__ = __add__, __mul__
 
 
 class RandomRounding:

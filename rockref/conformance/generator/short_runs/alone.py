@@ -7,14 +7,24 @@ judged.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from rockref.conformance.generator.bounds.bars import Case
 from rockref.conformance.generator.questions.drawing import Draw, diagonal, rotation
-from rockref.conformance.generator.short_runs.basic import GLUE, GONE, ICE, SOFT, WEIGHTLESS, Z, ask, held, standing
+from rockref.conformance.generator.short_runs.basic import (
+    GLUE,
+    GONE,
+    ICE,
+    SOFT,
+    WEIGHTLESS,
+    Z,
+    ask,
+    held,
+    placed,
+    standing,
+)
 
 #: The start brings a force evaluation: nothing pulls.
 UNLOADED: Any = {"g": WEIGHTLESS, "a": np.zeros(3), "T": np.zeros(3), "F": np.zeros((8, 3))}
@@ -103,6 +113,4 @@ def friction() -> Iterator[tuple[float, Case]]:
 
 def alone() -> Iterator[Case]:
     """Yield all of them."""
-    for group in (afloat, tops, feet, friction, strangers):
-        for place, case in group():
-            yield replace(case, place=place)
+    return placed(afloat, tops, feet, friction, strangers)

@@ -7,7 +7,6 @@ They stand behind all others; `place` says between which they are judged.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,18 @@ import numpy as np
 from rockref.conformance.generator.bounds.bars import Case
 from rockref.conformance.generator.questions.drawing import Draw, diagonal, rotation, turned
 from rockref.conformance.generator.short_runs.alone import DRIFT, TIP, UNLOADED, fly
-from rockref.conformance.generator.short_runs.basic import ASIDE, GLUE, ICE, SLID, SOFT, WEIGHTLESS, ask, held, standing
+from rockref.conformance.generator.short_runs.basic import (
+    ASIDE,
+    GLUE,
+    ICE,
+    SLID,
+    SOFT,
+    WEIGHTLESS,
+    ask,
+    held,
+    placed,
+    standing,
+)
 from rockref.conformance.generator.short_runs.memory import PAIR, P, on_one_foot
 
 
@@ -97,6 +107,4 @@ def long_steps() -> Iterator[tuple[float, Case]]:
 
 def apart() -> Iterator[Case]:
     """Yield all of them."""
-    for group in (turning, places, second_evaluation, memory, long_steps):
-        for place, case in group():
-            yield replace(case, place=place)
+    return placed(turning, places, second_evaluation, memory, long_steps)

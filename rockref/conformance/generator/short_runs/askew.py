@@ -16,7 +16,7 @@ from rockref.conformance.generator.bounds.bars import Case
 from rockref.conformance.generator.questions.drawing import Draw, diagonal, rotation, table_3_1, turned
 from rockref.conformance.generator.questions.scenes import EVEN
 from rockref.conformance.generator.short_runs.alone import SHARES
-from rockref.conformance.generator.short_runs.basic import ASIDE, GLUE, ICE, IN, Z, ask, held, standing
+from rockref.conformance.generator.short_runs.basic import ASIDE, GLUE, ICE, IN, Z, ask, held, placed, standing
 from rockref.conformance.generator.short_runs.memory import on_one_foot
 
 SPRINGS = ICE | {"C_N": 0.0}
@@ -98,6 +98,4 @@ def unevenly() -> Iterator[tuple[float, Case]]:
 
 def askew() -> Iterator[Case]:
     """Yield all of them."""
-    for group in (tilted, above, tied, straight, unevenly):
-        for place, case in group():
-            yield replace(case, place=place)
+    return placed(tilted, above, tied, straight, unevenly)

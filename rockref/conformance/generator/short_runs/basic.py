@@ -7,7 +7,8 @@ row's place and attitude in their stead.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -219,6 +220,13 @@ def anchors() -> Iterator[Case]:
     # Sticking again: a foot that turns back shows where its anchor has been left.
     near = held(d.vectors(1e-5, 8, 2))
     yield ask({"F_T@2": "T4"}, "the anchor that is left", 3, standing(), W=[0, 0, 3.0], made={"C_T": 0.0}, **near)
+
+
+def placed(*groups: Callable[[], Iterator[tuple[float, Case]]]) -> Iterator[Case]:
+    """Yield the questions of groups, each with the place at which it is judged."""
+    for group in groups:
+        for place, case in group():
+            yield replace(case, place=place)
 
 
 def all_short() -> Iterator[Case]:

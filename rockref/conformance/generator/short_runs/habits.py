@@ -17,7 +17,7 @@ from rockref.conformance.generator.questions.drawing import Draw, diagonal, tabl
 from rockref.conformance.generator.questions.scenes import EVEN, PER_POINT
 from rockref.conformance.generator.short_runs.alone import DRIFT, TIP, UNLOADED, fly
 from rockref.conformance.generator.short_runs.askew import C_T
-from rockref.conformance.generator.short_runs.basic import GLUE, ICE, IN, UP, Z, ask, held, standing
+from rockref.conformance.generator.short_runs.basic import GLUE, ICE, IN, UP, Z, ask, held, placed, standing
 
 #: So slow that engines take a body for one at rest [m/s, rad/s]; the way of a step still has all its digits.
 SLOW = 2.0**-22
@@ -92,6 +92,4 @@ def one_after_another() -> Iterator[tuple[float, Case]]:
 
 def habits() -> Iterator[Case]:
     """Yield all of them."""
-    for group in (slowly, small_turns, other_numbers, flags, tied, one_after_another):
-        for place, case in group():
-            yield replace(case, place=place)
+    return placed(slowly, small_turns, other_numbers, flags, tied, one_after_another)

@@ -5,7 +5,6 @@ forces; and of numbers with all their bits. They stand behind all others; `place
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from rockref.conformance.generator.short_runs.basic import (
     Z,
     ask,
     held,
+    placed,
     standing,
 )
 
@@ -116,7 +116,4 @@ def told_apart() -> Iterator[tuple[float, Case]]:
 
 def memory() -> Iterator[Case]:
     """Yield all of them."""
-    groups = (of_all_bits, on_a_single_foot, in_the_plate, feet_that_slid, start_with_its_own, told_apart)
-    for group in groups:
-        for place, case in group():
-            yield replace(case, place=place)
+    return placed(of_all_bits, on_a_single_foot, in_the_plate, feet_that_slid, start_with_its_own, told_apart)

@@ -31,16 +31,16 @@ def likely(claim: Claim, answer: dict[str, Any]) -> str:
     with np.errstate(all="ignore"):
         for words, made in mistakes(claim):
             try:
-                if alike(claim, answer, made()):
+                if gives(made(), answer, claim.expect):
                     return words
             except (ArithmeticError, ValueError, TypeError, LookupError):  # a mistake that cannot be computed
                 continue
     return ""
 
 
-def alike(claim: Claim, answer: dict[str, Any], made: dict[str, Any]) -> bool:
-    """Return whether what is shown of an answer is what a mistake gives."""
-    for name, (right, bar) in claim.expect.items():
+def gives(made: dict[str, Any], answer: dict[str, Any], expect: dict[str, tuple[np.ndarray, np.ndarray]]) -> bool:
+    """Return whether what a mistake has made is what is shown of an answer, within ten bars."""
+    for name, (right, bar) in expect.items():
         got, wrong = answer.get(name), np.asarray(made[name]).reshape(right.shape)
         if got is None:
             continue

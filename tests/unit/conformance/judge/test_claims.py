@@ -109,7 +109,7 @@ def test_of_a_run_with_an_effect_only_the_rates_are_indispensable():
     claim = next(c for c in claims.claims() if c.effect == "quadratic_drag")
     right = {name: value for name, (value, _) in claim.expect.items()}
     assert set(right) == {"W", "x", "Lambda"}
-    assert claims.compare(claim, {"W": right["W"]}).grade == "bitwise"
+    assert claims.compare(claim.effect, claim.expect, {"W": right["W"]}).grade == "bitwise"
     for answer, said in (({"x": right["x"]}, "W has shape None"), ({"W": right["W"][:-1]}, "W has shape")):
-        check = claims.compare(claim, answer)
+        check = claims.compare(claim.effect, claim.expect, answer)
         assert check.failed and said in check.note and f"not {right['W'].shape}" in check.note

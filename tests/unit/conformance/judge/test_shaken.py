@@ -36,7 +36,7 @@ def test_the_law_is_inside_alone_and_over_lines_of_json():
     assert [c.grade for c in found] == ["inside"] * 3 and max(c.worst for c in found) < 1
     vector = shaken_vectors()[0]
     said = answer(NumpyEngine(), {"cmd": "run", "id": "q", "piece": "shaken", "in": plain(flat(vector.problem))})
-    assert shaken.compare(vector, said["out"]).grade == "inside"
+    assert shaken.compare("base motion", vector.expect, said["out"]).grade == "inside"
 
 
 def test_the_compiled_engine_is_inside():
@@ -49,7 +49,7 @@ def test_the_compiled_engine_is_inside():
 @pytest.mark.parametrize("mistake", OF_BASE, ids=lambda m: m.id)
 def test_every_mistake_is_outside_and_named(mistake):
     for vector in shaken_vectors():
-        check = shaken.compare(vector, vars(Mistaken(mistake.load).shaken(vector.problem)))
+        check = shaken.compare("base motion", vector.expect, vars(Mistaken(mistake.load).shaken(vector.problem)))
         # as far off as the file says; bars are rounded up to two digits, and so is that
         assert check.failed and abs(check.worst / vector.resolving[mistake.id] - 1) < 0.15
     named = judge_vector(Mistaken(mistake.load), shaken_vectors()[1])
