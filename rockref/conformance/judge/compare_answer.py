@@ -22,6 +22,7 @@ FLAGS = ("touching", "sliding", "anchored")
 #: What a start may lose in single precision: a conversion of units, a quaternion; eight ulps.
 SINGLE = 8 * float(np.finfo(np.float32).eps)
 ELSEWHERE = "the first row is not the start that was given"
+OTHERWISE = "asked once more, the same run has another answer: a run before it leaves something behind"
 
 
 @dataclass(frozen=True)
@@ -292,6 +293,12 @@ def asked_for(vector: Vector, out: dict[str, Any], profile: str = "float64") -> 
     if profile == "scheme" and vector.layer == "L5s":
         return [k for k in vector.expect if k.endswith("@0")]
     return [k for k, e in vector.expect.items() if not e.instead_of or not shown(e.instead_of)]
+
+
+def stand_ins(vector: Vector, out: dict[str, Any], profile: str) -> list[Check]:
+    """Return what stands in for results that are shown, where it is outside: what happens after them."""
+    left = vector.expect.keys() - set(asked_for(vector, out, profile))
+    return [c for c in (compare_one(name, vector, out, profile) for name in vector.expect if name in left) if c.failed]
 
 
 def no_answer(vector: Vector, note: str) -> list[Check]:

@@ -5,17 +5,29 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
+
+import numpy as np
 
 from rockref.conformance import vectors
 from rockref.conformance.backends import call, richardson
 from rockref.conformance.judge.claims import ClaimCheck, judge_claims
-from rockref.conformance.judge.compare_answer import Check, compare, no_answer, of_the_right_shape
+from rockref.conformance.judge.compare_answer import (
+    LOOK,
+    OTHERWISE,
+    Check,
+    compare,
+    in_bars,
+    no_answer,
+    of_the_right_shape,
+    stand_ins,
+)
 from rockref.conformance.judge.shaken import judge_shaken
 from rockref.conformance.judge.trajectories import RunCheck, judge_runs
 from rockref.conformance.rules import PIECES
 from rockref.conformance.vectors import Vector
+from rockref.conformance.vectors.fields import result
 from rockref.model.errors import InputError
 
 LAYERS = ("L0", "L1", "L2", "L3", "L4", "L5s", "LS", "L5", "L6", "L7", "LE", "LB")
@@ -124,6 +136,11 @@ def judge(
         else:
             _small(backend, findings, asked_in(layer, backend), report)
     findings.checks = of_the_right_shape(findings.checks)
+    if profile == "float64":
+        # Where nothing is wrong yet, the rows after the forces are looked at, too.
+        late = [] if findings.failures else [c for v, out in findings.answers for c in stand_ins(v, out, profile)]
+        findings.checks += late
+        findings.checks += left_behind(backend, findings)
     findings.remarks += getattr(backend, "remarks", [])
     findings.seconds = time.perf_counter() - begin
     return findings
@@ -158,6 +175,22 @@ def answered(
         return compare(vector, out, profile)
     except call.ANYTHING as e:  # the backend is a stranger's
         return no_answer(vector, call.raised(e))
+
+
+def left_behind(backend: Any, findings: Findings) -> list[Check]:
+    """Return a failure of S2 where the first short run that is outside has another answer after itself."""
+    failed = next((c for c in findings.failures if c.layer == "L5s" and c.weighed and c.bar is not None), None)
+    known = {v.id: (v, out) for v, out in findings.answers}
+    if failed is None or failed.vector not in known:
+        return []
+    vector, before = known[failed.vector]
+    try:
+        again = [call.ask(backend, vector) for _ in range(2)][-1]
+        old, new = (np.asarray(result(failed.name, out, vector.branch), float) for out in (before, again))
+        changed = bool(np.any(in_bars(new, old, np.asarray(vector.expect[failed.name].bar)) > LOOK))
+    except call.ANYTHING:  # the backend is a stranger's
+        return []
+    return [replace(failed, rule="S2", note=OTHERWISE)] if changed else []
 
 
 def _properties(backend: Any, findings: Findings, examples: int) -> None:

@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import Any
 
 from rockref.conformance.judge.causes.whole_steps import rule_of_a_step
-from rockref.conformance.judge.compare_answer import ELSEWHERE, Check
+from rockref.conformance.judge.compare_answer import ELSEWHERE, OTHERWISE, Check
 from rockref.conformance.judge.findings import LAYERS, Findings, finite, of_the_profile
 from rockref.conformance.judge.trajectories import RunCheck
 from rockref.conformance.rules import ALIKE_IN_RUNS, BY_ID, RULES, downstream
@@ -105,7 +105,7 @@ def place(check: Check) -> tuple[float, float]:
     number = float(check.vector.removesuffix(AS_RUN).rpartition("-")[2])
     if check.layer not in SHORT:
         return (check.rank, number)
-    if check.note == ELSEWHERE:
+    if check.note in (ELSEWHERE, OTHERWISE):
         return (0.0, 0.0)
     at = places().get(check.vector, number)
     return (0.0, max(at, stand_ins().get((check.vector, check.name), at)))
