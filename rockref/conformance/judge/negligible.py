@@ -6,6 +6,7 @@ a hundredth of an atom's diameter, and the weight of a tenth of a microgram, dec
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,8 @@ import numpy as np
 FORCE, LENGTH = 1e-9, 1e-12
 #: What follows from them: 1 nN at a lever of 1 m, 1 pm at 1 m, 1 pm a second, 1 nN on 100 kg.
 MOMENT, ANGLE, VELOCITY, ACCELERATION = FORCE, LENGTH, LENGTH, FORCE / 100
+#: 100 kg at a metre, moved by 1 pm [kg m2].
+INERTIA = 100 * LENGTH
 #: Instants of main impacts [s]: the feet cross the plate at 0.1 m/s or more, and need so long for 1 pm. Decided.
 INSTANT = LENGTH / 0.1
 
@@ -21,11 +24,13 @@ INSTANT = LENGTH / 0.1
 SIZES: dict[str, tuple[float, str]] = {
     **dict.fromkeys(("F", "F_N", "F_T", "F_stick", "F_slip", "F_trial", "force", "threshold"), (FORCE, "N")),
     **dict.fromkeys(("moment", "T"), (MOMENT, "N m")),
-    **dict.fromkeys(("x", "x_T", "u", "r", "xi", "s", "s_stick", "s_slip", "s_trial"), (LENGTH, "m")),
+    **dict.fromkeys(("x", "x_T", "u", "r", "P", "xi", "s", "s_stick", "s_slip", "s_trial"), (LENGTH, "m")),
     **dict.fromkeys(("v", "xi_rate", "v_slide", "v_predicted"), (VELOCITY, "m/s")),
     **dict.fromkeys(("W", "W_predicted"), (ANGLE, "rad/s")),
     "Lambda": (ANGLE, ""),
     "Theta": (ANGLE, "rad"),
+    "inertia": (INERTIA, "kg m2"),
+    "crv_deg_s": (math.degrees(VELOCITY), "deg/s"),
     "a": (ACCELERATION, "m/s2"),
 }
 

@@ -63,3 +63,13 @@ def test_a_pass_with_negligible_differences_says_how_many():
     v = verdict(judge(Shaken(), ["L1"]))
     assert v.passed and "less than 1 nN" in terminal.text(v)
     assert v.rules["N1"] == "look"
+
+
+@pytest.mark.parametrize("off, passed", [(1e-17, True), (1e-9, False)])
+def test_products_of_inertia_that_are_sums_need_not_cancel_to_nothing(off, passed):
+    class Summed(NumpyEngine):
+        def derived(self, **q):
+            out = super().derived(**q)
+            return out | {"inertia": out["inertia"] + off * (1 - np.eye(3))}
+
+    assert verdict(judge(Summed(), ["L0"])).passed == passed
