@@ -9,10 +9,10 @@ import argparse
 from collections import Counter
 
 import numpy as np
+from granite_blocks import CROSSOVER, FELL, load_granite, record_sizes, sessions, sizes
+from granite_plane import PHYSICAL, STEP, WIDENED, falls, probabilities
+from granite_space import fall_shares
 
-from rockref.shake.granite import CROSSOVER, FELL, load_granite, record_sizes, sessions, sizes
-from rockref.shake.granite_plane import PHYSICAL, STEP, WIDENED, falls, probabilities
-from rockref.shake.granite_space import fall_shares
 from rockref.shake.statistics.held_out import held_out_choice, held_out_regression
 from rockref.shake.statistics.resampling import mean_over_motions, paired_difference
 from rockref.shake.statistics.scores import hits, log_losses, repeats

@@ -1,13 +1,17 @@
 """Ensembles of plane blocks: the grid, and the mixture over what is unknown."""
 
 import math
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.stats import norm
 
-from rockref.shake.granite_plane import PHYSICAL, plane_blocks, probabilities
+from tests.shipped import ROOT
+
+sys.path.insert(0, str(ROOT / "benchmarks"))
+from granite_plane import PHYSICAL, plane_blocks, probabilities  # noqa: E402
 
 WEAK_DEG, RATIOS, RESTITUTIONS = PHYSICAL.weak_deg, PHYSICAL.ratios, PHYSICAL.restitutions
 MESH = {"mass": 350.0, "centre_height": 0.3, "inertia": [[20.0, -1.0, 0.0], [-1.0, 18.0, 0.0], [0.0, 0.0, 16.0]]}

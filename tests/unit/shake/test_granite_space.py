@@ -1,11 +1,16 @@
 """The granite blocks in three dimensions: feet, weight, and a run of each test a round."""
 
+import sys
+
 import numpy as np
 import pytest
 
 from rockref.model.base_motion import BaseMotion
 from rockref.model.standing import standing_posture
-from rockref.shake.granite_space import STIFFNESS, fall_shares, granite_model
+from tests.shipped import ROOT
+
+sys.path.insert(0, str(ROOT / "benchmarks"))
+from granite_space import STIFFNESS, fall_shares, granite_model  # noqa: E402
 
 MESH = {
     "mass": 350.0,

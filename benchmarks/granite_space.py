@@ -11,11 +11,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from granite_blocks import CROSSOVER, GraniteBlocks
 
 from rockref.api import Model
 from rockref.model.problem import ContactPoints
 from rockref.shake.ensemble import Draws, Ensemble, run_ensemble, shares_that_fell
-from rockref.shake.granite import CROSSOVER, GraniteBlocks
 
 # decided: the weight sinks the feet by half a millimetre; stiffer feet ask for shorter steps.
 STIFFNESS = 2e6  # N/m, each foot

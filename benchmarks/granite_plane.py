@@ -16,8 +16,8 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+from granite_blocks import CROSSOVER, GraniteBlocks
 
-from rockref.shake.granite import CROSSOVER, GraniteBlocks
 from rockref.shake.plane_block import plane_block, rock_many
 
 # decided: the interval of the records, a fiftieth of 1/p.
