@@ -39,9 +39,11 @@ html_extra_path = ["_lab"]
 
 def setup(app):
     """Draw the pictures of the effects and make the page of the lab; they are not kept with the text."""
+    import sys
     from pathlib import Path
 
-    from rockref.report.views.gallery import write_pictures
+    sys.path.insert(0, str(app.srcdir))
+    from make_gallery import write_pictures
 
     Path(app.srcdir, "_lab").mkdir(exist_ok=True)  # sphinx asks for it before it builds anything
     app.connect("builder-inited", lambda app: write_pictures(Path(app.srcdir, "reference", "effects")))

@@ -1,15 +1,14 @@
 """The effects, one after another: what each says of itself, and a picture of the crv with and without it.
 
-The command `rockref effects`, and the page of the documentation, are made from here.
+The command `rockref effects`, and the page of the documentation (`docs/make_gallery.py`), are made from here.
 """
 
 from __future__ import annotations
 
 import inspect
 import math
-import sys
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +16,9 @@ import numpy as np
 
 from rockref import api
 from rockref.effects.base import HOOKS, POSITIVE, Effect, Quantity
-from rockref.effects.catalogue import OF_TOSSES, QUESTIONS, measured
+from rockref.effects.catalogue import OF_TOSSES, measured
 from rockref.model.channel import DEGREES
-from rockref.model.storage import write_bytes, write_text
+from rockref.model.storage import write_bytes
 from rockref.report.charts import style
 from rockref.report.charts.figures import new_figure, rendered
 
@@ -39,8 +38,6 @@ WHERE_POSES_ARE_READ = "measured poses, where they become poses of the body over
 TOSSES = "What else shows in measured tosses?"
 #: The effect that makes eight points of four: it is shown on, and needs, the four-point model.
 ON_FOUR_POINTS = "foot_defects"
-#: Small pictures in a row of the page's overview.
-ABREAST = 4
 #: Characters in a line of a picture's title; decided: what fits above it in letters of eight points.
 TITLE = 110
 #: Pictures last until a little after the second main impact [s], while one can still follow both curves.
@@ -175,73 +172,6 @@ def write_picture(
     write_bytes(path, rendered(picture(effect, duration, progress), path.suffix.lstrip(".").lower()))
 
 
-def page() -> str:
-    """Return the page of the documentation, in Markdown."""
-    parts = [
-        "# Effects",
-        "What may be added to the law. `rockref effects NAME` prints the same; `rockref simulate --effect WORDS` and",
-        "a model file use it. Pictures show the block of Table 3.1, without the effect in grey and with it, at its",
-        "typical size, in colour; on the right is the difference, with minus without, on a scale of its own. For",
-        "`foot_defects`, which makes eight points of four, grey is the four-point model. They are drawn when the site",
-        "is built (`make docs`).",
-        "",
-        "*Absent* is the value at which a parameter changes nothing; *typical* the size at which an effect is shown,",
-        "and at which a search begins; *plausible* the range outside which a value is used with a remark; beyond its",
-        "hard limits it is refused. *Acts at* names the methods of [an effect's class](../howto/own_effect.md).",
-    ]
-    parts += ["", *thumbnails([kind.id for answers in QUESTIONS.values() for kind in answers[1:]])]
-    for question, answers in QUESTIONS.items():
-        parts += ["", f"## {TITLES[question]}", "", f"The law: {answers[0].sentence}", "", f"$${answers[0].equation}$$"]
-        for kind in answers[1:]:
-            parts += ["", *section(kind), "", f"![crv with and without {kind.id}](effects/{kind.id}.png)"]
-    parts += ["", f"## {TOSSES}", "", "A block that is released stands on its feet, and a gyroscope sees no pose."]
-    for kind in OF_TOSSES.values():
-        parts += ["", *section(kind)]
-    return "\n".join(parts) + "\n"
-
-
-def thumbnails(ids: Sequence[str]) -> list[str]:
-    """Return the lines of a table of pictures, each a link to its effect, `ABREAST` in a row."""
-    cells = [f"[![{id}](effects/{id}.png)](#{id}) {id}" for id in ids] + [""] * (-len(ids) % ABREAST)
-    rows = ["| " + " | ".join(cells[k : k + ABREAST]) + " |" for k in range(0, len(cells), ABREAST)]
-    return ["| " * ABREAST + "|", "| --- " * ABREAST + "|", *rows]
-
-
-def section(kind: type[Effect]) -> list[str]:
-    """Return one effect of the page, as lines."""
-    about = card(kind)
-    lines = [f"### {kind.id}", "", kind.sentence, "", f"$${kind.equation}$$", "", about["form"], ""]
-    lines += ["| parameter | meaning | unit | absent | typical | plausible | sign; hard limits |", "| --- " * 7 + "|"]
-    for name, p in about["parameters"].items():
-        low, high = p["plausible"]
-        sizes = [value_text(p["absent"]), value_text(p["typical"]), f"{low:g} to {high:g}"]
-        cells = [f"`{name}`", p["meaning"], p["unit"], *sizes]
-        lines.append("| " + " | ".join([*cells, f"{p['sign_in_words']}; {p['allowed']}"]) + " |")
-    hooks = ", ".join(f"`{hook}`" for hook in about["acts_at"]) or WHERE_POSES_ARE_READ
-    lines += ["", f"- Acts at: {hooks}."]
-    lines += [f"- Most like it: [{kind.confounder}](#{kind.confounder}). What tells them apart: {kind.experiment}"]
-    lines += [f"- Source: {kind.source}."]
-    return [*lines, "", f"`{about['command']}`"]
-
-
 def value_text(value: float | str | None) -> str:
     """Return a value of a parameter as it is shown: six digits; None is the top of the block."""
     return "the top" if value is None else value if isinstance(value, str) else f"{value:g}"
-
-
-def write_pictures(folder: Path) -> None:
-    """Write the picture of every effect as id.png, where it is missing or older than the code that it shows."""
-    folder.mkdir(parents=True, exist_ok=True)
-    package = Path(__file__).parents[2]
-    shown = [*package.glob("model/*.py"), *package.glob("effects/**/*.py"), Path(__file__)]
-    changed = max(path.stat().st_mtime for path in shown)
-    for answers in QUESTIONS.values():
-        for kind in answers[1:]:
-            path = folder / f"{kind.id}.png"
-            if not path.exists() or path.stat().st_mtime < changed:
-                write_picture(kind.typical(), path)
-
-
-if __name__ == "__main__":
-    # The page of the documentation: python -m rockref.report.views.gallery docs/reference/effects_gallery.md
-    write_text(sys.argv[1], page())

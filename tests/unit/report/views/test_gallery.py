@@ -6,21 +6,23 @@ from pathlib import Path
 import numpy as np
 
 from rockref.effects.base import HOOKS, UNDO_HOOKS
-from rockref.effects.catalogue import EFFECTS, OF_TOSSES
+from rockref.effects.catalogue import EFFECTS, OF_TOSSES, QUESTIONS
 from rockref.report.views import gallery
+from tests.shipped import program
 
 DOCS = Path(__file__).resolve().parents[4] / "docs"
+MAKER = program("docs/make_gallery.py")
 
 
 def test_the_page_in_the_documentation_is_current():
-    """Made anew by `python -m rockref.report.views.gallery docs/reference/effects_gallery.md`."""
-    assert (DOCS / "reference/effects_gallery.md").read_text(encoding="utf-8") == gallery.page()
+    """Made anew by `python docs/make_gallery.py`."""
+    assert MAKER.PAGE.read_text(encoding="utf-8") == MAKER.page()
 
 
 def test_the_page_has_a_section_and_a_picture_for_each():
-    page = gallery.page()
+    page = MAKER.page()
     assert re.findall(r"^### (\w+)$", page, re.MULTILINE) == [
-        *(kind.id for answers in gallery.QUESTIONS.values() for kind in answers[1:]),
+        *(kind.id for answers in QUESTIONS.values() for kind in answers[1:]),
         *OF_TOSSES,
     ]
     for id in EFFECTS:
@@ -71,6 +73,6 @@ def test_words_are_what_the_command_line_reads():
 def test_pictures_are_drawn_once(tmp_path, monkeypatch):
     drawn = []
     monkeypatch.setattr(gallery, "write_picture", lambda effect, path: (drawn.append(effect.id), path.write_text("")))
-    gallery.write_pictures(tmp_path / "effects")
-    gallery.write_pictures(tmp_path / "effects")
+    MAKER.write_pictures(tmp_path / "effects")
+    MAKER.write_pictures(tmp_path / "effects")
     assert sorted(drawn) == sorted(EFFECTS)
