@@ -19,9 +19,7 @@ def compare(
     model: Annotated[
         list[str] | None,
         typer.Option(
-            "--model",
-            "-m",
-            help="baseline (the default), table_3_1, four_points or a model.toml; may be repeated.",
+            "--model", "-m", help="baseline (the default), table_3_1, four_points or a model.toml; may be repeated."
         ),
     ] = None,
     effect: OwnEffects = None,

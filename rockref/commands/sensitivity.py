@@ -19,8 +19,7 @@ def register(app: typer.Typer) -> None:
 
 def sensitivity(
     output: Annotated[
-        Path,
-        folder_option("--output", "-o", help="Folder for the figures and the result; made if it is not there."),
+        Path, folder_option("--output", "-o", help="Folder for the figures and the result; made if it is not there.")
     ] = Path("sensitivity"),
     model: Annotated[str, typer.Option("--model", "-m", help="table_3_1 or a model.toml.")] = "table_3_1",
     effect: OwnEffects = None,

@@ -115,11 +115,7 @@ def limited(t: np.ndarray, crv: np.ndarray, gyro: Gyro, effects: Iterable[Effect
 
 
 def record(
-    t: np.ndarray,
-    crv: np.ndarray,
-    gyro: Gyro,
-    rng: np.random.Generator | None = None,
-    effects: Iterable[Effect] = (),
+    t: np.ndarray, crv: np.ndarray, gyro: Gyro, rng: np.random.Generator | None = None, effects: Iterable[Effect] = ()
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return times (M,) s and rates (..., M, 3) rad/s as `gyro` would record the rates crv (..., N, 3) at t (N,) s.
 

@@ -206,10 +206,7 @@ def find_experiments(given: Path | None) -> Path:
 
 
 def tell(
-    folder: Path,
-    out: Path,
-    engine: str = "auto",
-    report: Callable[[StageReport], None] = lambda report: None,
+    folder: Path, out: Path, engine: str = "auto", report: Callable[[StageReport], None] = lambda report: None
 ) -> Story:
     """Compute the journey of one experiment, write page and figures into `out`. Raises InputError, NumericalError.
 

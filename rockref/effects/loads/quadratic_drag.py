@@ -49,7 +49,4 @@ class QuadraticDrag(Effect):
         if self.is_absent():
             return None
         omega = apply(Lambda, W)
-        return (
-            -self.c_v * np.sqrt(dot(v, v))[..., None] * v,
-            -self.c * np.sqrt(dot(omega, omega))[..., None] * omega,
-        )
+        return (-self.c_v * np.sqrt(dot(v, v))[..., None] * v, -self.c * np.sqrt(dot(omega, omega))[..., None] * omega)

@@ -34,11 +34,7 @@ class Check:
 
 #: The checks of what is left once faults of the logger are out, in the order in which they are made.
 CHECKS = (
-    Check(
-        release.check_length,
-        "length",
-        "time of the last sample beside that of the first impact; number of samples",
-    ),
+    Check(release.check_length, "length", "time of the last sample beside that of the first impact; number of samples"),
     Check(release.check_alive, "dead channel", "all values of a channel are equal"),
     Check(release.check_release, "start of time", "mean rates up to half of the first swing beside the largest"),
     Check(release.check_first_swing, "unit, axis, sign", "peak and angle of the first swing beside Housner's block"),

@@ -45,14 +45,7 @@ PRESETS = (
         ("acceleration x (m/s^2)", "acceleration y (m/s^2)", "acceleration z (m/s^2)"),
     ),
     Preset("Sensor Logger", ("seconds_elapsed",), ("x", "y", "z"), "rad_s", (1.0,)),
-    Preset(
-        "Xsens",
-        ("sampletimefine",),
-        ("gyr_x", "gyr_y", "gyr_z"),
-        None,
-        (1e-4, 1e-6),
-        ("acc_x", "acc_y", "acc_z"),
-    ),
+    Preset("Xsens", ("sampletimefine",), ("gyr_x", "gyr_y", "gyr_z"), None, (1e-4, 1e-6), ("acc_x", "acc_y", "acc_z")),
 )
 MPU_TAG = "a/g:"
 _AXES = ("x", "y", "z")

@@ -62,8 +62,7 @@ def import_contactnets(source: Path, folder: Path) -> tuple[int, int]:
     copies = sum(groups[n] != n for n in tables)
     write_bytes(folder / TABLES[0], gzip.compress(text.getvalue().encode(), mtime=0))
     write_text(
-        folder / "README.md",
-        README.format(tosses=len(tables), copies=copies, half=CUBE_WIDTH / 2, rate=FRAME_RATE),
+        folder / "README.md", README.format(tosses=len(tables), copies=copies, half=CUBE_WIDTH / 2, rate=FRAME_RATE)
     )
     return len(tables), copies
 

@@ -118,13 +118,7 @@ def _tilt(seen: np.ndarray, on: list[int]) -> list[str]:
     angle = pivot - (14.0, radius - 12.0)
     begin, bend, stop = (f"{x:.1f} {y:.1f}" for x, y in (first, (radius, radius), last))
     arc = f'<path {_LOOK["line"]} d="M{begin}A{bend} 0 0 1 {stop}"/>'
-    return [
-        _line(pivot, up, "hidden"),
-        arc,
-        _text(angle, "θ₀"),
-        swing,
-        head,
-    ]
+    return [_line(pivot, up, "hidden"), arc, _text(angle, "θ₀"), swing, head]
 
 
 def _feet() -> str:

@@ -24,16 +24,7 @@ ACCELERATION = {
 #: A number of Fortran or C, also where the next one touches it at its sign.
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 #: Other words for one letter of the compass; a pair such as WE names an axis, positive towards north or east.
-_WORDS = {
-    "NORTH": "N",
-    "NS": "N",
-    "SN": "N",
-    "SOUTH": "S",
-    "EAST": "E",
-    "EW": "E",
-    "WE": "E",
-    "WEST": "W",
-}
+_WORDS = {"NORTH": "N", "NS": "N", "SN": "N", "SOUTH": "S", "EAST": "E", "EW": "E", "WE": "E", "WEST": "W"}
 Direction = float | str | None
 
 

@@ -9,13 +9,7 @@ import re
 
 from rockref.measure.records.notice import Notice, shown
 from rockref.model.errors import InputError
-from rockref.shake.records.channel import (
-    STANDARD_GRAVITY,
-    Channel,
-    Direction,
-    columns,
-    positive_step,
-)
+from rockref.shake.records.channel import STANDARD_GRAVITY, Channel, Direction, columns, positive_step
 
 _FORMAT = re.compile(r"Format\s+v\s*\d", re.IGNORECASE)
 _INTEGERS = re.compile(r"^\s*(\d+)\s+Integer-header values follow.*Format=\s*\((\d+)I(\d+)\)", re.IGNORECASE)

@@ -8,14 +8,7 @@ from __future__ import annotations
 import math
 import re
 
-from rockref.shake.records.channel import (
-    Channel,
-    Direction,
-    acceleration_factor,
-    columns,
-    direction_of,
-    positive_step,
-)
+from rockref.shake.records.channel import Channel, Direction, acceleration_factor, columns, direction_of, positive_step
 
 # An earlier line of the header says "points of" too, without the step.
 _DATA = re.compile(

@@ -81,10 +81,7 @@ def test_report_is_a_page_and_figures(capsys, short, tmp_path):
     assert all(f"wrote {folder / name}" in out for name in names)
 
 
-@pytest.mark.parametrize(
-    "extra, said",
-    [(("--model", "nowhere.toml"), "E-FILE"), (("--engine", "abacus"), "E-ENGINE")],
-)
+@pytest.mark.parametrize("extra, said", [(("--model", "nowhere.toml"), "E-FILE"), (("--engine", "abacus"), "E-ENGINE")])
 def test_bad_options_end_with_2(capsys, short, tmp_path, extra, said):
     code, out, err = run(capsys, "compare", short, *extra, "--report", tmp_path / "r")
     assert (code, out) == (2, "") and said in err

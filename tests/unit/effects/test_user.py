@@ -125,10 +125,7 @@ MISTAKES = {
         "    def body_wrench(self, problem, c, x, Lambda, v, W, m):\n        return 'strong', np.zeros_like(x)\n",
         "force is str",
     ),
-    "ends the program": (
-        "    def sensor(self, t, crv):\n        raise SystemExit(3)\n",
-        "SystemExit: 3",
-    ),
+    "ends the program": ("    def sensor(self, t, crv):\n        raise SystemExit(3)\n", "SystemExit: 3"),
     "no hook": ("", "changes nothing"),
     "wrong normal force": (
         "    def normal_force(self, F, k, points, m):\n        return F.sum(axis=-1)\n",

@@ -20,10 +20,7 @@ def test_round_feet_as_lammps_has_them():
     world.props[:, P["radius"]] = 5e-4
     rates = simulate(world, 0.117, seconds=0.41)
     # LAMMPS 22Jul2025 (rigid body on granular walls, 1e-6 s), same block, spheres of 0.5 mm, at 0.2 and 0.4 s.
-    lammps = {
-        0.2: (0.133580060, 7.20434467e-06, -3.92911758e-05),
-        0.4: (0.388115383, 3.21554417e-06, -1.16127204e-04),
-    }
+    lammps = {0.2: (0.133580060, 7.20434467e-06, -3.92911758e-05), 0.4: (0.388115383, 3.21554417e-06, -1.16127204e-04)}
     for t, expected in lammps.items():
         # Both schemes are of second order: 5e-6 s against 1e-6 s, 6e-7 seen.
         assert rates[round(t * recorder.FINE)] == pytest.approx(expected, abs=2e-6 * expected[0])

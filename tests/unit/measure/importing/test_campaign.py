@@ -34,12 +34,7 @@ def imported(measured, tmp_path_factory):
     return made
 
 
-UNITS = {
-    "xsens_dot": "deg_s",
-    "dated": "deg_s",
-    "arduino": "131 counts a deg/s",
-    "mpu_raw": "65.5 counts a deg/s",
-}
+UNITS = {"xsens_dot": "deg_s", "dated": "deg_s", "arduino": "131 counts a deg/s", "mpu_raw": "65.5 counts a deg/s"}
 
 
 @pytest.mark.parametrize("layout", foreign.LAYOUTS)

@@ -44,13 +44,7 @@ def changed(row, value):
         (CLEAN / 2.0, 1000.0, "E-RATE", "t_s", "2000 Hz"),
         (CLEAN * 1000.0, 1000.0, "E-RATE", "t_s", "1 Hz"),
         (CLEAN * 1.03, 1000.0, "E-RATE", "t_s", "not at 1000 Hz"),
-        (
-            np.delete(CLEAN, slice(300, 304)),
-            1000.0,
-            "E-GAP",
-            "line 302",
-            "4 samples are missing between 0.299",
-        ),
+        (np.delete(CLEAN, slice(300, 304)), 1000.0, "E-GAP", "line 302", "4 samples are missing between 0.299"),
         (
             np.delete(CLEAN, np.arange(5, 995, 50) + np.arange(20) ** 2 % 17),
             1000.0,
@@ -72,12 +66,7 @@ def test_faulty_time_is_refused_with_its_line(t, rate, code, where, words):
 
 
 @pytest.mark.parametrize(
-    ("t", "code"),
-    [
-        (CLEAN * 1.005, "W-RATE"),
-        (CLEAN + 0.01, "W-START"),
-        (changed(500, 0.4993), "W-JITTER"),
-    ],
+    ("t", "code"), [(CLEAN * 1.005, "W-RATE"), (CLEAN + 0.01, "W-START"), (changed(500, 0.4993), "W-JITTER")]
 )
 def test_what_can_be_worked_with_is_said(t, code):
     got, _, filled, notices = regular_samples(table(t), 1000.0)

@@ -5,10 +5,7 @@ import pytest
 from rockref.model.errors import InputError
 from rockref.shake.records.door import read, read_record
 
-VALUES = (
-    "  1.171726-12.626200 -7.202959  8.110211  8.140768-151.94748123.4567891234.56789",
-    "  2.500000",
-)
+VALUES = ("  1.171726-12.626200 -7.202959  8.110211  8.140768-151.94748123.4567891234.56789", "  2.500000")
 ANNOUNCED = "     9 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)"
 
 
