@@ -15,10 +15,8 @@ def physics(
 ) -> None:
     """Judge physics engines by what every rigid body on a plate has to do; exit code 1 where one falls short.
 
-    Raises
-    ------
-    InputError
-        E-ARGUMENT without an engine; E-BACKEND for an unknown one; E-ENGINE for one that is not installed.
+    Raises InputError: E-ARGUMENT without an engine; E-BACKEND for an unknown one; E-ENGINE for one that is not
+    installed.
     """
     from rockref.conformance.physics.adapter import KNOWN, load
     from rockref.conformance.physics.in_words import text

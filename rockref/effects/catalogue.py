@@ -136,10 +136,7 @@ def named(words: str, where: str = "effect") -> type[Effect]:
     For words of the user's alone, from the command line or an argument; what data say goes to `find`. A user's own is
     known by its id from then on, in this process, and model files may name its file.
 
-    Raises
-    ------
-    InputError
-        E-EFFECT, E-FILE: nobody knows it (with the nearest name), or the class cannot be used.
+    Raises InputError (E-EFFECT, E-FILE): nobody knows it (with the nearest name), or the class cannot be used.
     """
     if not names_file(words):
         return find(words, where)
@@ -200,10 +197,7 @@ def parse(text: str, where: str = "--effect") -> Effect:
 
     Without a parameter that brings it in, it has its typical size.
 
-    Raises
-    ------
-    InputError
-        E-EFFECT, E-KEY, E-TYPE, E-RANGE: what cannot be read, with the nearest name or the range.
+    Raises InputError (E-EFFECT, E-KEY, E-TYPE, E-RANGE): what cannot be read, with the nearest name or the range.
     """
     head, marker, rest = text.partition(".py:")
     name, _, words = rest.partition(":") if marker else text.partition(":")
@@ -237,11 +231,8 @@ def from_table(where: str, table: Any, beside: Path | None = None) -> tuple[Effe
     own effect has `file = "my_effect.py:Class"` in its sub-table, looked for in the folder `beside`, which is that of
     the model file, and then in the current one. Such a file is run only if the user has `named` it.
 
-    Raises
-    ------
-    InputError
-        E-TRUST, for a file that the user has not named; E-EFFECT, E-FILE, E-KEY, E-TYPE, E-RANGE: which entry, what is
-        wrong, the nearest name or the range.
+    Raises InputError: E-TRUST, for a file that the user has not named; E-EFFECT, E-FILE, E-KEY, E-TYPE, E-RANGE: which
+    entry, what is wrong, the nearest name or the range.
     """
     if not isinstance(table, dict):
         raise InputError("E-TYPE", f"{where}: effects", "is not a table", "Write [effects.quadratic_drag] and c = 0.4.")

@@ -32,10 +32,7 @@ def sample_problem() -> Problem:
 def probe(effect: Effect, spec: str) -> None:
     """Try every hook on one run and on a batch of two; the hooks are guarded, and look their results over themselves.
 
-    Raises
-    ------
-    InputError
-        E-EFFECT: which hook, the shape or the number that is wrong, and what is expected.
+    Raises InputError (E-EFFECT): which hook, the shape or the number that is wrong, and what is expected.
     """
     single = sample_problem()
     for problem in (single, as_arrays(stack([single, single]))):
@@ -75,10 +72,7 @@ def probe_absent(effect: Effect, spec: str) -> None:
 
     A hook that cannot be computed at the absent value, such as 0/0, is passed over: it is never called.
 
-    Raises
-    ------
-    InputError
-        E-EFFECT: which hook changes something.
+    Raises InputError (E-EFFECT): which hook changes something.
     """
     law = Effect()
     for name, arguments in absent_arguments(effect):

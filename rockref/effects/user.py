@@ -30,11 +30,8 @@ def load_user(spec: str, taken: Container[str] = ()) -> type[Effect]:
 
     taken : ids that it must not have.
 
-    Raises
-    ------
-    InputError
-        E-FILE, where the file cannot be run; E-EFFECT, where the class is not an effect that can be used: what is
-        wrong and what to write.
+    Raises InputError: E-FILE, where the file cannot be run; E-EFFECT, where the class is not an effect that can be
+    used: what is wrong and what to write.
     """
     path, name = file_and_class(spec)
     module = run_file(Path(path))

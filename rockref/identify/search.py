@@ -95,10 +95,7 @@ def search(
     identity : what the search is (`fingerprint`);  checkpoint : JSON file written whole after every generation; with
     `resume` the search goes on from it, to the same end as without interruption, bit for bit.
 
-    Raises
-    ------
-    InputError
-        E-RESUME, where the checkpoint belongs to another search; E-FILE, where it cannot be read.
+    Raises InputError: E-RESUME, where the checkpoint belongs to another search; E-FILE, where it cannot be read.
     """
     identity = {
         **(identity or {}),

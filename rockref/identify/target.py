@@ -50,10 +50,7 @@ class Target:
 def target(name: str, t: np.ndarray, crv: np.ndarray, gyro: Gyro, tilt: float, turned: bool = False) -> Target:
     """Return a target from a record t (N,) [s], crv (N, 3) [rad/s].
 
-    Raises
-    ------
-    InputError
-        E-SIGNAL; E-IMPACTS where the record has fewer than two main impacts.
+    Raises InputError: E-SIGNAL; E-IMPACTS where the record has fewer than two main impacts.
     """
     found = features(t, crv)
     if len(found.impacts) < 2:
@@ -73,10 +70,7 @@ def seen_until(seen: Target, after: float) -> Target:
 def targets_of(experiment: Experiment, runs: tuple[Run, ...] | None = None) -> tuple[Target, ...]:
     """Return the fit runs of an experiment (or `runs`) as targets.
 
-    Raises
-    ------
-    InputError
-        E-KIND, where the experiment has no releases or no gyroscope; E-IMPACTS.
+    Raises InputError: E-KIND, where the experiment has no releases or no gyroscope; E-IMPACTS.
     """
     if experiment.kind != "release" or experiment.gyro is None:
         what = f"is a {experiment.kind} experiment" if experiment.kind != "release" else "has no [gyro]"

@@ -141,10 +141,8 @@ def campaign(
     """Open a campaign on `workers` local processes (1: in this one; None: one a core), on the Dask cluster at address
     `dask`, or on an executor of the caller's, which is left open.
 
-    Raises
-    ------
-    InputError
-        E-WORKERS, for a number below one; E-DASK, where the extra is missing or the cluster does not answer.
+    Raises InputError: E-WORKERS, for a number below one; E-DASK, where the extra is missing or the cluster does not
+    answer.
     """
     if executor is not None:
         yield Campaign(lambda: executor, workers or os.cpu_count() or 1)

@@ -77,10 +77,8 @@ def values_of(effects: tuple[Effect, ...]) -> list[float]:
 def model_row(model: Model) -> list[float]:
     """Return the numbers of a model in the order of `MODEL`.
 
-    Raises
-    ------
-    InputError
-        E-LAB, for a model whose points are not made of the twelve parameters: the page has no slider for them.
+    Raises InputError: E-LAB, for a model whose points are not made of the twelve parameters: the page has no slider for
+    them.
     """
     if model.points == "custom" or model.properties is not None:
         what = "states its contact points one by one, and the lab moves the twelve parameters"

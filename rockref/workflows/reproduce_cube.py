@@ -28,10 +28,8 @@ def reproduce_cube(folder: Path, data: Path | None, quick: bool, say: Callable[[
 
     quick : one candidate, next to no iterations.
 
-    Raises
-    ------
-    InputError
-        E-FOLDER, where no tosses are named; E-WRITE, before the work, for a folder that cannot be written to; E-BUSY.
+    Raises InputError: E-FOLDER, where no tosses are named; E-WRITE, before the work, for a folder that cannot be
+    written to; E-BUSY.
     """
     path = data or named_folder()
     usable_folder(folder)

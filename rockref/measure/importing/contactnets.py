@@ -37,11 +37,8 @@ def import_contactnets(source: Path, folder: Path) -> tuple[int, int]:
 
     source : the clone, or the folder of its ``.pt`` files.
 
-    Raises
-    ------
-    InputError
-        E-FOLDER, where there are no such files; E-FILE, E-SHAPE, for one that is no toss; E-WRITE, for a folder that
-        holds files of others: a ``README.md`` that is there stays as it is.
+    Raises InputError: E-FOLDER, where there are no such files; E-FILE, E-SHAPE, for one that is no toss; E-WRITE, for a
+    folder that holds files of others: a ``README.md`` that is there stays as it is.
     """
     own_folder(folder, README.splitlines()[0], lambda name: name == TABLES[0])
     where = source / INSIDE if (source / INSIDE).is_dir() else source

@@ -45,11 +45,8 @@ def import_planardrops(source: Path, folder: Path) -> tuple[int, int]:
 
     source : the clone, or the folder of its ``traj_*.csv`` files.
 
-    Raises
-    ------
-    InputError
-        E-FOLDER, where there are no such files; E-FILE, E-SHAPE, for one that is no drop; E-WRITE, for a folder that
-        holds files of others.
+    Raises InputError: E-FOLDER, where there are no such files; E-FILE, E-SHAPE, for one that is no drop; E-WRITE, for a
+    folder that holds files of others.
     """
     own_folder(folder, README.splitlines()[0], lambda name: name == "experiment.toml" or name.startswith("drop"))
     where = source / INSIDE if (source / INSIDE).is_dir() else source

@@ -71,10 +71,7 @@ def read_pickle(stream: BinaryIO) -> Any:
 
     Nothing is unpickled: names stay names, and of these only a tensor's are known.
 
-    Raises
-    ------
-    ValueError
-        For any other name or opcode, and for a pickle that is longer than a tensor's.
+    Raises ValueError for any other name or opcode, and for a pickle that is longer than a tensor's.
     """
     stack: list[Any] = []
     memo: dict[Any, Any] = {}
@@ -151,10 +148,8 @@ def _fill(name: str, stack: list[Any]) -> None:
 def read_tensor(path: Path) -> np.ndarray:
     """Return the tensor in a ``.pt`` file, float64.
 
-    Raises
-    ------
-    InputError
-        E-FILE, where it is not such a file, holds more than a tensor, or anything that would have to be run.
+    Raises InputError: E-FILE, where it is not such a file, holds more than a tensor, or anything that would have to be
+    run.
     """
     try:
         raw = read_bytes(path, LARGEST)

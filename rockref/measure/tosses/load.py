@@ -80,12 +80,8 @@ def load_tosses(path: Path | str, split: str = "rule") -> Tosses:
     split : "rule" (see `held_out`; an experiment.toml has its own marks), "all_fit", or "all_holdout" (a folder that
         only judges).
 
-    Raises
-    ------
-    InputError
-        E-UNIT, E-AXES, E-POSE, E-BOARD (see `check_axes`),
-        E-HEADER, E-COLUMN-MISSING, E-COLUMN-TWICE, E-FIELDS, E-NUMBER, E-POSE, E-RATE, E-GAP, E-SHORT, E-SIZE,
-        E-CHOICE; those of `read_text` and of `load_experiment`.
+    Raises InputError: E-UNIT, E-AXES, E-POSE, E-BOARD (see `check_axes`), E-HEADER, E-COLUMN-MISSING, E-COLUMN-TWICE,
+    E-FIELDS, E-NUMBER, E-POSE, E-RATE, E-GAP, E-SHORT, E-SIZE, E-CHOICE; those of `read_text` and of `load_experiment`.
     """
     path = Path(path)
     if split not in ("rule", "all_fit", "all_holdout"):
