@@ -228,6 +228,13 @@ def as_float(value: Any) -> Any:
         return math.inf if value > 0 else -math.inf
 
 
+def in_json(value: float | None) -> float | str | None:
+    """Return a number as JSON holds it: an infinite one as a word, what is open as null."""
+    if value is None or math.isnan(value):
+        return None
+    return value if math.isfinite(value) else ("inf" if value > 0 else "-inf")
+
+
 def implausible(effect: Effect) -> list[tuple[str, str, str]]:
     """Return parameters that lie outside what is plausible: (name, what it is, the range), in words.
 

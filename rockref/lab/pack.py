@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
+from rockref.effects.base import in_json
 from rockref.effects.catalogue import EFFECTS, QUESTIONS
 from rockref.lab import golden, layout
 from rockref.lab.wasm import binary
@@ -43,13 +44,6 @@ STRETCHES = ("before", "between", "after")
 LARGEST = 32000
 
 
-def number(value: float | None) -> float | str | None:
-    """Return a number as JSON holds it: an infinite one as a word, what is open as null."""
-    if value is None or math.isnan(value):
-        return None
-    return value if math.isfinite(value) else ("inf" if value > 0 else "-inf")
-
-
 def effects() -> list[dict[str, Any]]:
     """Return all effects of the catalogue that the page can switch on, with their quantities, question by question."""
     found = []
@@ -57,7 +51,7 @@ def effects() -> list[dict[str, Any]]:
         for kind in answers[1:]:
             quantities: list[dict[str, Any]] = [
                 {"name": name, "unit": q.unit, "sign": q.sign, "meaning": q.meaning}
-                | {key: number(getattr(q, key)) for key in ("absent", "low", "high", "typical", "least", "most")}
+                | {key: in_json(getattr(q, key)) for key in ("absent", "low", "high", "typical", "least", "most")}
                 for name, q in kind.quantities.items()
             ]
             facts = {"id": kind.id, "question": question, "sentence": kind.sentence, "experiment": kind.experiment}
@@ -125,7 +119,7 @@ def spread(run: Run, impacts: np.ndarray, repeats: Repeatability | None) -> list
     for mask in inside:
         values = known[mask] * DEGREES
         values = values[np.isfinite(values[:, 0])]
-        rows.append([number(float(r)) for r in np.sqrt(np.mean(values**2, axis=0))] if len(values) else [None] * 3)
+        rows.append([in_json(float(r)) for r in np.sqrt(np.mean(values**2, axis=0))] if len(values) else [None] * 3)
     return rows  # type: ignore[return-value]
 
 
@@ -156,7 +150,7 @@ def experiment(e: Experiment) -> dict[str, Any]:
 def start(model: Model) -> dict[str, Any]:
     """Return the model at which the page begins: its numbers by name, and its effects. Raises InputError E-LAB."""
     row = dict(zip(layout.MODEL, layout.model_row(model), strict=True))
-    on = {e.id: {k: number(v) for k, v in e.values().items()} for e in model.active_effects()}
+    on = {e.id: {k: in_json(v) for k, v in e.values().items()} for e in model.active_effects()}
     if unknown := set(on) - set(EFFECTS):
         what = f"has {', '.join(sorted(unknown))}, which the page does not have"
         raise InputError("E-LAB", "the model", what, "Take it out: the lab has the effects of the catalogue.")

@@ -173,20 +173,3 @@ function smallTurn([x, y, z]) {
 }
 
 const times = (A, B) => A.map((row) => B[0].map((_, j) => row[0] * B[0][j] + row[1] * B[1][j] + row[2] * B[2][j]));
-
-// Rx(tilt) Ry(roll) Rz(turn)
-function rotationOf(tilt, roll, turn) {
-  const [ca, sa, cb, sb, cc, sc] = [
-    Math.cos(tilt),
-    Math.sin(tilt),
-    Math.cos(roll),
-    Math.sin(roll),
-    Math.cos(turn),
-    Math.sin(turn),
-  ];
-  return [
-    [cb * cc, -cb * sc, sb],
-    [ca * sc + sa * sb * cc, ca * cc - sa * sb * sc, -sa * cb],
-    [sa * sc - ca * sb * cc, sa * cc + ca * sb * sc, ca * cb],
-  ];
-}

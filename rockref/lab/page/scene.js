@@ -14,22 +14,6 @@ const colourOf = (name) =>
   getComputedStyle(document.documentElement)
     .getPropertyValue("--" + name)
     .trim();
-const turnedBy = (R, p) => R.map((r) => r[0] * p[0] + r[1] * p[1] + r[2] * p[2]);
-
-// The block stands on its lowest points, and these stay where they are on the plate.
-function placed(R, points, standing) {
-  const at = points.map((p) => turnedBy(R, p));
-  const low = Math.min(...at.map((p) => p[2]));
-  const shift = [0, 0, -low];
-  let sum = 0;
-  at.forEach((p, i) => {
-    const w = Math.exp(-(p[2] - low) / 0.002);
-    sum += w;
-    shift[0] += w * (standing[i][0] - p[0]);
-    shift[1] += w * (standing[i][1] - p[1]);
-  });
-  return [shift[0] / sum, shift[1] / sum, shift[2]];
-}
 
 // Places of the points, as the model's sides and heights say.
 function pointsOf(n) {
@@ -63,12 +47,6 @@ function makeScene(canvas, view) {
     };
   }
 
-  function path(c, corners) {
-    c.beginPath();
-    corners.forEach((p, i) => (i ? c.lineTo(p[0], p[1]) : c.moveTo(p[0], p[1])));
-    c.closePath();
-  }
-
   function drawPlate(c, at, width) {
     const reach = 2.1 * width;
     const disc = Array.from({ length: 60 }, (_, k) =>
@@ -78,7 +56,7 @@ function makeScene(canvas, view) {
     const glow = c.createRadialGradient(middle[0], middle[1], 0, middle[0], middle[1], reach * middle[3]);
     glow.addColorStop(0, colourOf("plate"));
     glow.addColorStop(1, colourOf("card"));
-    path(c, disc);
+    outline(c, disc);
     c.fillStyle = glow;
     c.fill();
     c.strokeStyle = colourOf("line");
@@ -105,48 +83,16 @@ function makeScene(canvas, view) {
     }
   }
 
-  function boxOf(at, R, shift, box) {
-    const [w, d, h] = box.map((v) => v / 2);
-    const corner = (x, y, z) => {
-      const p = turnedBy(R, [x * w, y * d, z * h]);
-      return at([p[0] + shift[0], p[1] + shift[1], p[2] + shift[2]]);
-    };
-    const faces = [];
-    for (let axis = 0; axis < 3; axis++) {
-      for (const side of [-1, 1]) {
-        const loop = [
-          [-1, -1],
-          [1, -1],
-          [1, 1],
-          [-1, 1],
-        ].map(([a, b]) => {
-          const v = [0, 0, 0];
-          v[axis] = side;
-          v[(axis + 1) % 3] = a;
-          v[(axis + 2) % 3] = b;
-          return corner(v[0], v[1], v[2]);
-        });
-        faces.push({ loop, axis, side, depth: loop.reduce((s, p) => s + p[2], 0) });
-      }
-    }
-    return faces.sort((a, b) => a.depth - b.depth);
-  }
-
   function drawShadow(c, at, R, shift, box) {
     // The light comes from above, a little from the left and behind.
-    const cast = [
-      [-1, -1],
-      [1, -1],
-      [1, 1],
-      [-1, 1],
-    ].flatMap(([a, b]) =>
+    const cast = SQUARE.flatMap(([a, b]) =>
       [-1, 1].map((z) => {
         const p = turnedBy(R, [(a * box[0]) / 2, (b * box[1]) / 2, (z * box[2]) / 2]);
         const height = p[2] + shift[2];
         return at([p[0] + shift[0] + 0.34 * height, p[1] + shift[1] + 0.28 * height, 0]);
       }),
     );
-    path(c, hull(cast));
+    outline(c, hull(cast));
     c.fillStyle = colourOf("shadow");
     c.fill();
   }
@@ -159,7 +105,7 @@ function makeScene(canvas, view) {
       const shade = c.createLinearGradient(0, Math.min(...ys), 0, Math.max(...ys));
       shade.addColorStop(0, shades[f.axis]);
       shade.addColorStop(1, f.axis === 2 ? shades[2] : colourOf("face-low"));
-      path(c, f.loop);
+      outline(c, f.loop);
       c.fillStyle = shade;
       c.fill();
       c.strokeStyle = colourOf("edge");
@@ -173,7 +119,7 @@ function makeScene(canvas, view) {
     c.strokeStyle = colourOf("measured");
     c.lineWidth = 1.4;
     faces.slice(3).forEach((f) => {
-      path(c, f.loop);
+      outline(c, f.loop);
       c.stroke();
     });
     c.setLineDash([]);
@@ -216,7 +162,7 @@ function makeScene(canvas, view) {
     const [cs, sn] = [Math.cos(spin), Math.sin(spin)];
     const place = (x, y) => [area.x + scale * (cs * x - sn * y), area.y - scale * (sn * x + cs * y)];
     const [w, d] = [data.box[0] / 2, data.box[1] / 2];
-    path(c, [place(-w, -d), place(w, -d), place(w, d), place(-w, d)]);
+    outline(c, [place(-w, -d), place(w, -d), place(w, d), place(-w, d)]);
     c.fillStyle = colourOf("face-z");
     c.fill();
     c.strokeStyle = colourOf("edge");
@@ -238,19 +184,6 @@ function makeScene(canvas, view) {
     c.fillText("base from above", area.x, area.y + 0.5 * area.size + 14);
   }
 
-  function fitCanvas() {
-    const [width, height] = [canvas.clientWidth || 320, canvas.clientHeight || 360];
-    const dense = window.devicePixelRatio || 1;
-    if (canvas.width !== Math.round(width * dense) || canvas.height !== Math.round(height * dense)) {
-      canvas.width = Math.round(width * dense);
-      canvas.height = Math.round(height * dense);
-    }
-    const c = canvas.getContext("2d");
-    c.setTransform(dense, 0, 0, dense, 0, 0);
-    c.clearRect(0, 0, width, height);
-    return [c, width, height];
-  }
-
   function exaggerated(angles, k) {
     const [tilt, roll, turn] = [angles[3 * k], angles[3 * k + 1], angles[3 * k + 2]];
     let off = turn - data.spin;
@@ -259,7 +192,8 @@ function makeScene(canvas, view) {
   }
 
   function draw(frame) {
-    const [c, width, height] = fitCanvas();
+    const [width, height] = [canvas.clientWidth || 320, canvas.clientHeight || 360];
+    const c = cleared(canvas, width, height);
     if (!data) return;
     const k = Math.min(Math.max(0, Math.floor(frame)), data.frames - 1);
     const at = project(width, height, data.box[2] * 1.12);
@@ -269,10 +203,10 @@ function makeScene(canvas, view) {
     const shift = placed(R, data.points, standing);
     drawPlate(c, at, data.box[0]);
     drawShadow(c, at, R, shift, data.box);
-    drawBlock(c, boxOf(at, R, shift, data.box));
+    drawBlock(c, facesOf(at, R, shift, data.box));
     if (data.ghost && 3 * k + 2 < data.ghost.length && view.ghost) {
       const G = exaggerated(data.ghost, k);
-      drawGhost(c, boxOf(at, G, placed(G, data.points, standing), data.box));
+      drawGhost(c, facesOf(at, G, placed(G, data.points, standing), data.box));
     }
     data.points.slice(0, data.n).forEach((p, i) => {
       const glow = glowOf(k, i);

@@ -12,7 +12,6 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -20,11 +19,10 @@ from rockref.model.errors import InputError
 from rockref.model.storage import write_bytes
 from rockref.report.charts.equation import equation_svg
 from rockref.report.html.curves import Curves
+from rockref.report.html.inline import MAX_BYTES, as_json, asset, plots, vendored
 from rockref.report.html.player import Player
+from rockref.report.output import made_folder
 from rockref.report.tables.table import Table
-
-#: decided: what every browser opens at once and every mailbox takes.
-MAX_BYTES = 2_000_000
 
 
 @dataclass
@@ -136,7 +134,7 @@ class Page:
         import jinja2
 
         environment = jinja2.Environment(
-            loader=jinja2.FunctionLoader(_asset), autoescape=True, trim_blocks=True, lstrip_blocks=True
+            loader=jinja2.FunctionLoader(asset), autoescape=True, trim_blocks=True, lstrip_blocks=True
         )
         kinds = {kind for section in self.sections for kind, _ in section.blocks}
         cards = [self.card, *(b for section in self.sections for kind, b in section.blocks if kind == "card")]
@@ -144,9 +142,9 @@ class Page:
             kinds.add("trial")
         return environment.get_template("page.html.j2").render(
             page=self,
-            style=(_vendored("uPlot.min.css") if kinds & {"curves", "trial"} else "") + _asset("style.css"),
+            style=(vendored("uPlot.min.css") if kinds & {"curves", "trial"} else "") + asset("style.css"),
             scripts=_scripts(kinds),
-            data={name: _json(value) for name, value in self._data.items()},
+            data={name: as_json(value) for name, value in self._data.items()},
         )
 
     def size(self) -> int:
@@ -165,32 +163,15 @@ class Page:
         write_bytes(path, data)
         return Path(path)
 
-
-def _asset(name: str) -> str:
-    return (resources.files("rockref.report.html") / "assets" / name).read_text(encoding="utf-8")
-
-
-def _vendored(name: str) -> str:
-    return (resources.files("rockref.report.html") / "vendor" / name).read_text(encoding="utf-8")
+    def write_into(self, folder: Path) -> Path:
+        """Write the page as ``index.html`` into a folder, which is made if it is not there. Raises as `write`."""
+        return self.write(made_folder(folder) / "index.html")
 
 
 def _scripts(kinds: set[str]) -> list[str]:
     if not kinds & {"curves", "player", "trial"}:
         return []
     parts = ["packed.js"]
-    uplot = []
-    if kinds & {"curves", "trial"}:
-        # The licence travels with the code.
-        uplot = [f"/*\n{_vendored('uPlot.LICENSE')}*/\n{_vendored('uPlot.iife.min.js')}"]
-    if "trial" in kinds:
-        parts.append("card.js")
-    if "curves" in kinds:
-        parts.append("curves.js")
-    if "player" in kinds:
-        parts.append("player.js")
-    return [*uplot, *map(_asset, parts)]
-
-
-def _json(value: Any) -> str:
-    """Return JSON that cannot end the script element that holds it."""
-    return json.dumps(value, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    for kind, names in (("trial", ["card.js"]), ("curves", ["curves.js"]), ("player", ["block.js", "player.js"])):
+        parts += names if kind in kinds else []
+    return [*([plots()] if kinds & {"curves", "trial"} else []), *map(asset, parts)]

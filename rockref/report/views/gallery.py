@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from rockref import api
-from rockref.effects.base import HOOKS, POSITIVE, Effect, Quantity
+from rockref.effects.base import HOOKS, POSITIVE, Effect, Quantity, in_json
 from rockref.effects.catalogue import OF_TOSSES, measured
 from rockref.model.channel import DEGREES
 from rockref.model.storage import write_bytes
@@ -55,9 +55,9 @@ def card(kind: type[Effect]) -> dict[str, Any]:
         name: {
             "meaning": q.meaning,
             "unit": q.unit,
-            "absent": number(q.absent),
-            "typical": number(q.typical),
-            "plausible": [number(q.low), number(q.high)],
+            "absent": in_json(q.absent),
+            "typical": in_json(q.typical),
+            "plausible": [in_json(q.low), in_json(q.high)],
             "sign": q.sign,
             "sign_in_words": sign_in_words(kind, name),
             "allowed": allowed(q),
@@ -110,11 +110,6 @@ def command(effect: Effect) -> str:
         return f"rockref fit FOLDER_OF_TOSSES --effect {effect.id}"
     model = "four_points " if effect.id == ON_FOUR_POINTS else ""
     return f"rockref simulate {model}--effect {words(effect)}"
-
-
-def number(value: float | None) -> float | str | None:
-    """Return a number as JSON can hold it."""
-    return "inf" if value is not None and math.isinf(value) else value
 
 
 def words(effect: Effect) -> str:

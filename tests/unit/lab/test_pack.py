@@ -9,11 +9,11 @@ import rockref
 from rockref.api import Model
 from rockref.effects.catalogue import EFFECTS, parse
 from rockref.lab import layout, pack
-from rockref.lab.page import as_json
 from rockref.measure import load_experiment
 from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 from rockref.report.html.encoding import unpacked
+from rockref.report.html.inline import as_json
 
 EXPERIMENT = Path(__file__).resolve().parents[3] / "data/experiments/mystery-04"
 

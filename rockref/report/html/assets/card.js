@@ -1,39 +1,16 @@
 "use strict";
 // A run measured, before and with an effect: a switch, and a slider of its size through precomputed curves.
 (function () {
-  const IMPACT = "#b42318";
-
-  function marks(u, data) {
-    const c = u.ctx;
-    c.save();
-    c.setLineDash([]);
-    c.strokeStyle = IMPACT;
-    c.globalAlpha = 0.6;
-    for (const mark of data.marks) {
-      if (mark < u.scales.x.min || mark > u.scales.x.max) continue;
-      const at = Math.round(u.valToPos(mark, "x", true));
-      c.beginPath();
-      c.moveTo(at, u.bbox.top);
-      c.lineTo(at, u.bbox.top + u.bbox.height);
-      c.stroke();
-    }
-    c.restore();
-  }
-
   function options(data, width, after) {
-    const line = (name, colour, dash, thick) => ({
-      label: name, stroke: colour, dash: dash, width: thick, points: { show: false },
-      value: (u, v) => (v === null || v === undefined ? "" : v.toFixed(2)),
-    });
-    const series = [{ label: "t", value: (u, v) => (v === null ? "" : v.toFixed(4) + " s") }];
-    series.push(line("measured", data.colours[0], undefined, 2.2), line("before", data.colours[1], [6, 3], 1.3));
-    if (after) series.push(line(after, data.colours[2], undefined, 1.4));
+    const series = [abscissaOf("time (s)"), lineOf("measured", data.colours[0], undefined, 2.2)];
+    series.push(lineOf("before", data.colours[1], [6, 3], 1.3));
+    if (after) series.push(lineOf(after, data.colours[2], undefined, 1.4));
     return {
       width: width, height: 320, series: series,
       cursor: { drag: { x: true, y: false, dist: 4 }, points: { size: 5 } },
       scales: { x: { time: false } },
       axes: [{ label: "time (s)", labelSize: 22, size: 34 }, { label: "deg/s", labelSize: 22, size: 56 }],
-      hooks: { draw: [(u) => marks(u, data)] },
+      hooks: { draw: [(u) => drawMarks(u, data.marks)] },
     };
   }
 

@@ -1,8 +1,6 @@
 "use strict";
 // Curves that zoom together: drag to zoom, double-click for the whole run, buttons for named stretches.
 (function () {
-  const IMPACT = "#b42318";
-
   function abscissa(x) {
     if (x.values) return x.values;
     return Array.from({ length: x.n }, (_, i) => x.start + i * x.step);
@@ -18,25 +16,6 @@
       if (k < 0 || k + 1 >= y.length) return null;
       return y[k] + (at - k) * (y[k + 1] - y[k]);
     });
-  }
-
-  // Vertical lines at the main impacts.
-  function drawMarks(u, marks) {
-    const c = u.ctx;
-    c.save();
-    c.setLineDash([]);
-    c.strokeStyle = IMPACT;
-    c.lineWidth = devicePixelRatio;
-    c.globalAlpha = 0.7;
-    for (const mark of marks) {
-      if (mark < u.scales.x.min || mark > u.scales.x.max) continue;
-      const at = Math.round(u.valToPos(mark, "x", true));
-      c.beginPath();
-      c.moveTo(at, u.bbox.top);
-      c.lineTo(at, u.bbox.top + u.bbox.height);
-      c.stroke();
-    }
-    c.restore();
   }
 
   // One row for each contact point, drawn while it touches.
@@ -71,13 +50,8 @@
       axisY.values = () => strips.map((s) => s.name);
       axisY.grid = { show: false };
     }
-    const series = [{ label: "t", value: (u, v) => (v === null ? "" : v.toFixed(4) + " s") }];
-    for (const line of panel.lines || []) {
-      series.push({
-        label: line.name, stroke: line.colour, dash: line.dash, width: 1.3, points: { show: false },
-        value: (u, v) => (v === null || v === undefined ? "" : v.toFixed(2)),
-      });
-    }
+    const series = [abscissaOf(data.xLabel)];
+    for (const line of panel.lines || []) series.push(lineOf(line.name, line.colour, line.dash, 1.3));
     if (strips) series.push({ label: "contacts", points: { show: false } });
     return {
       width: width,

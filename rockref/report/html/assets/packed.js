@@ -1,5 +1,5 @@
 "use strict";
-// Shared by curves and player: data elements, 16-bit columns, small elements.
+// Shared by curves, cards and player: data elements, 16-bit columns, small elements, what all plots have.
 const rockref = { curves: [], players: [] };
 
 function dataOf(figure) {
@@ -30,6 +30,34 @@ function button(text, label, act) {
   made.addEventListener("click", act);
   return made;
 }
+
+const IMPACT = "#b42318";
+
+// Vertical lines at the main impacts in a plot of uPlot.
+function drawMarks(u, marks) {
+  const c = u.ctx;
+  c.save();
+  c.setLineDash([]);
+  c.strokeStyle = IMPACT;
+  c.lineWidth = devicePixelRatio;
+  c.globalAlpha = 0.7;
+  for (const mark of marks) {
+    if (mark < u.scales.x.min || mark > u.scales.x.max) continue;
+    const at = Math.round(u.valToPos(mark, "x", true));
+    c.beginPath();
+    c.moveTo(at, u.bbox.top);
+    c.lineTo(at, u.bbox.top + u.bbox.height);
+    c.stroke();
+  }
+  c.restore();
+}
+
+// The series of a plot of uPlot: the abscissa, which its legend names, too, and a line.
+const abscissaOf = (name) => ({ label: name, value: (u, v) => (v === null ? "" : v.toFixed(4)) });
+const lineOf = (name, colour, dash, width) => ({
+  label: name, stroke: colour, dash: dash, width: width, points: { show: false },
+  value: (u, v) => (v === null || v === undefined ? "" : v.toFixed(2)),
+});
 
 // A figure in a closed fold has no width: it is built when the fold is opened. A link into a fold opens it.
 function whenSeen(figure, build) {

@@ -9,33 +9,6 @@
   // A dozen frames after its contact a foot is dark again: contacts of 1.5 ms would not be seen.
   const AFTERGLOW = 6;
 
-  function rotation(tilt, roll, turn) {
-    const [ca, sa, cb, sb, cc, sc] = [Math.cos(tilt), Math.sin(tilt), Math.cos(roll), Math.sin(roll), Math.cos(turn), Math.sin(turn)];
-    // Rx(tilt) Ry(roll) Rz(turn)
-    return [
-      [cb * cc, -cb * sc, sb],
-      [ca * sc + sa * sb * cc, ca * cc - sa * sb * sc, -sa * cb],
-      [sa * sc - ca * sb * cc, sa * cc + ca * sb * sc, ca * cb],
-    ];
-  }
-
-  const turned = (R, p) => R.map((r) => r[0] * p[0] + r[1] * p[1] + r[2] * p[2]);
-
-  // The block stands on its lowest points, and these stay where they are on the plate.
-  function placed(R, points, standing) {
-    const at = points.map((p) => turned(R, p));
-    const low = Math.min(...at.map((p) => p[2]));
-    const shift = [0, 0, -low];
-    let sum = 0;
-    at.forEach((p, i) => {
-      const w = Math.exp(-(p[2] - low) / 0.002);
-      sum += w;
-      shift[0] += w * (standing[i][0] - p[0]);
-      shift[1] += w * (standing[i][1] - p[1]);
-    });
-    return [shift[0] / sum, shift[1] / sum, shift[2]];
-  }
-
   function camera(view, width, height, size) {
     const [ca, sa, ce, se] = [Math.cos(view.azimuth), Math.sin(view.azimuth), Math.cos(view.elevation), Math.sin(view.elevation)];
     const scale = (0.74 * height) / size;
@@ -48,9 +21,7 @@
   }
 
   function polygon(c, corners, fill, stroke) {
-    c.beginPath();
-    corners.forEach((p, i) => (i ? c.lineTo(p[0], p[1]) : c.moveTo(p[0], p[1])));
-    c.closePath();
+    outline(c, corners);
     if (fill) { c.fillStyle = fill; c.fill(); }
     if (stroke) { c.strokeStyle = stroke; c.stroke(); }
   }
@@ -69,28 +40,6 @@
         c.stroke();
       }
     }
-  }
-
-  function drawBox(c, project, R, shift, box) {
-    const [w, d, h] = box.map((v) => v / 2);
-    const corner = (x, y, z) => {
-      const p = turned(R, [x * w, y * d, z * h]);
-      return project([p[0] + shift[0], p[1] + shift[1], p[2] + shift[2]]);
-    };
-    const faces = [];
-    for (let axis = 0; axis < 3; axis++) {
-      for (const side of [-1, 1]) {
-        const loop = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => {
-          const v = [0, 0, 0];
-          v[axis] = side; v[(axis + 1) % 3] = a; v[(axis + 2) % 3] = b;
-          return corner(v[0], v[1], v[2]);
-        });
-        faces.push({ loop: loop, depth: loop.reduce((s, p) => s + p[2], 0), fill: FACE[axis] });
-      }
-    }
-    faces.sort((a, b) => a.depth - b.depth);
-    c.lineWidth = 1;
-    faces.slice(3).forEach((f) => polygon(c, f.loop, f.fill, INK));
   }
 
   function foot(c, x, y, r, glow, estimated) {
@@ -173,26 +122,20 @@
       const canvas = body.canvas;
       const width = canvas.clientWidth || 300;
       const height = Math.round(Math.min(380, Math.max(260, 0.95 * width)));
-      const dense = window.devicePixelRatio || 1;
-      if (canvas.width !== Math.round(width * dense) || canvas.height !== Math.round(height * dense)) {
-        canvas.width = Math.round(width * dense);
-        canvas.height = Math.round(height * dense);
-        canvas.style.height = height + "px";
-      }
-      const c = canvas.getContext("2d");
-      c.setTransform(dense, 0, 0, dense, 0, 0);
-      c.clearRect(0, 0, width, height);
+      canvas.style.height = height + "px";
+      const c = cleared(canvas, width, height);
       const [tilt, roll, turn] = body.columns.map((column) => column[frame] || 0);
-      const R = rotation(tilt, state.times * roll, body.turned + state.times * turn);
-      const still = rotation(0, 0, body.turned);
-      const shift = placed(R, points, points.map((p) => turned(still, p)));
+      const R = rotationOf(tilt, state.times * roll, body.turned + state.times * turn);
+      const still = rotationOf(0, 0, body.turned);
+      const shift = placed(R, points, points.map((p) => turnedBy(still, p)));
       const project = camera(state, width, height, data.box[2]);
       const lit = glow(body, frame);
       drawPlate(c, project, data.box[0]);
-      drawBox(c, project, R, shift, data.box);
+      c.lineWidth = 1;
+      facesOf(project, R, shift, data.box).slice(3).forEach((f) => polygon(c, f.loop, FACE[f.axis], INK));
       points.forEach((p, i) => {
         if (lit[i] <= 0) return;
-        const q = turned(R, p);
+        const q = turnedBy(R, p);
         const [x, y] = project([q[0] + shift[0], q[1] + shift[1], q[2] + shift[2]]);
         foot(c, x, y, 5, lit[i], body.estimated);
       });
@@ -287,7 +230,7 @@
       });
     }
     new ResizeObserver(() => draw()).observe(stage);
-    rockref.players.push({ state: state, seek: seek, play: play, rotation: rotation, bodies: bodies });
+    rockref.players.push({ state: state, seek: seek, play: play, rotation: rotationOf, bodies: bodies });
     draw();
     figure.dataset.state = "ready";
   }
