@@ -98,9 +98,8 @@ def diagnose(
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
     from rockref.engines import compiled_ahead
-    from rockref.report.output import made_folder
     from rockref.report.terminal.diagnosis_text import print_diagnosis
-    from rockref.report.views.diagnosis_page import write_diagnosis
+    from rockref.report.views.diagnosis_page import diagnosis_page
 
     own, seed = _words(effects), _seed(seed)
     start = _optional(model)
@@ -112,7 +111,7 @@ def diagnose(
         found,
         lambda: printed(lambda c: print_diagnosis(c, record)),
         start,
-        page=lambda folder: write_diagnosis(found, made_folder(folder)),
+        page=lambda folder: diagnosis_page(found).write_into(folder),
     )
 
 
@@ -129,9 +128,8 @@ def add(
     Raises InputError, NumericalError.
     """
     from rockref.discover.add_effect import add_effect
-    from rockref.report.output import made_folder
     from rockref.report.terminal.addition_text import print_addition
-    from rockref.report.views.addition_page import write_addition
+    from rockref.report.views.addition_page import addition_page
 
     (effect,), seed, start = _words(effect, "effect"), _seed(seed), _optional(model)
     found = add_effect(effect, _folder(experiment), start, seed, None, progress=progress)
@@ -140,7 +138,7 @@ def add(
         found,
         lambda: printed(lambda c: print_addition(c, found)),
         start,
-        page=lambda folder: write_addition(found, made_folder(folder)),
+        page=lambda folder: addition_page(found).write_into(folder),
     )
 
 

@@ -16,13 +16,13 @@ def compare_shaken(
     from rockref.commands._models import labels, named_models
     from rockref.commands._progress import stages
     from rockref.commands._terminal import console
-    from rockref.report.output import made_folder, usable_folder
+    from rockref.report.output import usable_folder
     from rockref.report.terminal.shaken_text import print_shaken
     from rockref.report.terminal.text import say_command
     from rockref.shake.comparison import RUNS, compare_shaken
     from rockref.shake.experiment import load_shaken
 
-    folder = None if report is None else usable_folder(report)
+    folder = usable_folder(report)
     loaded = load_shaken(path)
     models = named_models(model or (), effects)
     names = labels(list(model)) if model else []
@@ -32,7 +32,7 @@ def compare_shaken(
     if folder is not None:
         from rockref.report.views.shaken_page import write_shaken
 
-        written.append(write_shaken(found, made_folder(folder)))
+        written.append(write_shaken(found, folder))
     say_remarks(loaded.notices)
     if as_json:
         typer.echo(in_json(record | {"written": [str(p) for p in written]}))

@@ -12,13 +12,6 @@ if TYPE_CHECKING:
     from rockref.measure.records.toss import Tosses
 
 
-def usable(report: Path | None) -> Path | None:
-    """Return folder of a page, if one is wanted; one that cannot be written to is refused before the work (E-WRITE)."""
-    from rockref.report.output import usable_folder
-
-    return None if report is None else usable_folder(report)
-
-
 def read(path: Path) -> "Tosses":
     """Return the tosses of a folder; what the reader remarked on is said."""
     from rockref.measure.tosses.load import load_tosses
@@ -35,19 +28,19 @@ def compare_tosses(
     from rockref.commands._models import labels, named_models
     from rockref.commands._terminal import console
     from rockref.discover.tosses.compare import compare
+    from rockref.report.output import usable_folder
     from rockref.report.terminal.toss_text import print_toss_comparison
 
-    folder = usable(report)
+    folder = usable_folder(report)
     tosses = read(path)
     given = named_models(model or (), effects)
     models, names = (given, labels(list(model))) if model else (None, None)
     record = compare(tosses, models, names).to_dict()
     written = []
     if folder is not None:
-        from rockref.report.output import made_folder
         from rockref.report.views.toss_page import write_toss_comparison
 
-        written.append(write_toss_comparison(record, made_folder(folder)))
+        written.append(write_toss_comparison(record, folder))
     if as_json:
         typer.echo(in_json(record | {"written": [str(p) for p in written]}))
         return
@@ -64,10 +57,11 @@ def diagnose_tosses(
     from rockref.commands._progress import stages
     from rockref.discover.tosses.diagnose import diagnose
     from rockref.model.errors import InputError
+    from rockref.report.output import usable_folder
     from rockref.report.terminal.toss_text import print_toss_diagnosis
 
     usable_files(output, save_model)
-    folder = usable(report)
+    folder = usable_folder(report)
     tosses = read(path)
     models, others = models_and_others([model] if model else [], effects)
     if others:
@@ -80,10 +74,9 @@ def diagnose_tosses(
     with told(as_json, lambda written: text, lambda console: print_toss_diagnosis(console, record)) as written:
         written += keep(text, output, found.model, save_model)
         if folder is not None:
-            from rockref.report.output import made_folder
             from rockref.report.views.toss_page import write_toss_diagnosis
 
-            written.append(write_toss_diagnosis(record, made_folder(folder)))
+            written.append(write_toss_diagnosis(record, folder))
     if record["verdict"] == "not_trustworthy":
         raise typer.Exit(1)
 
@@ -124,10 +117,11 @@ def add_to_model_of_tosses(
     from rockref.commands._models import known_files, named_models
     from rockref.commands._progress import stages
     from rockref.discover.tosses.fitting import add_to_tosses
+    from rockref.report.output import usable_folder
     from rockref.report.terminal.toss_text import print_toss_addition
 
     usable_files(output)
-    folder = usable(report)
+    folder = usable_folder(report)
     tosses = read(path)
     known_files([effect])
     given = next(iter(named_models([model] if model else [], own)), None)
@@ -138,8 +132,7 @@ def add_to_model_of_tosses(
         written.append(output)
         if folder is not None:
             from rockref.discover.tosses.compare import compare
-            from rockref.report.output import made_folder
             from rockref.report.views.toss_page import write_toss_comparison
 
             models, names = [found.before.model, found.after.model], [f"without {effect}", f"with {effect}"]
-            written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), made_folder(folder)))
+            written.append(write_toss_comparison(compare(tosses, models, names).to_dict(), folder))

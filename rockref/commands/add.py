@@ -65,7 +65,7 @@ def add(
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.discover import add_effect as engine
     from rockref.discover.fit_baseline import known_effects
-    from rockref.report.output import made_folder, usable_folder
+    from rockref.report.output import usable_folder
     from rockref.report.terminal.addition_text import print_addition
     from rockref.report.terminal.next_command import after_addition
 
@@ -73,7 +73,7 @@ def add(
     given = next(iter(named_models([model] if model else [], own)), None)
     check_step(given, model)
     say_idle(given, model)
-    folder = usable_folder(report) if report is not None else None
+    folder = usable_folder(report)
     usable_files(output)
 
     def fitted() -> list[set[str]]:
@@ -87,6 +87,6 @@ def add(
         found.model.save(output)
         written.append(output)
         if folder is not None:
-            from rockref.report.views.addition_page import write_addition
+            from rockref.report.views.addition_page import addition_page
 
-            written.append(write_addition(found, made_folder(folder)))
+            written.append(addition_page(found).write_into(folder))

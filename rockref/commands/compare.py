@@ -84,7 +84,7 @@ def compare(
     files = iter(named_models([text for text in model or () if text != BASELINE], effect))
     models = [baseline_model(loaded) if text == BASELINE else next(files) for text in model or [BASELINE]]
     names = labels(model) if model else [f"baseline ({loaded.baseline})"]
-    folder = usable_folder(report) if report is not None else None
+    folder = usable_folder(report)
     with stages("simulating the runs") as say:
         comparison = run_comparison(loaded, models, names, engine=engine, progress=say)
     written = write_report(comparison, folder) if folder is not None else []

@@ -86,7 +86,7 @@ def diagnose(
     from rockref.discover import diagnose as engine
     from rockref.discover.diagnosis_record import plain
     from rockref.engines import compiled_ahead
-    from rockref.report.output import made_folder, usable_folder
+    from rockref.report.output import usable_folder
     from rockref.report.terminal.diagnosis_text import print_diagnosis
     from rockref.report.terminal.next_command import after_diagnosis
 
@@ -94,7 +94,7 @@ def diagnose(
     given = models[0] if models else None
     check_step(given, model)
     say_idle(given, model)
-    folder = usable_folder(report) if report is not None else None
+    folder = usable_folder(report)
     usable_files(output, save_model)
     with keeping(fresh) as store, compiled_ahead(), stages(f"diagnosing {experiment}", verbose=verbose) as say:
         found = engine.diagnose(experiment, given, seed, workers, progress=say, own=candidates, store=store)
@@ -105,9 +105,9 @@ def diagnose(
     with kept(store), told(as_json, lambda written: text, words, then) as written:
         written += keep(text, output, found.model, save_model)
         if folder is not None:
-            from rockref.report.views.diagnosis_page import write_diagnosis
+            from rockref.report.views.diagnosis_page import diagnosis_page
 
             with stages("the page"):
-                written.append(write_diagnosis(found, made_folder(folder)))
+                written.append(diagnosis_page(found).write_into(folder))
     if record["verdict"] == "not_trustworthy":
         raise typer.Exit(1)

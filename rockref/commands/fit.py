@@ -75,7 +75,7 @@ def fit(
     from rockref.report.terminal.next_command import after_fit
 
     usable_files(output)
-    folder = usable_folder(report) if report is not None else None
+    folder = usable_folder(report)
     known_files(effect)
     given = named_model(model) if model is not None else None
     check_step(given, model)

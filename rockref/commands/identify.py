@@ -72,7 +72,7 @@ def identify(
     asked = question(experiment, base, genes, search_runs)
     say_other_points(asked.stated, experiment)
     say_remarks(asked.notices)
-    page_folder = usable_folder(report) if report is not None else None
+    page_folder = usable_folder(report)
     folder = made_folder(output)
     resumable = checkpoints_in(folder)
     with resumable, alone_in(folder), stages("identifying", verbose=verbose) as say, campaign(workers, dask) as work:
@@ -84,9 +84,9 @@ def identify(
         found.save(files["model"])
     written = list(files.values())
     if page_folder is not None:
-        from rockref.report.views.identification_page import write_identification
+        from rockref.report.views.identification_page import identification_page
 
-        written.append(write_identification(result, made_folder(page_folder)))
+        written.append(identification_page(result).write_into(page_folder))
     if as_json:
         typer.echo(text)
     else:

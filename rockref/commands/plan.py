@@ -62,12 +62,12 @@ def plan(
     from rockref.discover.plan import releases_from
     from rockref.engines import compiled_ahead
     from rockref.model.storage import write_text
-    from rockref.report.output import made_folder, usable_folder
+    from rockref.report.output import usable_folder
     from rockref.report.terminal.next_command import after_plan
     from rockref.report.terminal.plan_text import print_plan
 
     usable_files(output)
-    folder = usable_folder(report) if report is not None else None
+    folder = usable_folder(report)
     planned = releases_from(runs)
     (given,), candidates = models_and_others([model], effect)
     say_idle(given, model)
@@ -80,6 +80,6 @@ def plan(
             write_text(output, text + "\n")
             written.append(output)
         if folder is not None:
-            from rockref.report.views.plan_page import write_plan
+            from rockref.report.views.plan_page import plan_page
 
-            written.append(write_plan(found, made_folder(folder)))
+            written.append(plan_page(found).write_into(folder))

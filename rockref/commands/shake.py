@@ -57,12 +57,12 @@ def shake(
     from rockref.commands._shaking import motion, numbers
     from rockref.jobs.campaign import campaign
     from rockref.model.errors import Interrupted
-    from rockref.report.output import made_folder, usable_folder
+    from rockref.report.output import usable_folder
     from rockref.shake.ensemble import BLOCK, Draws, Ensemble, run_ensemble
     from rockref.shake.ensemble_store import EnsembleFolder
 
     known_files(effect)
-    page = None if report is None else usable_folder(report)
+    page = usable_folder(report)
     chosen = with_effects(named_model(model), effect or [])
     motions = tuple(motion(record, rotate=rotate) for record in records)
     factors = tuple(numbers(scale, "--scale"))
@@ -85,7 +85,7 @@ def shake(
     if page is not None:
         from rockref.report.views.ensemble_page import write_ensemble
 
-        files.append(write_ensemble(rows, chosen, made_folder(page), ensemble))
+        files.append(write_ensemble(rows, chosen, page, ensemble))
     facts = summary(rows)
     if as_json:
         typer.echo(in_json({"runs": runs, "levels": facts, "files": [str(path) for path in files]}))

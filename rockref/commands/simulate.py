@@ -81,7 +81,7 @@ def simulate(
     model, output = _old_spellings(given, model, out, output)
     if output is not None:
         check_name(output)
-    folder = usable_folder(report) if report is not None else None
+    folder = usable_folder(report)
     known_files(effect)
     chosen = with_effects(named_model(model), effect or [])
     with progress("simulating") as ahead, of_file(model):

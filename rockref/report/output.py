@@ -17,11 +17,13 @@ def made_folder(path: Path) -> Path:
     return path
 
 
-def usable_folder(path: Path) -> Path:
+def usable_folder(path: Path | None) -> Path | None:
     """Return the folder, which is made when something is written into it; the check is for before the work.
 
-    Raises InputError E-WRITE where it cannot be made or written to.
+    None where no folder is wanted. Raises InputError E-WRITE where it cannot be made or written to.
     """
+    if path is None:
+        return None
     there = next(p for p in (path, *path.absolute().parents) if p.exists())
     if not there.is_dir():
         raise InputError("E-WRITE", str(path), f"{there} is not a folder", "Name another folder.")

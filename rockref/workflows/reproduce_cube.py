@@ -62,7 +62,7 @@ def _made(tosses: Tosses, folder: Path, quick: bool, say: Callable[[str], None])
     add_stretches(page, failing)
     write_bytes(folder / "stretches.png", stretches_picture(failing))
     page.add_provenance({"tosses": len(tosses.tosses), "copies set aside": len(tosses.copies), "sha256": tosses.sha256})
-    return page.write(folder / "index.html")
+    return page.write_into(folder)
 
 
 def named_folder() -> Path:

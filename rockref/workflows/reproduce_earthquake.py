@@ -56,7 +56,7 @@ def reproduce_earthquake(
         page.add_table(levels_table(found))
         page.add_section("How", how(found))
         page.add_provenance({"signals": sum(a.signals for a in found.levels), "step_s": found.step})
-        return page.write(folder / "index.html")
+        return page.write_into(folder)
 
 
 def sentences(found: defects.Defects) -> list[str]:

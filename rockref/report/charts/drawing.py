@@ -11,7 +11,7 @@ import numpy as np
 
 from rockref.report.charts.style import COLOURS, GREY, IMPACT, INK
 
-LEFT, RIGHT, TOP, BOTTOM = 62.0, 12.0, 8.0, 34.0
+WIDTH, LEFT, RIGHT, TOP, BOTTOM = 860.0, 62.0, 12.0, 8.0, 34.0
 # decided: half the width of a line; what is left out is not seen.
 TOLERANCE = 0.6
 
@@ -62,7 +62,6 @@ def chart(
     x_label: str,
     x_limits: tuple[float, float] | None = None,
     marks: Sequence[float] = (),
-    width: float = 860.0,
     ticks: Sequence[tuple[float, str]] | None = None,
 ) -> str:
     """Return an SVG with panels above one another and one common abscissa.
@@ -71,10 +70,10 @@ def chart(
     """
     x0, x1 = x_limits or _extent([line.x for panel in panels for line in panel.lines])
     height = TOP + sum(panel.height + 10.0 for panel in panels) + BOTTOM
-    inner = width - LEFT - RIGHT
+    inner = WIDTH - LEFT - RIGHT
     across = _Scale(x0, x1, LEFT, LEFT + inner)
     parts = [
-        f'<svg class="chart" viewBox="0 0 {width:g} {height:g}" role="img" aria-label="{escape(title)}">',
+        f'<svg class="chart" viewBox="0 0 {WIDTH:g} {height:g}" role="img" aria-label="{escape(title)}">',
         f"<title>{escape(title)}</title>",
     ]
     top = TOP

@@ -23,11 +23,11 @@ from rockref.report.tables import comparison_tables
 BEYOND = 0.03
 
 
-def write_figures(c: Comparison, folder: Path, k: int = 0) -> list[Path]:
-    """Write the figures of one run as PNG and SVG into `folder` and return their paths. Raises InputError E-WRITE."""
+def write_figures(c: Comparison, folder: Path) -> list[Path]:
+    """Write the figures of the first run as PNG and SVG and return their paths. Raises InputError E-WRITE."""
     written = []
-    run = c.measured[k].run.id
-    for name, figure in (("whole", whole_run(c, k)), ("zooms", zooms(c, k))):
+    run = c.measured[0].run.id
+    for name, figure in (("whole", whole_run(c, 0)), ("zooms", zooms(c, 0))):
         if figure is None:
             continue
         for kind in ("png", "svg"):

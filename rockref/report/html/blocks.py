@@ -100,7 +100,7 @@ def _repeats_differ(c: Comparison, stretch: str, axis: str) -> float:
     return DEGREES * math.sqrt(float(np.mean(squares))) if squares else float("nan")
 
 
-def run_curves(c: Comparison, k: int, end: float | None = None, every: int = 1) -> Curves:
+def run_curves(c: Comparison, k: int, every: int = 1) -> Curves:
     """Return the curves of one run: measured, every model, Housner about the main axis, contact points as lines.
 
     every : of so many samples one is drawn, such that every extreme is.
@@ -108,14 +108,13 @@ def run_curves(c: Comparison, k: int, end: float | None = None, every: int = 1) 
     m = c.measured[k]
     run = m.run
     assert run.t is not None and run.crv is not None
-    keep = slice(0, len(run.t) if end is None else int(np.searchsorted(run.t, end)))
-    t, crv = run.t[keep], run.crv[keep] * DEGREES
-    last, t = float(t[-1]), thinned_times(t, every)
+    crv = run.crv * DEGREES
+    last, t = float(run.t[-1]), thinned_times(run.t, every)
     panels = []
     for axis in range(3):
         lines = [Line("measured", t, thinned(crv[:, axis], every))]
         for i, name in enumerate(c.names):
-            rates = thinned(c.results[i][k].modelled[keep, axis] * DEGREES, every)
+            rates = thinned(c.results[i][k].modelled[:, axis] * DEGREES, every)
             lines.append(Line(name, t, rates, style.colour(i), style.dash(i)))
         if axis == 0:
             lines.append(housner_line(c, k, last))
@@ -302,9 +301,12 @@ def _peaks(c: Comparison, k: int) -> Table:
     )
 
 
-def add_motion(page: Page, c: Comparison, k: int, until: float | None = None) -> None:
-    """Add the player of one run: measured and every model side by side."""
-    page.add_player(player(c.measured[k], [(name, c.results[i][k]) for i, name in enumerate(c.names)], until))
+def add_motion(page: Page, c: Comparison) -> None:
+    """Add the player of the first run: measured and every model side by side."""
+    # decided: after the third main impact the motion of model and block has little to do with one another.
+    times = c.measured[0].features.impacts.times
+    until = float(times[2]) + 0.1 if len(times) > 2 else None
+    page.add_player(player(c.measured[0], [(name, c.results[i][0]) for i, name in enumerate(c.names)], until))
 
 
 def provenance(c: Comparison) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from rockref.report.tables import comparison_tables
 from rockref.report.tables.table import Table
 from rockref.report.terminal.diagnosis_text import GAP
 from rockref.report.terminal.fit_text import effect_lines, estimates_table
-from rockref.report.terminal.text import print_table, say
+from rockref.report.terminal.text import print_table, say, say_all
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -29,12 +29,7 @@ def print_addition(console: Console, a: Addition, full: bool = False) -> None:
         print_table(console, estimates_table(a.numbers))
         print_table(console, axes_table(a))
         print_table(console, history_table(a))
-    for line in effect_lines(a.own_numbers):
-        say(console, line)
-    *rest, last = lines(a)
-    for line in rest:
-        say(console, line)
-    say(console, last, "bold")
+    say_all(console, [*effect_lines(a.own_numbers), *lines(a)])
 
 
 def lines(a: Addition) -> list[str]:

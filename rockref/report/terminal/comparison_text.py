@@ -11,7 +11,7 @@ from rockref.discover.compare.models import Comparison
 from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import stretch_masks
 from rockref.report.tables import comparison_tables
-from rockref.report.terminal.text import print_table, say
+from rockref.report.terminal.text import print_table, say, say_all
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -39,8 +39,7 @@ def print_comparison(console: Console, c: Comparison, full: bool = False) -> Non
             texts = texts[: max(1, SENTENCES // len(c.names))] if name is not None else []
         if texts and len(c.names) > 1:
             say(console, f"{name or 'Side by side'}:")
-        for f in texts:
-            say(console, f"  {f.text}")
+        say_all(console, [f"  {f.text}" for f in texts], None)
     for line in error_lines(c):
         say(console, line, "bold")
 

@@ -9,7 +9,7 @@ from rockref.report.tables import comparison_tables
 from rockref.report.tables.spoken import spoken_amplitudes
 from rockref.report.tables.table import Table
 from rockref.report.terminal.fit_text import quantity
-from rockref.report.terminal.text import print_table, say
+from rockref.report.terminal.text import print_table, say, say_all
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -60,19 +60,14 @@ def print_diagnosis(console: Console, d: dict[str, Any], full: bool = False) -> 
     if full:
         print_tables(console, d)
     else:
-        for line in alternative_lines(d):
-            say(console, line)
+        say_all(console, alternative_lines(d), None)
     if d["verdict"] == "something_else":
         say(console, looks_like(d))
-    for id in d["effects"]:
-        say(console, f"  {id}: {effect_words(id)}")
-    for line in [*size_lines(d), *error_lines(d)]:
-        say(console, line)
-    for sentence in careful(d)[: None if full else 1]:
-        say(console, f"With care: {sentence}")
+    told = [f"  {id}: {effect_words(id)}" for id in d["effects"]] + size_lines(d) + error_lines(d)
+    told += [f"With care: {sentence}" for sentence in careful(d)[: None if full else 1]]
     if d["separating_experiment"] and (full or d["verdict"] in ("class", "indicated")):
-        say(console, f"To be sure: {d['separating_experiment']}")
-    say(console, verdict_line(d), "bold")
+        told.append(f"To be sure: {d['separating_experiment']}")
+    say_all(console, [*told, verdict_line(d)])
 
 
 def verdict_line(d: dict[str, Any]) -> str:

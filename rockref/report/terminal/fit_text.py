@@ -10,7 +10,7 @@ from rockref.discover.fit_baseline import BaselineFit
 from rockref.discover.fit_gates import Gate
 from rockref.report.tables.spoken import spoken
 from rockref.report.tables.table import Table
-from rockref.report.terminal.text import print_table, say
+from rockref.report.terminal.text import print_table, say, say_all
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -110,9 +110,5 @@ def print_fit(console: Console, found: BaselineFit, full: bool = False) -> None:
         if found.gates:
             print_table(console, gates_table(found.gates))
     else:
-        for line in [*law_lines(found.evidence.law), *effect_lines(found.evidence.numbers)]:
-            say(console, line)
-    *rest, last = outcome_lines(found)
-    for line in rest:
-        say(console, line)
-    say(console, last, "bold")
+        say_all(console, [*law_lines(found.evidence.law), *effect_lines(found.evidence.numbers)], None)
+    say_all(console, outcome_lines(found))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rockref.model.parameters import TABLE_3_1
 from rockref.report.tables.table import Table
-from rockref.report.terminal.text import print_table, say
+from rockref.report.terminal.text import print_table, say_all
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,12 +21,8 @@ def print_identification(console: Console, result: dict[str, Any], full: bool = 
         for table in (parameters_table(result), terms_table(result), runs_table(result)):
             print_table(console, table)
     else:
-        for line in parameter_lines(result):
-            say(console, line)
-    *rest, last = sentences(result)
-    for sentence in rest:
-        say(console, sentence)
-    say(console, last, "bold")
+        say_all(console, parameter_lines(result), None)
+    say_all(console, sentences(result))
 
 
 def sentences(result: dict[str, Any]) -> list[str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from rockref.discover.plan import Plan
 from rockref.report.tables.spoken import figures, spoken
 from rockref.report.tables.table import Table
-from rockref.report.terminal.text import print_table, say
+from rockref.report.terminal.text import print_table, say_all
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -24,13 +24,8 @@ def print_plan(console: Console, p: Plan, full: bool = False) -> None:
         print_table(console, limits_table(p))
         print_table(console, confusion_table(p))
         print_table(console, further_table(p))
-    for line in rest[:-1]:
-        say(console, line)
-    if not full:
-        for line in [*limit_lines(p), *confusion_lines(p)]:
-            say(console, line)
-    say(console, rest[-1])
-    say(console, last, "bold")
+    brief = [] if full else [*limit_lines(p), *confusion_lines(p)]
+    say_all(console, [*rest[:-1], *brief, rest[-1], last])
 
 
 def sentences(p: Plan) -> list[str]:

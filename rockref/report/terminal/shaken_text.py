@@ -101,7 +101,7 @@ def print_shaken(console: Console, record: dict[str, Any]) -> None:
         print_table(console, scores_table(record))
     if record["maxima"]:
         print_table(console, distances_table(record))
-    for line in filter(None, [ceiling_line(record)]):
+    if line := ceiling_line(record):
         say(console, line)
     for line in answers(record):
         say(console, line, "bold")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from rockref.report.tables.table import Table
@@ -23,9 +24,15 @@ def say(console: Console, text: str, style: str | None = None) -> None:
         console.print(line, style=style, markup=False, highlight=False, no_wrap=True, overflow="ignore", crop=False)
 
 
-def say_command(console: Console, command: str, lead: str = "Next: ") -> None:
+def say_all(console: Console, lines: Sequence[str], last: str | None = "bold") -> None:
+    """Print lines, the last of them, which is the answer, in bold, or in another style."""
+    for k, line in enumerate(lines, 1):
+        say(console, line, last if k == len(lines) else None)
+
+
+def say_command(console: Console, command: str) -> None:
     """Print a command to be typed; one that is wider than the terminal is continued with a backslash, as a shell is."""
-    room = console.width
+    lead, room = "Next: ", console.width
     if not console.is_terminal or len(lead + command) <= room:
         console.print(lead + command, markup=False, highlight=False, soft_wrap=True)
         return

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from rockref.discover.add_effect import Addition
 from rockref.discover.compare.models import Comparison, compare
 from rockref.effects import catalogue
@@ -25,9 +23,7 @@ def addition_page(a: Addition) -> Page:
     page.add_table(estimates_table(a.own_numbers))
     add_errors(page, a)
     page.add_section("Run by run")
-    left_out = add_runs(page, c, ROOM)
-    if left_out:
-        page.add_text(f"Left out, to keep the page small: curves of run {', '.join(left_out)}.")
+    add_runs(page, c, ROOM)
     page.add_section("All numbers of the model")
     page.add_table(estimates_table(a.numbers))
     page.add_section("Where the numbers come from")
@@ -57,8 +53,3 @@ def add_errors(page: Page, a: Addition, title: str = "The error before and after
     page.add_figure(
         svg, "Root mean square of the innovations, state by state.", history_table(a), "History of the model", keys
     )
-
-
-def write_addition(a: Addition, folder: Path) -> Path:
-    """Write ``index.html`` into the folder and return its path. Raises InputError (E-WRITE)."""
-    return addition_page(a).write(folder / "index.html")

@@ -11,7 +11,6 @@ from rockref.report.charts.figures import write_figures
 from rockref.report.html import blocks
 from rockref.report.html.curves import Curves
 from rockref.report.html.page import MAX_BYTES, Page
-from rockref.report.output import made_folder
 from rockref.report.tables import comparison_tables
 from rockref.report.terminal.comparison_text import error_lines
 from rockref.report.views.comparison_card import card_of_comparison
@@ -22,10 +21,10 @@ RESERVE = 350_000
 THINNEST = 16
 
 
-def comparison_page(c: Comparison, title: str | None = None) -> Page:
+def comparison_page(c: Comparison) -> Page:
     """Return the page of one comparison."""
     models = " and ".join(c.names)
-    page = Page(title or f"{c.experiment.name}: {models} beside the measured runs", lead(c))
+    page = Page(f"{c.experiment.name}: {models} beside the measured runs", lead(c))
     page.set_card(card_of_comparison(c))
     add_comparison(page, c)
     page.add_section("Where the numbers come from")
@@ -42,33 +41,24 @@ def lead(c: Comparison) -> str:
     )
 
 
-def add_comparison(page: Page, c: Comparison, prefix: str = "", room: int | None = None) -> None:
-    """Add the sections of one comparison; `prefix` (the experiment's name) tells several on one page apart.
-
-    `room` in bytes is for the curves of its runs; without it they may fill the page.
-    """
-    head = f"{prefix}: " if prefix else ""
-    page.add_section(f"{head}What was measured")
+def add_comparison(page: Page, c: Comparison) -> None:
+    """Add the sections of a comparison; the curves of its runs may fill the page."""
+    page.add_section("What was measured")
     blocks.add_measured(page, c)
-    if not prefix:
-        page.add_figure(block_drawing(), "The block's axes and corners, the block turned, its feet. Not to scale.")
-    page.add_section(f"{head}Where the model fails")
+    page.add_figure(block_drawing(), "The block's axes and corners, the block turned, its feet. Not to scale.")
+    page.add_section("Where the model fails")
     blocks.add_failures(page, c)
-    page.add_section(f"{head}Run by run")
-    left_out = add_runs(page, c, room)
-    if left_out:
-        page.add_text(f"Left out, to keep the page small: curves of run {', '.join(left_out)}.")
-    page.add_section(f"{head}Energy, envelopes, spectra")
+    page.add_section("Run by run")
+    add_runs(page, c)
+    page.add_section("Energy, envelopes, spectra")
     blocks.add_energy(page, c)
     blocks.add_shapes(page, c, 0)
-    page.add_section(f"{head}In motion")
-    # decided: after the third main impact the motion of model and block has little to do with one another.
-    times = c.measured[0].features.impacts.times
-    blocks.add_motion(page, c, 0, float(times[2]) + 0.1 if len(times) > 2 else None)
+    page.add_section("In motion")
+    blocks.add_motion(page, c)
 
 
 def add_runs(page: Page, c: Comparison, room: int | None = None) -> list[str]:
-    """Add the curves of all runs, thinned such that they have room; return the ids of those left out all the same.
+    """Add the curves of all runs, thinned such that they have room; name and return those left out all the same.
 
     Where even thinned curves have no room, unlike releases go before repeats.
     """
@@ -96,6 +86,8 @@ def add_runs(page: Page, c: Comparison, room: int | None = None) -> list[str]:
         for model in range(len(c.names)):
             table = comparison_tables.impacts_table(c, model, k)
             page.add_details(f"Main impacts: {c.names[model]}", table)
+    if left_out:
+        page.add_text(f"Left out, to keep the page small: curves of run {', '.join(left_out)}.")
     return left_out
 
 
@@ -111,6 +103,4 @@ def write_report(c: Comparison, folder: Path) -> list[Path]:
 
     The folder is made if it is not there.
     """
-    drawn = comparison_page(c)
-    page = drawn.write(made_folder(folder) / "index.html")
-    return [page, *write_figures(c, folder)]
+    return [comparison_page(c).write_into(folder), *write_figures(c, folder)]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -32,11 +31,6 @@ ROOM = 600_000
 BASELINE = "baseline"
 #: Candidates whose names stand below a figure; decided: names of twenty letters do not touch.
 NAMED = 4
-
-
-def write_diagnosis(d: Diagnosis, folder: Path, comparison: Comparison | None = None) -> Path:
-    """Write ``index.html`` whole or not at all; return its path. Raises InputError (E-WRITE, E-PAGE-SIZE)."""
-    return diagnosis_page(d, comparison).write(folder / "index.html")
 
 
 def compared(d: Diagnosis) -> Comparison:
@@ -70,30 +64,26 @@ def diagnosis_page(d: Diagnosis, comparison: Comparison | None = None) -> Page:
     return page
 
 
-def add_diagnosis(page: Page, record: dict[str, Any], c: Comparison, prefix: str = "", room: int = ROOM) -> None:
-    """Add the sections of a diagnosis (its JSON record) to a page; `prefix` tells several on one page apart."""
-    head = f"{prefix}: " if prefix else ""
-    page.add_section(f"{head}The verdict", verdict_words(record))
-    page.add_section(f"{head}What was measured")
+def add_diagnosis(page: Page, record: dict[str, Any], c: Comparison) -> None:
+    """Add the sections of a diagnosis (its JSON record) to a page."""
+    page.add_section("The verdict", verdict_words(record))
+    page.add_section("What was measured")
     blocks.add_measured(page, c)
-    page.add_section(f"{head}Where the baseline fails")
+    page.add_section("Where the baseline fails")
     add_where(page, record, c)
-    page.add_section(f"{head}What was tried", TRIED)
+    page.add_section("What was tried", TRIED)
     add_tried(page, record)
-    page.add_section(f"{head}What explains it")
+    page.add_section("What explains it")
     add_explanation(page, record)
-    page.add_section(f"{head}What would make it sure")
+    page.add_section("What would make it sure")
     add_sure(page, record)
-    page.add_section(f"{head}The error falling")
+    page.add_section("The error falling")
     add_falling_error(page, record)
     blocks.add_error_figure(page, c)
-    page.add_section(f"{head}Run by run")
-    left_out = add_runs(page, c, room)
-    if left_out:
-        page.add_text(f"Left out, to keep the page small: curves of run {', '.join(left_out)}.")
-    page.add_section(f"{head}In motion")
-    times = c.measured[0].features.impacts.times
-    blocks.add_motion(page, c, 0, float(times[2]) + 0.1 if len(times) > 2 else None)
+    page.add_section("Run by run")
+    add_runs(page, c, ROOM)
+    page.add_section("In motion")
+    blocks.add_motion(page, c)
 
 
 TRIED = (

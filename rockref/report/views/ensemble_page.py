@@ -50,7 +50,7 @@ def write_ensemble(rows: list[dict[str, Any]], model: Model, folder: Path, ensem
     if ensemble is not None:
         add_runs(page, ensemble, rows)
     page.add_provenance({"runs": len(rows), "records": sorted({row["record"] for row in rows})})
-    return page.write(folder / "index.html")
+    return page.write_into(folder)
 
 
 def in_a_plane(model: Model) -> PlaneBlock:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from rockref.report.html.page import Page
@@ -41,8 +40,3 @@ def identification_page(result: dict[str, Any]) -> Page:
     page.add_section("Runs")
     page.add_table(runs_table(result))
     return page
-
-
-def write_identification(result: dict[str, Any], folder: Path) -> Path:
-    """Write ``index.html`` into the folder and return its path. Raises InputError (E-WRITE)."""
-    return identification_page(result).write(folder / "index.html")

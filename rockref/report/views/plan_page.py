@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from rockref.discover.plan import Plan
 from rockref.report.html.page import Page
 from rockref.report.terminal.plan_text import (
@@ -40,8 +38,3 @@ def plan_page(p: Plan) -> Page:
     page.add_section("The next run")
     page.add_table(further_table(p))
     return page
-
-
-def write_plan(p: Plan, folder: Path) -> Path:
-    """Write ``index.html`` into the folder and return its path. Raises InputError (E-WRITE)."""
-    return plan_page(p).write(folder / "index.html")

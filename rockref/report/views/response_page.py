@@ -11,7 +11,6 @@ from rockref.report.charts.block_drawing import block_drawing
 from rockref.report.charts.drawing import Line, Panel
 from rockref.report.html.curves import curves
 from rockref.report.html.page import Page
-from rockref.report.output import made_folder
 from rockref.report.tables.response_table import as_measured
 from rockref.report.tables.table import Table
 
@@ -44,7 +43,7 @@ def write_response_page(response: Response, model: Model, folder: Path) -> Path:
     page.add_figure(block_drawing(), "The block's axes and corners, the block turned, its feet. Not to scale.")
     page.add_section("Where the numbers come from")
     page.add_provenance({"rockref": __version__, "model": repr(model), "effects": effects})
-    return page.write(made_folder(folder) / "index.html")
+    return page.write_into(folder)
 
 
 def lead(response: Response, model: Model, effects: str) -> str:

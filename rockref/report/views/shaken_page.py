@@ -44,7 +44,7 @@ def write_shaken(c: ShakenComparison, folder: Path) -> Path:
         if record["maxima"]:
             page.add_table(shaken_text.distances_table(record))
     page.add_provenance({"experiment": e.name, "sha256": e.digest, **c.how})
-    return page.write(folder / "index.html")
+    return page.write_into(folder)
 
 
 def add_fragility(page: Page, sizes: np.ndarray, fell: np.ndarray) -> None:

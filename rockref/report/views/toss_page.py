@@ -10,6 +10,7 @@ from rockref.discover.tosses.diagnose import sentences
 from rockref.model.storage import write_bytes
 from rockref.report.charts.figures import rendered
 from rockref.report.html.page import Page
+from rockref.report.output import made_folder
 from rockref.report.tables.table import Table
 from rockref.report.terminal import toss_text
 
@@ -28,16 +29,16 @@ def write_toss_comparison(record: dict[str, Any], folder: Path) -> Path:
     page.add_section("What the tosses say by themselves")
     page.add_table(toss_text.measured_table(record["measured"]))
     page.add_provenance({"experiment": record["experiment"], "sha256 of the table": record["sha256"]})
-    return page.write(folder / "index.html")
+    return page.write_into(folder)
 
 
 def write_toss_diagnosis(record: dict[str, Any], folder: Path) -> Path:
     """Write ``index.html`` and ``staircase.png`` for a diagnosis; returns the page's path."""
     page = Page(f"What is missing: {record['experiment']}", record["sentence"])
     add_diagnosis(page, record)
-    write_bytes(folder / "staircase.png", staircase_picture(record))
+    write_bytes(made_folder(folder) / "staircase.png", staircase_picture(record))
     page.add_provenance({"experiment": record["experiment"], "sha256 of the table": record["sha256"]})
-    return page.write(folder / "index.html")
+    return page.write_into(folder)
 
 
 def add_diagnosis(page: Page, record: dict[str, Any]) -> None:

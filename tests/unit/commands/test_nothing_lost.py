@@ -65,7 +65,7 @@ def test_a_page_that_cannot_be_drawn_loses_neither_the_verdict_nor_the_file(caps
         raise InputError("E-PAGE-SIZE", "index.html", "is too large", "Give fewer runs.")
 
     monkeypatch.setattr(diagnose, "diagnose", lambda *a, **k: found["diagnose"])
-    monkeypatch.setattr(diagnosis_page, "write_diagnosis", too_large)
+    monkeypatch.setattr(diagnosis_page, "diagnosis_page", too_large)
     output, page = tmp_path / "verdict.json", tmp_path / "page"
     with pytest.raises(SystemExit) as end:
         cli.main(["diagnose", "anywhere", "-o", str(output), "--report", str(page)])

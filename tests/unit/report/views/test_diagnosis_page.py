@@ -6,7 +6,7 @@ import pytest
 
 from rockref.discover.compare.models import compare
 from rockref.report.html.page import MAX_BYTES, Page
-from rockref.report.views.diagnosis_page import add_physics, compared, diagnosis_page, without_notes, write_diagnosis
+from rockref.report.views.diagnosis_page import add_physics, compared, diagnosis_page, without_notes
 from tests.unit.discover import fakes
 from tests.unit.report.page_checks import Reader
 
@@ -37,7 +37,7 @@ def test_measured_and_both_models_move(named):
 
 def test_page_is_whole_escaped_and_small(named, tmp_path):
     d, c = named
-    path = write_diagnosis(d, tmp_path, c)
+    path = diagnosis_page(d, c).write_into(tmp_path / "new")
     text = path.read_text(encoding="utf-8")
     assert len(text.encode()) < MAX_BYTES
     assert "&lt;by half a turn&gt; &amp; repeat." in text and "<by half" not in text
