@@ -12,7 +12,7 @@ from rockref.model.channel import DEGREES
 from rockref.model.housner import HousnerResponse
 from rockref.model.response import Response
 from rockref.report.charts import style
-from rockref.report.charts.figures import mark_impacts, new_figure
+from rockref.report.charts.figures import contact_lines, dressed, mark_impacts, new_figure, titled
 
 #: The stretches of Fig. 3.4 [s]: the whole record; about the first main impact; the first two; the ninth to eleventh.
 WHOLE, ABOUT_FIRST, FIRST_TWO, LATE = (0.0, 14.0), (0.46, 0.62), (0.45, 1.40), (4.8, 5.9)
@@ -26,8 +26,7 @@ def response_figure(response: Response, plane: HousnerResponse) -> Any:
     _contacts(axes[3], response, WHOLE)
     axes[3].set_xlabel("time (s)")
     axes[0].legend(loc="upper right", frameon=False, fontsize=8)
-    figure.suptitle("The release of Table 3.1 (as Fig. 3.4a)", fontsize=10, x=0.02, ha="left")
-    return figure
+    return titled(figure, "The release of Table 3.1 (as Fig. 3.4a)")
 
 
 def zooms_figure(response: Response, plane: HousnerResponse) -> Any:
@@ -39,8 +38,7 @@ def zooms_figure(response: Response, plane: HousnerResponse) -> Any:
         _rates(axes[:3, column], response, plane, stretch, labelled=column == 0)
         _contacts(axes[3][column], response, stretch, labelled=column == 0)
         axes[3][column].set_xlabel("time (s)")
-    figure.suptitle("Zooms (as Fig. 3.4b to 3.4j); red: main impacts", fontsize=10, x=0.02, ha="left")
-    return figure
+    return titled(figure, "Zooms (as Fig. 3.4b to 3.4j); red: main impacts")
 
 
 def _rates(axes: Any, response: Response, plane: HousnerResponse, stretch: tuple[float, float], labelled=True) -> None:
@@ -53,22 +51,12 @@ def _rates(axes: Any, response: Response, plane: HousnerResponse, stretch: tuple
                 plane.t[also], DEGREES * plane.rate[also], color=style.GREY, lw=0.8, ls=(0, (5, 4)), label="Housner"
             )
         mark_impacts(ax, response.main_impacts(), *stretch)
-        ax.margins(x=0.0)
-        ax.tick_params(labelsize=8)
-        ax.grid(color="#e7ebef", lw=0.6)
-        if labelled:
-            ax.set_ylabel(f"{style.AXIS_NAMES[axis]}\n(deg/s)", fontsize=8)
+        dressed(ax, f"{style.AXIS_NAMES[axis]}\n(deg/s)" if labelled else None)
 
 
 def _contacts(ax: Any, response: Response, stretch: tuple[float, float], labelled: bool = True) -> None:
-    rows = response.contacts()
-    for i, (_, intervals) in enumerate(rows):
-        spans = [(a, b - a) for a, b in intervals if b > stretch[0] and a < stretch[1]]
-        ax.broken_barh(spans, (len(rows) - i - 0.75, 0.5), color=style.COLOURS[0], lw=0)
+    contact_lines(ax, response.contacts(), style.COLOURS[0], stretch, labelled)
     ax.set_xlim(stretch)
-    ax.set_ylim(0, len(rows))
-    ax.set_yticks([len(rows) - i - 0.5 for i in range(len(rows))], [name for name, _ in rows] if labelled else [])
-    ax.tick_params(labelsize=7)
     mark_impacts(ax, response.main_impacts(), *stretch)
 
 
@@ -88,11 +76,10 @@ def twins_figure(rows: Sequence[dict[str, Any]]) -> Any:
     ax.set_yscale("symlog", linthresh=1.0)
     ax.set_xticks(np.arange(len(names)), names, rotation=25, ha="right", fontsize=8)
     ax.set_ylabel("error in last digits")
-    ax.grid(axis="y", color="#e7ebef", lw=0.6)
+    ax.grid(axis="y", color=style.GRID, lw=0.6)
     figure.subplots_adjust(bottom=0.2)
     title = "Twin experiments, found minus true; blue: at the noise floor, red: above it; grey: one last digit"
-    figure.suptitle(title, fontsize=9, x=0.02, ha="left")
-    return figure
+    return titled(figure, title, 9)
 
 
 def reduction_figure(result: dict[str, Any]) -> Any:
@@ -106,14 +93,13 @@ def reduction_figure(result: dict[str, Any]) -> Any:
         ax.set_title(group["group"], fontsize=8)
         ax.set_ylim(-0.02, 1.02)
         ax.tick_params(labelsize=8)
-        ax.grid(color="#e7ebef", lw=0.6)
+        ax.grid(color=style.GRID, lw=0.6)
     for ax in axes[3:]:
         ax.set_xlabel("generation", fontsize=8)
     for ax in axes[::3]:
         ax.set_ylabel("in parts of the range", fontsize=8)
     figure.subplots_adjust(hspace=0.25, top=0.88)
-    figure.suptitle("Genes of the best chromosome, 54-gene search", fontsize=10, x=0.02, ha="left")
-    return figure
+    return titled(figure, "Genes of the best chromosome, 54-gene search")
 
 
 def scenarios_figure(t: np.ndarray, wanted: np.ndarray, found: Sequence[tuple[str, np.ndarray, np.ndarray]]) -> Any:
@@ -126,9 +112,7 @@ def scenarios_figure(t: np.ndarray, wanted: np.ndarray, found: Sequence[tuple[st
             ax.plot(t, DEGREES * wanted[:, axis], color=style.INK, lw=0.9, label="reference")
             ax.plot(at, DEGREES * crv[:, axis], color=style.COLOURS[0], lw=0.9, label="model")
             ax.set_xlim(*FIRST_TWO)
-            ax.margins(x=0.0)
-            ax.tick_params(labelsize=7)
-            ax.grid(color="#e7ebef", lw=0.6)
+            dressed(ax, size=7)
             limit = 1.6 * DEGREES * np.abs(wanted[:, axis]).max()
             ax.set_ylim(-limit, limit)
         axes[row][0].set_title(name, fontsize=8, loc="left", pad=2)
@@ -136,5 +120,4 @@ def scenarios_figure(t: np.ndarray, wanted: np.ndarray, found: Sequence[tuple[st
     for column, name in enumerate(style.AXIS_NAMES[1:]):
         axes[-1][column].set_xlabel(f"time (s); {name} in deg/s", fontsize=8)
     figure.subplots_adjust(hspace=0.35, top=1.0 - 0.65 / figure.get_figheight())
-    figure.suptitle("The models that failed, each at its best", fontsize=10, x=0.02, ha="left")
-    return figure
+    return titled(figure, "The models that failed, each at its best")

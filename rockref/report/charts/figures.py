@@ -6,6 +6,7 @@ The three body rates of a whole run with the contact indices below, and zooms be
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -62,6 +63,21 @@ def new_figure(width: float, height: float) -> Any:
     return figure
 
 
+def dressed(ax: Any, name: str | None = None, margin: float = 0.0, size: float = 8) -> None:
+    """Give axes small numbers, a grid, room beside the curves as a share of their width, and what the ordinate is."""
+    if name is not None:
+        ax.set_ylabel(name, fontsize=8)
+    ax.tick_params(labelsize=size)
+    ax.margins(x=margin)
+    ax.grid(color=style.GRID, lw=0.6)
+
+
+def titled(figure: Any, words: str, size: float = 10) -> Any:
+    """Return a figure with its title."""
+    figure.suptitle(words, fontsize=size, x=0.02, ha="left")
+    return figure
+
+
 def whole_run(c: Comparison, k: int) -> Any:
     """Return the figure of a whole run: three rates, and the contact indices of each model as lines."""
     t = _times(c, k)
@@ -77,8 +93,7 @@ def whole_run(c: Comparison, k: int) -> Any:
     axes[-1].set_xlim(float(t[0]), float(t[-1]))
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper right", ncols=5, frameon=False, fontsize=9)
-    figure.suptitle(f"{c.experiment.name}, run {comparison_tables.run_name(c, k)}", fontsize=10, x=0.02, ha="left")
-    return figure
+    return titled(figure, f"{c.experiment.name}, run {comparison_tables.run_name(c, k)}")
 
 
 def zooms(c: Comparison, k: int) -> Any | None:
@@ -104,8 +119,7 @@ def zooms(c: Comparison, k: int) -> Any | None:
         axes[3 + i][0].set_ylabel(f"contacts\n{name}", fontsize=8)
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper right", ncols=5, frameon=False, fontsize=9)
-    figure.suptitle(f"{c.experiment.name}, run {comparison_tables.run_name(c, k)}", fontsize=10, x=0.02, ha="left")
-    return figure
+    return titled(figure, f"{c.experiment.name}, run {comparison_tables.run_name(c, k)}")
 
 
 def _times(c: Comparison, k: int) -> np.ndarray:
@@ -130,30 +144,28 @@ def _rates(ax: Any, c: Comparison, k: int, axis: int, start: float, end: float, 
             line.x[keep], line.y[keep], color=style.GREY, lw=0.8, dashes=_dashes(style.HOUSNER_DASH), label="Housner"
         )
     mark_impacts(ax, c.measured[k].features.impacts.times, start, end)
-    if labelled:
-        ax.set_ylabel(f"{AXES[axis]}\n(deg/s)", fontsize=8)
-    ax.tick_params(labelsize=8)
-    ax.margins(x=0.0)
-    ax.grid(color="#e7ebef", lw=0.6)
+    dressed(ax, f"{AXES[axis]}\n(deg/s)" if labelled else None)
 
 
 def contact_plot(
     ax: Any, c: Comparison, k: int, model: int, stretch: tuple[float, float], labelled: bool = True
 ) -> None:
-    """Draw the contact indices of one model: a line for each point while it touches, in the run's time.
+    """Draw the contact indices of one model in the run's time, and its main impacts."""
+    contact_lines(ax, contact_strips(c.results[model][k]), style.colour(model), stretch, labelled)
+    mark_impacts(ax, c.measured[k].features.impacts.times, *stretch)
 
-    Only what lies in `stretch` (s) is drawn.
-    """
-    strips = contact_strips(c.results[model][k])
+
+def contact_lines(
+    ax: Any, strips: Sequence[tuple[str, np.ndarray]], colour: str, stretch: tuple[float, float], labelled: bool = True
+) -> None:
+    """Draw a line for each contact point, (name, intervals (k, 2) s), while it touches within a stretch [s]."""
     for row, (_, intervals) in enumerate(strips):
         spans = [(a, b - a) for a, b in intervals if b > stretch[0] and a < stretch[1]]
-        ax.broken_barh(spans, (len(strips) - row - 0.75, 0.5), color=style.colour(model), lw=0)
+        ax.broken_barh(spans, (len(strips) - row - 0.75, 0.5), color=colour, lw=0)
     ax.set_ylim(0, len(strips))
-    ax.set_yticks(
-        [len(strips) - row - 0.5 for row in range(len(strips))], [name for name, _ in strips] if labelled else []
-    )
+    ticks = [len(strips) - row - 0.5 for row in range(len(strips))]
+    ax.set_yticks(ticks, [name for name, _ in strips] if labelled else [])
     ax.tick_params(labelsize=7)
-    mark_impacts(ax, c.measured[k].features.impacts.times, *stretch)
 
 
 def mark_impacts(ax: Any, times: np.ndarray, start: float, end: float) -> None:

@@ -15,14 +15,15 @@ from rockref.model.errors import InputError
 from rockref.model.problem import Block, ContactPoints, Problem, State
 from rockref.model.response import Response
 from rockref.report.charts import style
-from rockref.report.charts.figures import mark_impacts, new_figure
+from rockref.report.charts.figures import dressed, mark_impacts, new_figure, titled
 from rockref.report.charts.shake_figures import fragility_figure, overturning_map
 from rockref.shake.ensemble import Ensemble
 from rockref.shake.experiment import ShakenExperiment
 from rockref.shake.motion_size import motion_size
 from rockref.shake.statistics.fragility import fit_fragility
 
-_GRID = "#e7ebef"
+#: Room beside the curves, as a share of their width.
+MARGIN = 0.02
 #: Curves in one panel, at most; decided: more are a band.
 MOST = 12
 #: Rows of a curve that a picture of nine inches shows (decided).
@@ -48,17 +49,17 @@ def of_response(response: Response) -> Any:
     impacts, ends = response.main_impacts(), (float(response.t[0]), float(response.t[-1]))
     for k in range(3):
         axes[k].plot(response.t[::every], response.crv[::every, k], color=style.INK, lw=0.9)
-        _dressed(axes[k], f"{style.AXIS_NAMES[k]}\n(deg/s)")
+        dressed(axes[k], f"{style.AXIS_NAMES[k]}\n(deg/s)", MARGIN)
         mark_impacts(axes[k], impacts, *ends)
     strips = response.contacts()
     for row, (_, intervals) in enumerate(strips):
         spans = [(a, b - a) for a, b in intervals]
         axes[3].broken_barh(spans, (len(strips) - row - 0.75, 0.5), color=style.COLOURS[1], lw=0)
     axes[3].set_yticks([len(strips) - row - 0.5 for row in range(len(strips))], [name for name, _ in strips])
-    _dressed(axes[3], "contacts")
+    dressed(axes[3], "contacts", MARGIN)
     axes[3].tick_params(axis="y", labelsize=6)
     axes[3].set_xlabel("time (s)")
-    return _titled(figure, f"{response.facts()['largest lean']} largest lean; red: main impacts")
+    return titled(figure, f"{response.facts()['largest lean']} largest lean; red: main impacts")
 
 
 def _tilts(response: Response) -> Any:
@@ -69,10 +70,10 @@ def _tilts(response: Response) -> Any:
     every = -(-len(response.t) // ROWS)
     for k, own in enumerate(tilt[:MOST]):
         ax.plot(response.t[::every], own[::every], lw=0.9, color=style.colour(k), label=f"block {k}")
-    _dressed(ax, "tilt (deg)")
+    dressed(ax, "tilt (deg)", MARGIN)
     ax.set_xlabel("time (s)")
     ax.legend(fontsize=7, frameon=False, ncols=4)
-    return _titled(figure, f"The tilt of {min(len(tilt), MOST)} of {len(tilt)} blocks")
+    return titled(figure, f"The tilt of {min(len(tilt), MOST)} of {len(tilt)} blocks")
 
 
 @picture.register
@@ -118,9 +119,9 @@ def _side_views(block: Block, points: ContactPoints | None, start: State | None)
             ax.plot(feet[:, axis], feet[:, 2], "o", ms=4, color=style.COLOURS[0])
         ax.set_aspect("equal", adjustable="datalim")
         ax.set_xlabel(f"{'XY'[axis]} of the plate (mm)")
-        _dressed(ax, "height (mm)" if k == 0 else "")
+        dressed(ax, "height (mm)" if k == 0 else "", MARGIN)
     feet_said = "" if points is None else ", red: contact points"
-    return _titled(figure, f"{block.facts()['mass']}, drawn as a cuboid; +: centre of mass{feet_said}")
+    return titled(figure, f"{block.facts()['mass']}, drawn as a cuboid; +: centre of mass{feet_said}")
 
 
 @picture.register
@@ -141,8 +142,8 @@ def of_points(points: ContactPoints) -> Any:
     ax.set_aspect("equal", adjustable="datalim")
     ax.margins(0.2)
     ax.set_xlabel("X (mm)")
-    _dressed(ax, "Y (mm)")
-    return _titled(figure, "The contact points from above")
+    dressed(ax, "Y (mm)", MARGIN)
+    return titled(figure, "The contact points from above")
 
 
 @picture.register
@@ -160,10 +161,10 @@ def of_experiment(experiment: Experiment) -> Any:
         dashes = {"dashes": (4, 2)} if run.use == HOLDOUT else {}
         if y is not None:
             ax.plot(run.t, y, lw=0.8, color=style.colour(k), label=f"{run.id}, {run.use}", **dashes)
-    _dressed(ax, name)
+    dressed(ax, name, MARGIN)
     ax.set_xlabel("time (s)")
     ax.legend(fontsize=7, frameon=False, ncols=4)
-    return _titled(figure, f"{experiment.name}: {len(runs)} of {len(experiment.runs)} runs; dashed: held out")
+    return titled(figure, f"{experiment.name}: {len(runs)} of {len(experiment.runs)} runs; dashed: held out")
 
 
 @picture.register
@@ -174,11 +175,11 @@ def of_ensemble(ensemble: Ensemble) -> Any:
     for k, base in enumerate(ensemble.motions[:MOST]):
         _motion(axes, base, style.colour(k))
     for ax, name in zip(axes, "xy", strict=True):
-        _dressed(ax, f"a{name} (m/s2)")
+        dressed(ax, f"a{name} (m/s2)", MARGIN)
     axes[0].legend(fontsize=7, frameon=False, ncols=4)
     axes[1].set_xlabel("time (s)")
     shown = min(len(ensemble.motions), MOST)
-    return _titled(figure, f"{shown} of {len(ensemble.motions)} motions, before their factors")
+    return titled(figure, f"{shown} of {len(ensemble.motions)} motions, before their factors")
 
 
 def _motion(axes: Any, base: BaseMotion, colour: str) -> None:
@@ -198,15 +199,3 @@ def of_shaken(experiment: ShakenExperiment) -> Any:
     if np.ptp(pgv / pga) > 1e-9:
         return overturning_map(pga, pgv / pga, experiment.fell, axes=("PGA (m/s2)", "PGV / PGA (s)"))
     return fragility_figure(pga, experiment.fell, fit_fragility(pga, experiment.fell), "PGA (m/s2)")
-
-
-def _dressed(ax: Any, name: str) -> None:
-    ax.set_ylabel(name, fontsize=8)
-    ax.tick_params(labelsize=8)
-    ax.margins(x=0.02)
-    ax.grid(color=_GRID, lw=0.6)
-
-
-def _titled(figure: Any, words: str) -> Any:
-    figure.suptitle(words, fontsize=10, x=0.02, ha="left")
-    return figure

@@ -9,7 +9,7 @@ import numpy as np
 
 from rockref.model.channel import DEGREES
 from rockref.report.charts import style
-from rockref.report.charts.figures import mark_impacts, new_figure
+from rockref.report.charts.figures import dressed, mark_impacts, new_figure, titled
 from rockref.studies.predictability import Growth
 from rockref.studies.sensitivity import Family
 from rockref.studies.sensitivity_study import Study
@@ -45,16 +45,11 @@ def family_figure(f: Family, title: str) -> Any:
                 colour = style.INK if order == 0 else style.colour(order - 1)
                 ax.plot(f.t[inside], DEGREES * f.crv[k, inside, axis], color=colour, lw=0.8, label=f.labels[k])
             mark_impacts(ax, f.impacts[0], start, end)
-            ax.margins(x=0.0)
-            ax.tick_params(labelsize=8)
-            ax.grid(color="#e7ebef", lw=0.6)
-            if column == 0:
-                ax.set_ylabel(f"{name}\n(deg/s)", fontsize=8)
+            dressed(ax, f"{name}\n(deg/s)" if column == 0 else None)
         axes[2][column].set_xlabel("time (s)")
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper right", ncols=4, frameon=False, fontsize=9)
-    figure.suptitle(title, fontsize=10, x=0.02, ha="left")
-    return figure
+    return titled(figure, title)
 
 
 def _drawn(f: Family) -> list[int]:
@@ -76,7 +71,6 @@ def growth_figure(g: Growth) -> Any:
     ax.semilogy(until, g.per_impact**until, color=style.COLOURS[0], lw=1.2, ls="--", label=label)
     ax.set_xlabel("main impacts passed")
     ax.set_ylabel("difference over the first")
-    ax.grid(color="#e7ebef", lw=0.6)
+    ax.grid(color=style.GRID, lw=0.6)
     ax.legend(frameon=False, fontsize=9)
-    figure.suptitle(f"{len(g.factors)} releases that differ by 1e-9 rad", fontsize=10, x=0.02, ha="left")
-    return figure
+    return titled(figure, f"{len(g.factors)} releases that differ by 1e-9 rad")

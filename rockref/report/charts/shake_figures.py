@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 
 from rockref.report.charts import style
-from rockref.report.charts.figures import new_figure
+from rockref.report.charts.figures import new_figure, titled
 from rockref.shake.statistics.bands import distribution_function, wilson_interval
 from rockref.shake.statistics.fragility import Fragility, monotone_curve
 from rockref.shake.statistics.scores import reliability
 
-_GRID = "#e7ebef"
 # decided: groups of equal size along the abscissa, so that every Wilson interval rests on as many tests.
 _GROUPS = 8
 # decided: outcomes lie on two lines; marks are shifted by up to this share of the axis, so that they can be counted.
@@ -49,11 +48,10 @@ def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str, confidence
     ax.set_xlabel(unit)
     ax.set_ylabel("probability of falling")
     ax.set_ylim(-0.06, 1.06)
-    ax.grid(color=_GRID, lw=0.6)
+    ax.grid(color=style.GRID, lw=0.6)
     ax.legend(loc="upper left", bbox_to_anchor=(0.0, 0.94), frameon=False, fontsize=8)
     title = f"median {fitted.theta:.3g}, scatter {fitted.beta:.2g}; {len(y)} tests, {int(y.sum())} fell"
-    figure.suptitle(title, fontsize=9, x=0.02, ha="left")
-    return figure
+    return titled(figure, title, 9)
 
 
 def overturning_map(
@@ -78,24 +76,15 @@ def overturning_map(
         ax.clabel(lines, fmt="%.1f", fontsize=8)
     for value, mark, colour, name in ((0.0, "o", style.COLOURS[1], "stood"), (1.0, "x", style.COLOURS[0], "fell")):
         inside = outcome == value
-        ax.plot(
-            across_all[inside],
-            up_all[inside],
-            mark,
-            ms=4,
-            mfc="none",
-            color=colour,
-            lw=0,
-            label=f"{name} ({inside.sum()})",
-        )
+        look: dict[str, Any] = {"ms": 4, "mfc": "none", "color": colour, "lw": 0, "label": f"{name} ({inside.sum()})"}
+        ax.plot(across_all[inside], up_all[inside], mark, **look)
     _plain_ticks(ax.xaxis)
     _plain_ticks(ax.yaxis)
     ax.set_xlabel(axes[0])
     ax.set_ylabel(axes[1])
     ax.legend(loc="upper right", frameon=True, framealpha=0.9, edgecolor="none", fontsize=8)
     said = "" if probability is None else "; lines: predicted probability of falling"
-    figure.suptitle(f"{len(outcome)} tests{said}", fontsize=9, x=0.02, ha="left")
-    return figure
+    return titled(figure, f"{len(outcome)} tests{said}", 9)
 
 
 def distribution_figure(samples: Mapping[str, Any], quantity: str, confidence: float = 0.95) -> Any:
@@ -119,11 +108,10 @@ def distribution_figure(samples: Mapping[str, Any], quantity: str, confidence: f
         _plain_ticks(ax.xaxis)
     ax.set_xlabel(quantity)
     ax.set_ylabel("share of runs at or below")
-    ax.grid(color=_GRID, lw=0.6)
+    ax.grid(color=style.GRID, lw=0.6)
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), frameon=False, fontsize=8, ncols=3)
     title = f"Distribution functions; bands hold a whole function with {confidence:.0%} (DKW)"
-    figure.suptitle(title, fontsize=9, x=0.02, ha="left")
-    return figure
+    return titled(figure, title, 9)
 
 
 def reliability_figure(predictions: Mapping[str, tuple[Any, Any]], bins: int = 10) -> Any:
@@ -135,24 +123,15 @@ def reliability_figure(predictions: Mapping[str, tuple[Any, Any]], bins: int = 1
         found = reliability(probability, fell, bins)
         at = np.array([b.predicted for b in found]) + 0.006 * k
         ends = np.array([[b.observed - b.low, b.high - b.observed] for b in found]).T
-        ax.errorbar(
-            at,
-            [b.observed for b in found],
-            np.maximum(ends, 0.0),
-            fmt="os^Dv"[k % 5],
-            ms=4,
-            lw=0.8,
-            color=style.colour(k),
-            label=name,
-        )
+        look: dict[str, Any] = {"fmt": "os^Dv"[k % 5], "ms": 4, "lw": 0.8, "color": style.colour(k), "label": name}
+        ax.errorbar(at, [b.observed for b in found], np.maximum(ends, 0.0), **look)
     ax.set_xlabel("predicted probability of falling")
     ax.set_ylabel("share that fell")
     ax.set_xlim(-0.03, 1.03)
     ax.set_ylim(-0.03, 1.03)
-    ax.grid(color=_GRID, lw=0.6)
+    ax.grid(color=style.GRID, lw=0.6)
     ax.legend(loc="upper left", frameon=False, fontsize=8)
-    figure.suptitle("Reliability: on the line is as predicted", fontsize=9, x=0.02, ha="left")
-    return figure
+    return titled(figure, "Reliability: on the line is as predicted", 9)
 
 
 def _plain_ticks(axis: Any) -> None:
