@@ -33,7 +33,7 @@ function button(text, label, act) {
 
 const IMPACT = "#b42318";
 
-// Vertical lines at the main impacts in a plot of uPlot.
+// Vertical lines at the main impacts in a plot of curves.
 function drawMarks(u, marks) {
   const c = u.ctx;
   c.save();
@@ -52,7 +52,7 @@ function drawMarks(u, marks) {
   c.restore();
 }
 
-// The series of a plot of uPlot: the abscissa, which its legend names, too, and a line.
+// The series of a plot of curves: the abscissa, which its legend names, too, and a line.
 const abscissaOf = (name) => ({ label: name, value: (u, v) => (v === null ? "" : v.toFixed(4)) });
 const lineOf = (name, colour, dash, width) => ({
   label: name, stroke: colour, dash: dash, width: width, points: { show: false },
