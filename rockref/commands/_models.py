@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import difflib
 import os
-import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from rockref.commands._results import remark
 
 if TYPE_CHECKING:
     from rockref.api import Model
@@ -122,11 +123,8 @@ def say_implausible(effects: Iterable[Effect], where: str) -> None:
 
     for effect in effects:
         for name, what, plausible in implausible(effect):
-            from rockref.measure.records.notice import Notice
-
             cure = f"Plausible is {plausible}; it is used as it is."
-            notice = Notice("W-RANGE", f"{where}: {effect.id} {name}", f"{what}, which is not plausible", cure)
-            print(f"rockref: {notice}", file=sys.stderr)
+            remark("W-RANGE", f"{where}: {effect.id} {name}", f"{what}, which is not plausible", cure)
 
 
 def check_step(model: Model | None, where: str | None) -> None:
@@ -151,36 +149,29 @@ def say_idle(model: Model | None, where: str | None) -> None:
     if model is None or where is None:
         return
     from rockref.discover.hypotheses.law import moved_parameters
-    from rockref.measure.records.notice import Notice
 
     with of_file(where):
         moved = moved_parameters(model)
     if model.properties is None:
         return
     what = "states stiffness, damping and friction of its points, so that no fit moves those of [parameters]"
-    cure = f"Of these {', '.join(moved)} are fitted."
-    print(f"rockref: {Notice('W-MOOT', f'{where}: [properties]', what, cure)}", file=sys.stderr)
+    remark("W-MOOT", f"{where}: [properties]", what, f"Of these {', '.join(moved)} are fitted.")
 
 
 def say_left_out(model: Model, where: str) -> None:
     """Print a remark on standard error where a search of the law alone leaves the effects of a model out."""
     if not model.effects:
         return
-    from rockref.measure.records.notice import Notice
-
     what = f"has {', '.join(effect.id for effect in model.effects)}, and the law alone is searched"
-    print(f"rockref: {Notice('W-MOOT', where, what, 'They are left out; rockref fit takes effects.')}", file=sys.stderr)
+    remark("W-MOOT", where, what, "They are left out; rockref fit takes effects.")
 
 
 def say_other_points(stated: str, where: Path) -> None:
     """Print a remark on standard error where an experiment states other points than are searched."""
     if stated == "eight_points":
         return
-    from rockref.measure.records.notice import Notice
-
     what = f"states {stated} as its baseline, and eight points are searched"
-    cure = "rockref fit finds the parameters of the points that are stated."
-    print(f"rockref: {Notice('W-MOOT', str(where), what, cure)}", file=sys.stderr)
+    remark("W-MOOT", str(where), what, "rockref fit finds the parameters of the points that are stated.")
 
 
 def labels(texts: Sequence[str]) -> list[str]:
@@ -197,7 +188,6 @@ def with_effects(model: Model, texts: Sequence[str]) -> Model:
     from rockref.effects.catalogue import in_step_order, of_releases, parse
 
     texts = [text for text in texts if not (text.strip() == spec_of(text) and has(model, text))]
-
     if not texts:
         return model
     added = [parse(text) for text in texts]

@@ -26,6 +26,11 @@ def folder_option(*names: str, help: str) -> Any:
     return typer.Option(*names, parser=folder_name, metavar="FOLDER", help=help)
 
 
+#: Where a command that shows much writes its page.
+PageFolder = Annotated[
+    Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
+]
+
 #: What every command on an experiment takes.
 ExperimentFolder = Annotated[
     Path,
@@ -127,11 +132,14 @@ def say_written(paths: Iterable[Path]) -> None:
 
 def say_old_spelling(old: str, new: str) -> None:
     """Print a remark on a spelling that still works, on standard error."""
+    remark("W-SPELLING", f"rockref {old}", "is an old spelling, which still works", f"Write rockref {new}.")
+
+
+def remark(code: str, where: str, what: str, cure: str) -> None:
+    """Print a remark of the command's own, on standard error."""
     from rockref.measure.records.notice import Notice
 
-    say_remarks(
-        [Notice("W-SPELLING", f"rockref {old}", "is an old spelling, which still works", f"Write rockref {new}.")]
-    )
+    say_remarks([Notice(code, where, what, cure)])
 
 
 def say_remarks(notices: "Iterable[Notice]") -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import typer
 
-from rockref.commands._results import in_json, say_remarks, say_written
+from rockref.commands._results import in_json, say_remarks, told, with_files
 
 
 def compare_shaken(
@@ -15,10 +15,8 @@ def compare_shaken(
     """Print predictions beside tests on a shake table, and write the page where it is wanted."""
     from rockref.commands._models import labels, named_models
     from rockref.commands._progress import stages
-    from rockref.commands._terminal import console
     from rockref.report.output import usable_folder
     from rockref.report.terminal.shaken_text import print_shaken
-    from rockref.report.terminal.text import say_command
     from rockref.shake.comparison import RUNS, compare_shaken
     from rockref.shake.experiment import load_shaken
 
@@ -28,19 +26,14 @@ def compare_shaken(
     names = labels(list(model)) if model else []
     with stages("shaking", verbose=False) as say:
         found = compare_shaken(loaded, models, names, runs=runs or RUNS, step=step or 1e-5, say=say)
-    record, written = found.to_dict(), []
-    if folder is not None:
-        from rockref.report.views.shaken_page import write_shaken
-
-        written.append(write_shaken(found, folder))
     say_remarks(loaded.notices)
-    if as_json:
-        typer.echo(in_json(record | {"written": [str(p) for p in written]}))
-        return
-    print_shaken(console(), record)
-    say_written(written)
-    if not model and loaded.motions is not None:
-        say_command(console(), f"rockref compare {path} --model table_3_1 --report report")
+    command = f"rockref compare {path} --model table_3_1 --report report"
+    then = None if model or loaded.motions is None else lambda: command
+    with told(as_json, with_files(found), lambda c: print_shaken(c, found.to_dict()), then) as written:
+        if folder is not None:
+            from rockref.report.views.shaken_page import write_shaken
+
+            written.append(write_shaken(found, folder))
 
 
 def diagnose_shaken(
@@ -50,7 +43,7 @@ def diagnose_shaken(
     """Print which effect the outcomes ask for, the candidates in a table and the answer last."""
     from rockref.commands._models import named_model
     from rockref.commands._progress import stages
-    from rockref.commands._results import told, usable_files
+    from rockref.commands._results import usable_files
     from rockref.discover.outcomes.diagnose import RUNS, diagnose_outcomes
     from rockref.model.storage import write_text
     from rockref.report.terminal.outcome_text import print_outcomes

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from rockref.commands._results import in_json, keep, say_remarks, say_written, told, usable_files, with_files
+from rockref.commands._results import in_json, keep, say_remarks, told, usable_files, with_files
 
 if TYPE_CHECKING:
     from rockref.measure.records.toss import Tosses
@@ -26,7 +26,6 @@ def compare_tosses(
 ) -> None:
     """Print models beside tosses, and write the page where it is wanted."""
     from rockref.commands._models import labels, named_models
-    from rockref.commands._terminal import console
     from rockref.discover.tosses.compare import compare
     from rockref.report.output import usable_folder
     from rockref.report.terminal.toss_text import print_toss_comparison
@@ -35,17 +34,12 @@ def compare_tosses(
     tosses = read(path)
     given = named_models(model or (), effects)
     models, names = (given, labels(list(model))) if model else (None, None)
-    record = compare(tosses, models, names).to_dict()
-    written = []
-    if folder is not None:
-        from rockref.report.views.toss_page import write_toss_comparison
+    found = compare(tosses, models, names)
+    with told(as_json, with_files(found), lambda c: print_toss_comparison(c, found.to_dict())) as written:
+        if folder is not None:
+            from rockref.report.views.toss_page import write_toss_comparison
 
-        written.append(write_toss_comparison(record, folder))
-    if as_json:
-        typer.echo(in_json(record | {"written": [str(p) for p in written]}))
-        return
-    print_toss_comparison(console(), record)
-    say_written(written)
+            written.append(write_toss_comparison(found.to_dict(), folder))
 
 
 def diagnose_tosses(

@@ -1,12 +1,13 @@
 """`rockref compare`: models beside measured runs."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_option, in_json, only_for
+from rockref.commands._results import ExperimentFolder, folder_option, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -72,11 +73,12 @@ def compare(
         return compare_tosses(experiment, model, effect, report, as_json)
     from rockref.commands._models import labels, named_models
     from rockref.commands._progress import stages
-    from rockref.commands._results import say_remarks, say_written
+    from rockref.commands._results import say_remarks, told, with_files
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.measure import load_experiment
     from rockref.report.output import usable_folder
+    from rockref.report.terminal.comparison_text import print_comparison
     from rockref.report.terminal.next_command import BASELINE, after_comparison
     from rockref.report.views.comparison_page import write_report
 
@@ -87,17 +89,10 @@ def compare(
     folder = usable_folder(report)
     with stages("simulating the runs") as say:
         comparison = run_comparison(loaded, models, names, engine=engine, progress=say)
-    written = write_report(comparison, folder) if folder is not None else []
     say_remarks(loaded.notices)
-    if as_json:
-        typer.echo(in_json(comparison.to_dict() | {"written": [str(path) for path in written]}))
-    else:
-        from rockref.commands._terminal import console
-        from rockref.report.terminal.comparison_text import print_comparison
-        from rockref.report.terminal.text import say_command
-
-        print_comparison(console(), comparison, full)
-        say_written(written)
-        say_command(console(), after_comparison(experiment, model or [BASELINE], models))
+    then = partial(after_comparison, experiment, model or [BASELINE], models)
+    with told(as_json, with_files(comparison), lambda c: print_comparison(c, comparison, full), then) as written:
+        if folder is not None:
+            written += write_report(comparison, folder)
     if check and not comparison.holds_to_second_impact():
         raise typer.Exit(1)

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from rockref.commands._keeping import Fresh
-from rockref.commands._results import ExperimentFolder, folder_option, only_for
+from rockref.commands._results import ExperimentFolder, PageFolder, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -26,9 +26,7 @@ def diagnose(
         list[str] | None,
         typer.Option("--effect", "-e", help="An effect of your own, path/to/file.py:Class, to be tried, too."),
     ] = None,
-    report: Annotated[
-        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
-    ] = None,
+    report: PageFolder = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
     save_model: Annotated[Path | None, typer.Option("--save-model", help="Write the best model there.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,

@@ -1,12 +1,13 @@
 """`rockref identify`: the parameters of the model from measured runs."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_option, in_json
+from rockref.commands._results import ExperimentFolder, PageFolder, folder_option, in_json
 
 # decided: of a hundred thousand runs of 3e5 steps, at 27 million steps a second, a generation takes twenty minutes.
 MOST = 100_000
@@ -26,9 +27,7 @@ def identify(
         str, typer.Option("--model", "-m", help="table_3_1 or a model.toml: block and what is not searched.")
     ] = "table_3_1",
     effect: OwnEffects = None,
-    report: Annotated[
-        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
-    ] = None,
+    report: PageFolder = None,
     genes: Annotated[int, typer.Option(help="12 or 54 parameters.")] = 12,
     search_runs: Annotated[
         str | None, typer.Option("--search-runs", help="Runs of the evolutionary search, as 01,06; default: the first.")
@@ -58,7 +57,7 @@ def identify(
     from rockref.commands._keeping import checkpoints_in
     from rockref.commands._models import named_models, say_left_out, say_other_points
     from rockref.commands._progress import of_search, stages
-    from rockref.commands._results import say_remarks, say_written
+    from rockref.commands._results import say_remarks, told
     from rockref.identify.from_experiment import answered, question
     from rockref.identify.outcome import files_in
     from rockref.identify.search import Settings
@@ -66,6 +65,8 @@ def identify(
     from rockref.jobs.folder_lock import alone_in
     from rockref.model.storage import write_text
     from rockref.report.output import made_folder, usable_folder
+    from rockref.report.terminal.identification_text import print_identification
+    from rockref.report.terminal.next_command import after_identification
 
     (base,) = named_models([model], effect)
     say_left_out(base, model)
@@ -82,21 +83,12 @@ def identify(
         text = in_json(result)
         write_text(files["result"], text + "\n")
         found.save(files["model"])
-    written = list(files.values())
-    if page_folder is not None:
-        from rockref.report.views.identification_page import identification_page
+    then = partial(after_identification, result, experiment, files["model"])
+    with told(as_json, lambda written: text, lambda c: print_identification(c, result, full), then) as written:
+        written += files.values()
+        if page_folder is not None:
+            from rockref.report.views.identification_page import identification_page
 
-        written.append(identification_page(result).write_into(page_folder))
-    if as_json:
-        typer.echo(text)
-    else:
-        from rockref.commands._terminal import console
-        from rockref.report.terminal.identification_text import print_identification
-        from rockref.report.terminal.next_command import after_identification
-        from rockref.report.terminal.text import say_command
-
-        print_identification(console(), result, full)
-        say_written(written)
-        say_command(console(), after_identification(result, experiment, files["model"]))
+            written.append(identification_page(result).write_into(page_folder))
     if not result["least_squares"]["at_noise_floor"]:
         raise typer.Exit(1)

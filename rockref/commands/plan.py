@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_option, only_for
+from rockref.commands._results import PageFolder, only_for
 
 
 def register(app: typer.Typer) -> None:
@@ -27,9 +27,7 @@ def plan(
     ] = None,
     tests: Annotated[int | None, typer.Option(min=1, help="With --outcomes: tests a side that there can be.")] = None,
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
-    report: Annotated[
-        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
-    ] = None,
+    report: PageFolder = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the simulated noise.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_option
+from rockref.commands._results import PageFolder, folder_option
 
 
 def register(app: typer.Typer) -> None:
@@ -30,9 +30,7 @@ def shake(
     seed: Annotated[int, typer.Option(min=0, help="Seed of all draws.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; all cores by default.")] = None,
     dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler instead (extra `distributed`).")] = None,
-    report: Annotated[
-        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
-    ] = None,
+    report: PageFolder = None,
     effect: Annotated[
         list[str] | None, typer.Option("--effect", help="Add an effect: id:key=value,key=value. May be repeated.")
     ] = None,

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from rockref.commands._results import folder_option, in_json
+from rockref.commands._results import PageFolder, in_json
 
 # decided: with 50 rows a second the main impacts of the block of Table 3.1 are off by 1e-4 s, with 20 by 7e-4 s, and
 # with one they are others.
@@ -25,9 +25,7 @@ def simulate(
         typer.Option("--output", "-o", help="Table to write, .csv or .csv.gz; without it only the summary."),
     ] = None,
     out: Annotated[Path | None, typer.Option("--out", hidden=True)] = None,
-    report: Annotated[
-        Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
-    ] = None,
+    report: PageFolder = None,
     duration: Annotated[
         float | None,
         typer.Option(
