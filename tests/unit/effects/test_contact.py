@@ -12,7 +12,6 @@ from rockref.effects.contact.hysteretic_contact import HystereticContact
 from rockref.effects.contact.orientation_dependent_damping import OrientationDependentDamping
 from rockref.effects.contact.uneven_foot_damping import UnevenFootDamping
 from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
-from rockref.model.contact import Kinematics
 from tests.unit.effects.bodies import H, ball, body, last, points_at, puck, walk
 
 TOUCH = 1e-3  # height at which the ball touches
@@ -42,11 +41,6 @@ def test_hertz_contact_lasts_as_hertz_says(exponent):
     assert duration == pytest.approx(2 * depth / speed * share, rel=1e-3)
     # What the spring stores comes back; the step's own error is of second order.
     assert rebound == pytest.approx(speed, rel=1e-5)
-
-
-def test_hertz_with_exponent_one_and_any_reference_is_the_law():
-    assert HertzianContact(1.0, 7e-6).is_absent()
-    assert not HertzianContact(1.5, 2e-5).is_absent()
 
 
 def test_hunt_crossley_restitution():
@@ -86,32 +80,6 @@ def test_hysteretic_restitution_does_not_know_the_speed(speed, share):
     assert rebound == pytest.approx(speed * math.sqrt((1 - 0.2 * share) / (1 + kappa)), rel=1e-3)
 
 
-def spring_of(effect, depths, K=1e6):
-    """The force of one point that is brought slowly to each depth in turn [N]."""
-    points, m = points_at([(0, 0, 0)], K_N=K), {"xi_largest": np.zeros(1)}
-    nothing = np.zeros((1, 3))
-    forces = []
-    for depth in depths:
-        xi = np.array([depth])
-        k = Kinematics(nothing, nothing, nothing, xi, np.zeros(1), nothing[:, :2])
-        F = float(effect.normal_force(K * xi + 0.0, k, points, m)[0])
-        forces.append(max(F, 0.0) if depth >= 0 else 0.0)
-    return forces
-
-
-def test_hysteretic_memory_follows_the_contact():
-    """Loading, unloading, reloading on the steep line, loading on, leaving, and a fresh contact."""
-    K, kappa = 1e6, 0.5
-    F = spring_of(HystereticContact(kappa), [1e-5, 8e-6, 1e-5, 2e-5, 5e-6, -1e-7, 1e-5])
-    dent = kappa / (1 + kappa) * 1e-5
-    assert F[0] == pytest.approx(10.0)
-    assert F[1] == pytest.approx(K * 1.5 * (8e-6 - dent))
-    assert F[2] == pytest.approx(F[0])  # no loss on the way down and up again
-    assert F[3] == pytest.approx(20.0)
-    assert F[4] == 0.0  # the dent of 6.7e-6 m is deeper
-    assert F[6] == pytest.approx(F[0])  # the dent was forgotten in the air
-
-
 @pytest.mark.parametrize("speed", [0.05, 0.0999, 0.1001, 0.2])
 def test_adhesion_holds_what_is_slower_than_its_work(speed):
     """To leave takes force * range/2 = m 0.1^2/2; what is faster leaves with the rest, and gets it back at landing."""
@@ -124,11 +92,6 @@ def test_adhesion_holds_what_is_slower_than_its_work(speed):
     else:
         # The pull is stepped, not integrated: 4e-7 m of a range of 2e-4 m at this speed.
         assert state.v[2] == pytest.approx(math.sqrt(speed**2 - 0.1**2), abs=2e-4)
-
-
-def test_adhesion_gives_back_at_landing_what_it_took():
-    rebound, _ = bounce(Adhesion(50.0, 2e-5), 0.1, h=2e-6)
-    assert rebound == pytest.approx(0.1, rel=1e-3)
 
 
 def test_uneven_feet_sink_as_their_springs_say():

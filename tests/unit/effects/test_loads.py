@@ -5,17 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from rockref.effects.loads.attachment import half_height
 from rockref.effects.loads.base_vibration import BaseVibration
 from rockref.effects.loads.cable_restraint import CableRestraint
 from rockref.effects.loads.lingering_wire_pull import LingeringWirePull
 from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.effects.loads.quadratic_drag import QuadraticDrag
-from rockref.effects.probe import sample_problem
-from rockref.effects.release.release_velocity import ReleaseVelocity
 from rockref.effects.support.compliant_support import CompliantSupport
 from rockref.model.integrator import evaluate_contact
-from rockref.model.rotation import apply, apply_to_points, cross, exponential
 from tests.unit.effects.bodies import H, body, last, points_at, puck, walk
 
 FAR = 10.0  # height of a body that touches nothing
@@ -57,16 +53,6 @@ def test_drag_slows_a_spinning_body():
         assert rates[i] == pytest.approx(spin / (1 + c * spin * i * 1e-4 / J), rel=max(order, 1e-9))
 
 
-def test_drag_on_a_block_that_turns_about_its_base():
-    """Force and moment come to one moment about the base, of c + c_v (height/2)^3."""
-    w, c, c_v = 0.7, 0.4, 0.3
-    drag = QuadraticDrag(c, c_v)
-    problem = flying(drag, W=(w, 0, 0), v=(0, -w * 0.5, 0))
-    force, moment = load_on(drag, problem)
-    about_base = moment[0] + (0.5 * -force[1])
-    assert about_base == pytest.approx(-(c + c_v * 0.5**3) * w**2, rel=1e-12)
-
-
 def test_cable_swings_a_free_body():
     """A damped oscillator about where the body was at the start."""
     k, c, mass, speed = 400.0, 4.0, 1.0, 0.1
@@ -82,21 +68,6 @@ def test_cable_swings_a_free_body():
     expected = 0.2 + speed / omega * math.exp(-delta * t) * math.sin(omega * t)
     assert state.x[1] == pytest.approx(expected, abs=1e-5 * speed / omega)
     assert state.x[0] == 0.3
-
-
-def test_cable_holds_the_top_unless_told_otherwise():
-    problem = sample_problem()
-    tilted = problem.start.Lambda
-    top = CableRestraint(1.0)
-    assert top.attachment(problem, tilted) == pytest.approx(tilted[:, 2] * 0.344)
-    assert CableRestraint(1.0, height=0.1).attachment(problem, tilted) == pytest.approx(tilted[:, 2] * 0.1)
-    force, moment = load_on(CableRestraint(5.0, 0.0), problem)
-    assert np.all(force == 0) and np.all(moment == 0)  # slack at release
-    force, moment = load_on(CableRestraint(0.0, 2.0), problem)
-    r = top.attachment(problem, tilted)
-    velocity = cross(apply(tilted, problem.start.W), r)
-    assert force == pytest.approx([-2 * velocity[0], -2 * velocity[1], 0])
-    assert moment == pytest.approx(np.cross(r, force))
 
 
 def test_wire_gives_its_impulse():
@@ -188,23 +159,6 @@ def test_support_starts_in_balance():
     # The weight is carried to rounding: 1e-15 of 20 N over 5 ms.
     assert np.abs(rows[:, 1]).max() < 1e-15
     assert np.ptp(rows[:, 0]) < 1e-15
-
-
-def test_release_velocity_turns_about_the_pivots():
-    problem = sample_problem()
-    at_rest = problem.start.at_rest(problem.start.x, problem.start.Lambda, 8)
-    effect = ReleaseVelocity(0.03, -0.02, 0.05)
-    state = effect.release(problem.block, problem.points, at_rest)
-    r = apply_to_points(state.Lambda, problem.points.P)
-    velocities = state.v + np.cross(apply(state.Lambda, state.W), r)
-    # 1ext and 2ext carry the block: their middle rests.
-    assert (velocities[0] + velocities[1]) / 2 == pytest.approx([0, 0, 0], abs=1e-17)
-    assert np.all(state.W == [0.03, -0.02, 0.05])
-
-
-def test_half_height_is_above_the_lowest_point():
-    assert half_height(sample_problem().points) == 0.344
-    assert np.all(exponential(np.zeros(3)) == np.eye(3))
 
 
 def test_typical_drag_is_that_of_the_sail_of_which_the_text_speaks():

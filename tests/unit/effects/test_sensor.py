@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from rockref import InputError
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import analogue, digital, measured
 from rockref.effects.sensor.clock_error import ClockError
@@ -39,10 +38,6 @@ def test_axes_that_are_not_square_see_each_other():
     # Of unit vectors (1, xy) and (xy, 1) the cosine is 2 xy, and each has cos(apart/2) of the rate: to first order.
     assert out[:, 0] == pytest.approx(out[:, 1], abs=1e-15)
     assert np.max(out[:, 0]) == pytest.approx(math.sqrt(2) * math.cos(apart / 2), abs=xy**2)
-
-
-def test_scale_is_per_axis():
-    assert GyroScale(1.02, 0.98, 1.5).sensor(T, tone(1.0)) == pytest.approx(tone(1.0, axes=(1.02, 0.49, -0.45)))
 
 
 @pytest.mark.parametrize("f", [5.0, 20.0, 60.0])
@@ -81,14 +76,6 @@ def test_far_above_one_damping_is_a_filter_of_first_order():
     assert apart[0] < 0.006 and apart[1] == pytest.approx(apart[0] / 100, rel=0.05)
 
 
-def test_bandwidth_is_settled_on_the_first_sample_and_wants_even_rows():
-    flat = np.full((100, 3), 0.3)
-    assert GyroBandwidth(20.0).sensor(T[:100], flat) == pytest.approx(flat, abs=1e-12)
-    uneven = np.concatenate([T[:50], T[60:110]])
-    with pytest.raises(InputError, match="even spacing"):
-        GyroBandwidth(20.0).sensor(uneven, flat)
-
-
 @pytest.mark.parametrize("f", [5.0, 60.0])
 def test_delay_is_a_phase_that_grows_with_the_frequency(f):
     """H = exp(-i w tau) times the low-pass; alone it leaves sizes as they are."""
@@ -104,29 +91,10 @@ def test_delay_is_a_phase_that_grows_with_the_frequency(f):
     assert both[late] == pytest.approx(expected[late], abs=(2 * math.pi * f / 2000) ** 2 / 12 + 1e-5)
 
 
-def test_a_delay_shows_a_ramp_late_and_holds_the_first_row_until_then():
-    ramp = 0.2 + np.outer(T, (3.0, -1.0, 0.5))
-    out = GyroBandwidth(delay=0.01).sensor(T, ramp)
-    assert out == pytest.approx(0.2 + np.outer(np.maximum(T - 0.01, 0), (3.0, -1.0, 0.5)), abs=1e-12)
-    assert GyroBandwidth(delay=0.0).is_absent() and not GyroBandwidth(delay=1e-4).is_absent()
-
-
 def test_a_delay_comes_before_the_bias_and_its_drift():
     """The bias of a sensor that is late does not begin late."""
     out = measured([GyroDrift(rate_x=1.0), GyroBandwidth(delay=0.01)], T, np.zeros((4000, 3)))
     assert np.array_equal(out[:, 0], T)
-
-
-def test_drift_is_bias_and_slope():
-    out = GyroDrift(0.1, 0.2, 0.3, -1.0, 0.0, 2.0).sensor(T, np.zeros((4000, 3)))
-    assert out[0] == pytest.approx([0.1, 0.2, 0.3])
-    assert out[2000] == pytest.approx([-0.9, 0.2, 2.3])
-
-
-def test_saturation_cuts_at_both_ends():
-    out = GyroSaturation(0.4).sensor(T, tone(2.0))
-    assert out.max() == 0.4 and out.min() == -0.4
-    assert np.array_equal(out[np.abs(tone(2.0)) < 0.4], tone(2.0)[np.abs(tone(2.0)) < 0.4])
 
 
 @pytest.mark.parametrize("rate", [0.99, 1.01])
@@ -137,18 +105,6 @@ def test_clock_shows_the_signal_of_another_time(rate):
     # Cubic between samples: (2 pi 7/2000)^4/384 of the tone, at the ends some ten times it.
     assert out[inside] == pytest.approx(tone(7.0 * rate)[inside], abs=1e-7)
     assert np.array_equal(out[~inside], np.broadcast_to(tone(7.0)[-1], out[~inside].shape))
-
-
-def test_batches_ride_along():
-    crv = np.stack([tone(3.0), tone(5.0)])
-    effects = [
-        GyroMisalignment(0.1, 0.2, 0.3), GyroScale(1.1, 0.9, 1.2), GyroBandwidth(50.0),
-        GyroDrift(0.1, rate_y=1.0), GyroSaturation(0.8), ClockError(1.01),
-    ]  # fmt: skip
-    for effect in effects:
-        both = effect.sensor(T, crv)
-        for i in range(2):
-            assert np.array_equal(both[i], effect.sensor(T, crv[i])), effect.id
 
 
 CHAIN = [

@@ -1,12 +1,9 @@
 """Effects on shape and mass, each against another way to the same body."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from rockref import InputError, Model
-from rockref.effects.contact.uneven_foot_stiffness import UnevenFootStiffness
+from rockref import Model
 from rockref.effects.shape.dimension_deviation import DimensionDeviation
 from rockref.effects.shape.foot_defects import FootDefects
 from rockref.effects.shape.inertia_deviation import InertiaDeviation
@@ -32,24 +29,6 @@ def test_foot_defects_make_the_eight_point_model():
     assert np.array_equal(block.inertia, block_8.inertia)
 
 
-def test_foot_defects_want_four_points():
-    with pytest.raises(InputError, match="four_points"):
-        Model.table_3_1().replace(effects=(TABLE,)).body()
-    with pytest.raises(InputError, match="half the base"):
-        Model.four_points().replace(effects=(FootDefects(delta_diag=0.08),)).body()
-
-
-@pytest.mark.parametrize("side, factor", [("width", 1.01), ("depth", 0.97), ("height", 1.02)])
-def test_dimension_deviation_is_a_model_of_other_sides(side, factor):
-    flat = Model.four_points()
-    block, points = flat.replace(effects=(DimensionDeviation(**{side: factor}),)).body()
-    block_2, points_2 = flat.replace(**{side: getattr(flat, side) * factor}).body()
-    # A few roundings on the way through the second moments.
-    assert points.P == pytest.approx(points_2.P, rel=1e-15)
-    assert block.inertia == pytest.approx(block_2.inertia, rel=1e-14)
-    assert block.mass == block_2.mass
-
-
 def test_feet_that_stand_elsewhere_on_the_stated_body():
     """Without a share the points move and the tensor stays; half a share is a body of half the deviation."""
     table, sides = Model.table_3_1(), {"width": 1.01, "depth": 0.98, "height": 1.02}
@@ -61,15 +40,6 @@ def test_feet_that_stand_elsewhere_on_the_stated_body():
     half = DimensionDeviation(**{side: 1 + (s - 1) / 2 for side, s in sides.items()})
     between, _ = table.replace(effects=(DimensionDeviation(**sides, inertia_share=0.5),)).body()
     assert between.inertia == pytest.approx(table.replace(effects=(half,)).body()[0].inertia, rel=1e-14)
-
-
-def test_inertia_deviation_keeps_a_tensor_a_tensor():
-    J = np.array([[2.0, 0.1, -0.2], [0.1, 2.2, 0.05], [-0.2, 0.05, 0.4]])
-    effect = InertiaDeviation(1.1, 0.9, 1.2)
-    block, _ = Model.table_3_1().replace(inertia=J, effects=(effect,)).body()
-    assert np.diag(block.inertia) == pytest.approx(np.diag(J) * [1.1, 0.9, 1.2], rel=1e-15)
-    assert np.array_equal(block.inertia, block.inertia.T)
-    assert np.all(np.linalg.eigvalsh(block.inertia) > 0)
 
 
 def test_products_of_inertia_are_those_of_the_axes_that_a_part_turns():
@@ -134,20 +104,6 @@ def test_normals_belong_to_their_foot():
     state = last(problem, 100)
     # A quarter of the weight at foot 3 (-0.1, -0.1), pushed along x: a moment 0.1 * F about z.
     assert state.W[2] == pytest.approx(0.1 * 0.02 * 9.81 / 4 * 100 * H, rel=1e-6)
-
-
-def test_feet_must_have_names_of_feet():
-    block, points = Model.four_points().body()
-    odd = replace(points, names=("left", "2ext", "3ext", "4ext"))
-    with pytest.raises(InputError, match="'left' belongs to no foot"):
-        UnevenFootStiffness(foot1=2.0).points(block, odd)
-
-
-def test_rounded_feet_give_every_point_the_radius():
-    _, points = Model.table_3_1().replace(effects=(RoundedFeet(2e-3),)).body()
-    assert np.array_equal(points.radius, np.full(8, 2e-3))
-    _, same = Model.table_3_1().replace(foot_radius=2e-3).body()
-    assert np.array_equal(same.radius, points.radius)
 
 
 def rolled_arc_time(lever, height, radius, tilt, J, mass):

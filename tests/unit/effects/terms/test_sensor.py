@@ -171,8 +171,12 @@ def test_times_are_kept_whatever_they_are_written_in(effect):
 
 
 @pytest.mark.parametrize(
-    "effect", [GyroBandwidth(40.0), GyroBandwidth(delay=0.0017), ClockError(0.7)], ids=["low-pass", "delay", "clock"]
-)
+    "effect",
+    [
+        GyroMisalignment(0.1, 0.2, 0.3, 0.1), GyroScale(1.1, 0.9, 1.2), GyroDrift(0.1, rate_y=1.0),
+        GyroBandwidth(40.0), GyroBandwidth(delay=0.0017), ClockError(0.7), GyroSaturation(0.8),
+    ],
+)  # fmt: skip
 def test_runs_side_by_side_do_not_see_each_other(effect):
     both = effect.sensor(T, np.stack([CRV, 2 * CRV[::-1]]))
     assert np.array_equal(both[0], effect.sensor(T, CRV))
