@@ -32,15 +32,11 @@ class Prediction:
 
     Attributes
     ----------
-    run : str
-        Id of the measured run.
-    response : Response
-        The simulated motion, 4 kHz.
-    crv : (N, 3) float64
-        What is there to be sampled: body rates after the gyroscope's low-pass and the model's sensor effects, at
-        ``response.t``, rad/s; not yet cut at the largest rate that it shows.
-    gyro : Gyro
-        Its data sheet.
+    run : id of the measured run
+    response : the simulated motion, 4 kHz
+    crv : (N, 3) what is there to be sampled: body rates after the gyroscope's low-pass and the model's sensor effects,
+        at ``response.t``, rad/s; not yet cut at the largest rate that it shows.
+    gyro : its data sheet
     """
 
     run: str

@@ -48,23 +48,15 @@ class Motion:
 
     Attributes
     ----------
-    recording : Recording
-    release : float
-        Instant of the release on the recording's clock, s, the gyroscope's delay included.
-    standing : float
-        How long the block is seen to stand before it, s; 0 where the record begins at the release.
-    bias, noise : (3,) float64
-        What the rates show at rest, and their scatter; zero and the record's calmest scatter where nothing stands.
-    impact : float
-        First main impact on the recording's clock, s.
-    main : int
-        The axis about which the block rocks.
-    turn : (3,) float64
-        Rates summed over time from release to first impact, s times the log's unit.
-    angle : float
-        Angle of the release about the main axis, s times the log's unit: up to rest where the record shows it.
-    gauge : float
-        rad/s that one unit of the rates must be worth.
+    release : instant of the release on the recording's clock, s, the gyroscope's delay included
+    standing : how long the block is seen to stand before it, s; 0 where the record begins at the release
+    bias, noise : (3,) what the rates show at rest, and their scatter; zero and the record's calmest scatter where
+        nothing stands
+    impact : first main impact on the recording's clock, s
+    main : the axis about which the block rocks
+    turn : (3,) rates summed over time from release to first impact, s times the log's unit
+    angle : angle of the release about the main axis, s times the log's unit: up to rest where the record shows it
+    gauge : rad/s that one unit of the rates must be worth
     """
 
     recording: Recording = field(repr=False)

@@ -40,17 +40,11 @@ class Table:
 
     Attributes
     ----------
-    path : Path
-        The file.
-    columns : mapping of str to (N,) float64
-        By quantity (``t``, ``wx``, ..., ``qz``): s, rad/s, m.
-    names : mapping of str to str
-        The name in the file of each quantity, with its unit.
-    sha256 : str
-        Digest of the bytes on disk.
-    notices : tuple of Notice
-    first_line : int
-        Line of the first row, counted from one.
+    path : the file
+    columns : (N,) by quantity (``t``, ``wx``, ..., ``qz``): s, rad/s, m.
+    names : the name in the file of each quantity, with its unit
+    sha256 : digest of the bytes on disk
+    first_line : line of the first row, counted from one
     """
 
     path: Path

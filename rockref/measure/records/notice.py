@@ -11,14 +11,10 @@ class Notice:
 
     Parameters
     ----------
-    code : str
-        Stable identifier, for example ``"W-GAP-FILLED"``.
-    where : str
-        The file, and the line, column or key in it.
-    what : str
-        What was found.
-    cure : str
-        What to do about it, or what was done.
+    code : stable identifier, for example ``"W-GAP-FILLED"``
+    where : the file, and the line, column or key in it
+    what : what was found
+    cure : what to do about it, or what was done
     """
 
     code: str

@@ -39,24 +39,15 @@ class Run:
 
     Attributes
     ----------
-    id, file : str
-        Name of the run, and of its file inside the folder.
-    use : str
-        ``fit`` or ``holdout``.
-    release_tilt : float or None
-        Stated tilt at the release, rad (None for a toss).
-    block_turned : float
-        Turn of the block about the vertical, rad: 0 or pi.
-    t : (N,) float64 or None
-        Time from the release, s. None if the file was not opened.
-    crv : (N, 3) float64 or None
-        Body rates about X (main), Y (transverse), Z (longitudinal), rad/s. None if unopened or not measured.
-    pose : (N, 7) float64 or None
-        x, y, z in m and qw, qx, qy, qz (body to plate), where the file has them.
-    filled : tuple of int
-        Rows that were missing and have been filled in by interpolation.
-    sha256 : str or None
-        Digest of the file on disk; None if it was not opened.
+    id, file : name of the run, and of its file inside the folder
+    use : ``fit`` or ``holdout``
+    release_tilt : stated tilt at the release, rad (None for a toss)
+    block_turned : turn of the block about the vertical, rad: 0 or pi
+    t : (N,) time from the release, s. None if the file was not opened.
+    crv : (N, 3) body rates about X (main), Y (transverse), Z (longitudinal), rad/s. None if unopened or not measured.
+    pose : (N, 7) x, y, z in m and qw, qx, qy, qz (body to plate), where the file has them
+    filled : rows that were missing and have been filled in by interpolation
+    sha256 : digest of the file on disk; None if it was not opened
     """
 
     id: str
