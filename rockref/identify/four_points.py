@@ -35,9 +35,9 @@ DEFECTS: dict[str, tuple[Gene, ...]] = {
 }
 
 
-def scenario_space(defects: Sequence[str], tilt: float, block: Model | None = None) -> Space:
+def scenario_space(defects: Sequence[str], tilt: float) -> Space:
     """Return the genes of a four-point model with these defects, released at `tilt` +- 0.08 degrees [rad]."""
-    model = (Model.four_points() if block is None else block).replace(points="four_points", theta_0=tilt, effects=())
+    model = Model.four_points().replace(theta_0=tilt)
     genes = [gene(name, tilt) for name in COMMON] + [g for name in defects for g in DEFECTS[name]]
     return Space(":".join((PREFIX, *defects)), tuple(genes), model)
 

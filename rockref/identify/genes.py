@@ -92,20 +92,20 @@ class Space:
         return low, high, log.astype(bool)
 
 
-def genes_12(tilt: float, tilt_range: float = TILT_RANGE) -> tuple[Gene, ...]:
-    """Return the twelve genes of Table 3.1; the release angle within `tilt` +- `tilt_range` [rad]."""
-    return tuple(gene(name, tilt, tilt_range) for name in GENES_12)
+def genes_12(tilt: float) -> tuple[Gene, ...]:
+    """Return the twelve genes of Table 3.1; the release angle about `tilt` [rad]."""
+    return tuple(gene(name, tilt) for name in GENES_12)
 
 
-def gene(name: str, tilt: float, tilt_range: float = TILT_RANGE) -> Gene:
+def gene(name: str, tilt: float) -> Gene:
     """Return one of the twelve genes of Table 3.1."""
     unit = TABLE_3_1[name].unit
     if name == "theta_0":
-        return Gene(name, unit, tilt - tilt_range, tilt + tilt_range)
+        return Gene(name, unit, tilt - TILT_RANGE, tilt + TILT_RANGE)
     return Gene(name, unit, *RANGES[name], name in LOGARITHMIC)
 
 
-def genes_54(tilt: float, mass: float, tilt_range: float = TILT_RANGE) -> tuple[Gene, ...]:
+def genes_54(tilt: float, mass: float) -> tuple[Gene, ...]:
     """Return the 54 genes: six properties of each of eight points, four heights, the diagonal, the release angle.
 
     The ranges are those of the twelve; damping C = 2 beta sqrt(K m) spans what they span together.
@@ -119,7 +119,7 @@ def genes_54(tilt: float, mass: float, tilt_range: float = TILT_RANGE) -> tuple[
     units = {"K": "N/m", "C": "N s/m", "m": "1"}
     points = [f"{i}ext" for i in range(1, 5)] + [f"{i}int" for i in range(1, 5)]
     per_point = [Gene(f"{p} {k}", units[k[0]], *ranges[k], True) for p in points for k in PROPERTIES]
-    return (*per_point, *genes_12(tilt, tilt_range)[6:])
+    return (*per_point, *genes_12(tilt)[6:])
 
 
 def space_12(model: Model, tilt: float | None = None) -> Space:

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.identify.candidates import STEP
 from rockref.identify.genes import Space
 from rockref.identify.polish import Polished
 from rockref.identify.target import Target
@@ -46,16 +45,14 @@ class RunError:
         return float(np.sqrt(np.mean(np.square(self.rms_stated))) / self.noise)
 
 
-def run_error(
-    space: Space, end: Polished, target: Target, use: str, step: float = STEP, workers: int | None = None
-) -> RunError:
+def run_error(space: Space, end: Polished, target: Target, use: str) -> RunError:
     """Return error of the model at the end of a polish on one run."""
     tilt_gene = space.names.index("theta_0")
     shared = np.delete(end.u, tilt_gene)
 
     def rms(tilts: np.ndarray) -> np.ndarray:
         zs = np.array([np.append(shared, x) for x in tilts])
-        r = residuals(space, [target], zs, step, workers).reshape(len(tilts), 3, -1)
+        r = residuals(space, [target], zs).reshape(len(tilts), 3, -1)
         return np.sqrt(np.mean(np.square(r), axis=2)) * target.gyro.noise
 
     stated = rms(end.u[tilt_gene : tilt_gene + 1])[0]
@@ -74,8 +71,6 @@ def run_error(
     return RunError(target.name, use, target.tilt + offset, found, stated, target.gyro.noise)
 
 
-def run_errors(
-    space: Space, end: Polished, fitted: Sequence[Target], holdout: Sequence[Target] = (), step: float = STEP
-) -> list[RunError]:
+def run_errors(space: Space, end: Polished, fitted: Sequence[Target], holdout: Sequence[Target] = ()) -> list[RunError]:
     """Return the table of all runs, fitted ones first."""
-    return [run_error(space, end, t, use, step) for use, ts in (("fit", fitted), ("holdout", holdout)) for t in ts]
+    return [run_error(space, end, t, use) for use, ts in (("fit", fitted), ("holdout", holdout)) for t in ts]

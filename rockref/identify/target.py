@@ -99,11 +99,11 @@ def chosen_runs(targets: tuple[Target, ...], names: str | None) -> tuple[Target,
     return tuple(known[name] for name in wanted)
 
 
-def twin(model: Model, step: float, seed: int | None, gyro: Gyro = GYRO, duration: float = 1.6) -> Target:
+def twin(model: Model, step: float, seed: int | None) -> Target:
     """Return a reference simulated with another step, recorded with the noise that `seed` draws (None: no noise)."""
     from rockref.engines import run
 
-    response = run(model.problem(duration, step, 2000.0), engine="auto")
+    response = run(model.problem(1.6, step, 2000.0), engine="auto")
     rng = None if seed is None else np.random.default_rng(seed)
-    t, crv = record(response.t, response.W, gyro, rng, model.active_effects())
-    return target(f"twin {seed}", t, crv, gyro, model.parameters.theta_0)
+    t, crv = record(response.t, response.W, GYRO, rng, model.active_effects())
+    return target(f"twin {seed}", t, crv, GYRO, model.parameters.theta_0)

@@ -74,14 +74,12 @@ class Level:
         return asdict(self) | {"fell_interval": [wilson_interval(k, self.signals) for k in self.fell]}
 
 
-def run_level(
-    folder: Path, index: int, signals: int, step: float, workers: int | None = None, model: Model | None = None
-) -> dict[str, np.ndarray]:
+def run_level(folder: Path, index: int, signals: int, step: float, workers: int | None = None) -> dict[str, np.ndarray]:
     """Run both blocks under the signals of level `index` and return what fell and rocked (2, signals).
 
     Signals differ from level to level. What is done is kept in `folder`, and not run again.
     """
-    block = Model.table_3_1() if model is None else model
+    block = Model.table_3_1()
     motions = tuple(signal(index * 10**6 + k, LEVELS[index]) for k in range(signals))
     fell, rocked = [], []
     for name, own in zip(NAMES, (block, symmetric_twin(block)), strict=True):

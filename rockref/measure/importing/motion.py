@@ -15,7 +15,7 @@ import numpy as np
 from rockref.measure.importing.recording import Recording
 from rockref.measure.signals.impacts import main_impacts
 from rockref.measure.signals.running import half_width, running_mean, sample_step
-from rockref.measure.signals.signal import growth_rate
+from rockref.measure.signals.signal import growth_rate, stretches
 from rockref.model.errors import InputError
 
 # decided: in 50 ms a block that moves leaves the scatter of one that stands, and 25 samples at 500 Hz show it.
@@ -112,9 +112,7 @@ def _scatter(t: np.ndarray, chip: np.ndarray) -> np.ndarray:
 def _calm_stretches(t: np.ndarray, chip: np.ndarray, noise: np.ndarray) -> list[tuple[int, int]]:
     """Return (first, last) sample of every stretch in which all rates stand still within their scatter."""
     still = np.all(_scatter(t, chip) < CALM_SIGMAS * noise, axis=1)
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], still.astype(np.int8), [0]))))
-    stretches = [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
-    return [(a, b) for a, b in stretches if t[b] - t[a] >= CALM_TIME]
+    return [(int(a), int(b) - 1) for a, b in stretches(still) if t[b - 1] - t[a] >= CALM_TIME]
 
 
 def _motion_from(

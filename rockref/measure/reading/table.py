@@ -12,7 +12,7 @@ import numpy as np
 
 from rockref.measure.reading.columns import QUANTITIES, UNITS, Column, parse_header
 from rockref.measure.reading.dialect import are_units, is_number, separator_line, split_line
-from rockref.measure.reading.rawfile import MAX_PACKED_BYTES, MAX_TEXT_BYTES, read_text
+from rockref.measure.reading.rawfile import read_text
 from rockref.measure.records.notice import Notice, shown
 from rockref.model.errors import InputError
 
@@ -60,14 +60,7 @@ class Table:
         return len(next(iter(self.columns.values())))
 
 
-def read_table(
-    path: Path | str,
-    needed: Sequence[str],
-    *,
-    max_packed: int = MAX_PACKED_BYTES,
-    max_text: int = MAX_TEXT_BYTES,
-    max_rows: int = MAX_ROWS,
-) -> Table:
+def read_table(path: Path | str, needed: Sequence[str], *, max_rows: int = MAX_ROWS) -> Table:
     """Read the table in `path`, which must have a column for every quantity in `needed`.
 
     Raises InputError with file, line, column and the text found: E-FILE, E-SIZE, E-GZIP, E-ENCODING, E-EMPTY,
@@ -75,7 +68,7 @@ def read_table(
     E-NUMBER, E-NOT-FINITE.
     """
     path = Path(path)
-    raw = read_text(path, max_packed=max_packed, max_text=max_text)
+    raw = read_text(path)
     # Counted before anything is split: a hundred million empty lines would cost gigabytes as a list.
     if raw.text.count("\n") > max_rows + 1:
         raise InputError("E-ROWS", str(path), f"more than {max_rows} rows, which is no run", "Cut the file to the run.")

@@ -21,7 +21,7 @@ _JITTER = 0.03
 WIDE = 30.0
 
 
-def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str, confidence: float = 0.95) -> Any:
+def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str) -> Any:
     """Draw a fragility with its interval, the monotone curve, shares of groups of tests, and every outcome.
 
     x : (n,) sizes of the motions, `unit` is what the axis says;  fell : (n,) outcomes
@@ -30,14 +30,14 @@ def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str, confidence
     figure = new_figure(7.0, 4.4)
     ax = figure.subplots(1, 1)
     at = np.geomspace(sizes.min(), sizes.max(), 300)
-    low, high = fitted.interval(at, confidence)
-    ax.fill_between(at, low, high, color=style.BAND, lw=0, label=f"{confidence:.0%} interval of the fit")
+    low, high = fitted.interval(at)
+    ax.fill_between(at, low, high, color=style.BAND, lw=0, label="95% interval of the fit")
     ax.plot(at, fitted.probability(at), color=style.COLOURS[1], lw=1.6, label="fitted, with Jeffreys' prior")
     levels, curve = monotone_curve(sizes, y)
     ax.step(levels, curve, where="post", color=style.COLOURS[0], lw=1.0, label="monotone, without a form")
     for group in np.array_split(np.argsort(sizes), min(_GROUPS, len(sizes))):
         k, n = int(y[group].sum()), len(group)
-        ends = wilson_interval(k, n, confidence)
+        ends = wilson_interval(k, n)
         middle = float(np.exp(np.log(sizes[group]).mean()))
         ax.plot([middle, middle], ends, color=style.INK, lw=0.8)
         ax.plot(middle, k / n, "o", ms=4, color=style.INK)
@@ -87,14 +87,14 @@ def overturning_map(
     return titled(figure, f"{len(outcome)} tests{said}", 9)
 
 
-def distribution_figure(samples: Mapping[str, Any], quantity: str, confidence: float = 0.95) -> Any:
+def distribution_figure(samples: Mapping[str, Any], quantity: str) -> Any:
     """Draw distribution functions with their bands, a colour and a dash a sample; the first is the measured one."""
     figure = new_figure(7.0, 4.8)
     # Room for the names above the curves, which reach into every corner.
     figure.subplots_adjust(top=0.82)
     ax = figure.subplots(1, 1)
     for k, (name, values) in enumerate(samples.items()):
-        x, share, low, high = distribution_function(values, confidence)
+        x, share, low, high = distribution_function(values)
         colour = style.INK if k == 0 else style.colour(k - 1)
         dashes = {} if k == 0 else {"dashes": tuple(0.8 * d for d in style.dash(k - 1))}
         ax.fill_between(x, low, high, step="post", color=colour, alpha=0.13, lw=0)
@@ -110,17 +110,16 @@ def distribution_figure(samples: Mapping[str, Any], quantity: str, confidence: f
     ax.set_ylabel("share of runs at or below")
     ax.grid(color=style.GRID, lw=0.6)
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), frameon=False, fontsize=8, ncols=3)
-    title = f"Distribution functions; bands hold a whole function with {confidence:.0%} (DKW)"
-    return titled(figure, title, 9)
+    return titled(figure, "Distribution functions; bands hold a whole function with 95% (DKW)", 9)
 
 
-def reliability_figure(predictions: Mapping[str, tuple[Any, Any]], bins: int = 10) -> Any:
+def reliability_figure(predictions: Mapping[str, tuple[Any, Any]]) -> Any:
     """Draw the share that fell over the predicted probability, with Wilson intervals; values: probability and fell."""
     figure = new_figure(5.6, 4.8)
     ax = figure.subplots(1, 1)
     ax.plot([0.0, 1.0], [0.0, 1.0], color=style.GREY, lw=0.8, dashes=style.HOUSNER_DASH)
     for k, (name, (probability, fell)) in enumerate(predictions.items()):
-        found = reliability(probability, fell, bins)
+        found = reliability(probability, fell)
         at = np.array([b.predicted for b in found]) + 0.006 * k
         ends = np.array([[b.observed - b.low, b.high - b.observed] for b in found]).T
         look: dict[str, Any] = {"fmt": "os^Dv"[k % 5], "ms": 4, "lw": 0.8, "color": style.colour(k), "label": name}
