@@ -5,12 +5,14 @@ compile the same. Where all is kept it takes two seconds.
 """
 
 from rockref import Model, simulate
+from rockref.blind.simulator import release
+from rockref.blind.simulator.world import TABLE, build
 from rockref.effects.catalogue import EFFECTS, IN_STEP_ORDER
 from rockref.engines import has_numba
 
 
 def main() -> None:
-    """Run every variant of the compiled loop once: many runs abreast, and single ones."""
+    """Run every variant of the compiled loop once: abreast and alone, and the simulator of the blind test."""
     if not has_numba():
         return
     from rockref.engines.compiled import ahead, slots
@@ -23,6 +25,7 @@ def main() -> None:
     together = tuple(EFFECTS[id].typical() for id in ("quadratic_drag", "viscous_friction"))
     for effects in ((), together, *alone):
         simulate(Model.table_3_1().replace(effects=effects), duration=1e-4, engine="numba")
+    release.simulate(build(dict(TABLE)), 0.117, seconds=1e-3)
 
 
 if __name__ == "__main__":
