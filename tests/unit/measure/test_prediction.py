@@ -1,7 +1,6 @@
 """What a model would have recorded."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,9 +10,8 @@ from rockref.effects.sensor.clock_error import ClockError
 from rockref.effects.sensor.gyro_drift import GyroDrift
 from rockref.effects.sensor.gyro_saturation import GyroSaturation
 from rockref.effects.sensor.gyro_scale import GyroScale
-from rockref.measure import Experiment, Gyro, Run, record
-from rockref.measure.prediction import FINE_RATE, gyro_of, predict, problem_of, solve
-from rockref.model.errors import InputError
+from rockref.measure import Gyro, Run, record
+from rockref.measure.prediction import predict, problem_of, solve
 
 GYRO = Gyro(1000.0, 1e-3, 300.0, 0.0)
 MODEL = Model.table_3_1()
@@ -42,28 +40,6 @@ def test_before_the_release_it_rests_and_beyond_the_simulation_it_is_unknown(pre
     assert np.isnan(rates[2]).all()
 
 
-def test_simulation_goes_on_beyond_the_record():
-    problem = problem_of(MODEL, a_run(0.7))
-    assert problem.duration >= 0.699 + 0.1 - 1e-9 and problem.output_rate == FINE_RATE
-
-
-def test_turned_block_swings_the_other_way():
-    here, there = predict(MODEL, [a_run(), a_run(block_turned=np.pi)], GYRO)
-    assert here.at(np.array([0.15]))[0, 0] > 0.0 > there.at(np.array([0.15]))[0, 0]
-
-
-def test_release_values_are_replaced_by_run():
-    plain, steeper = predict(MODEL, [a_run(), a_run(id="02")], GYRO, releases={"02": {"theta_0": 0.125}})
-    tilts = [abs(float(p.response.tilt[0])) for p in (plain, steeper)]
-    # The small roll of the release adds its square.
-    assert tilts == pytest.approx([0.117, 0.125], abs=1e-7)
-
-
-def test_range_cuts_the_rates():
-    narrow = replace(GYRO, range=0.1)
-    assert np.abs(predict(MODEL, [a_run(0.5)], narrow)[0].at(np.arange(500) / 1000.0)).max() == pytest.approx(0.1)
-
-
 def test_sensor_effects_act_in_the_order_of_a_real_gyroscope():
     """What is predicted is what the gyroscope would record; between its samples no more than the range is shown."""
     effects = (GyroSaturation(0.2), GyroScale(1.02, 0.98, 1.02), GyroDrift(0.01), ClockError(1.01))
@@ -79,16 +55,3 @@ def test_batch_gives_the_bits_of_single_runs():
     batch = solve(problems, "numpy", None)
     for problem, response in zip(problems, batch, strict=True):
         assert np.array_equal(response.W, solve([problem], "numpy", None)[0].W)
-
-
-def test_run_that_was_not_opened_is_refused():
-    with pytest.raises(InputError) as error:
-        problem_of(MODEL, replace(a_run(), t=None))
-    assert error.value.code == "E-RUN"
-
-
-def test_experiment_without_gyroscope_is_refused():
-    toss = Experiment(Path("x"), "x", "toss", "eight_points", 54.0, 0.1, 0.688, None, None, ())
-    with pytest.raises(InputError) as error:
-        gyro_of(toss)
-    assert error.value.code == "E-KIND"

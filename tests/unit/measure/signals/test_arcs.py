@@ -42,22 +42,6 @@ def test_apexes_of_the_closed_form(rocking, sign):
     assert found.apex_times[0] == t[0]
 
 
-def test_a_record_cut_before_the_apex_has_none(rocking):
-    motion = rocking()
-    t = np.arange(0.0, motion.times[1] + 0.1, 0.001)
-    found = arcs(t, motion.crv(t), exact(motion, 2))
-    assert np.isnan(found.apex_times[-1]) and np.isnan(found.rise[-1]) and np.isnan(found.apex_angles[-1])
-
-
-def test_a_record_without_impacts_is_one_arc(rocking):
-    motion = rocking()
-    t = np.arange(0.0, 0.4, 0.001)
-    found = arcs(t, motion.crv(t), main_impacts(t, motion.crv(t)))
-    assert len(found) == 1
-    assert not found.complete.any()
-    assert np.isnan(found.apex_angles[0])
-
-
 def test_integral_of_a_straight_line_is_exact():
     t = np.cumsum(np.random.default_rng(3).uniform(0.5, 1.5, 50))
     assert np.allclose(turned_angle(t, 2.0 * t), t**2 - t[0] ** 2, rtol=1e-13)

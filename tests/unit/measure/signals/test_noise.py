@@ -23,14 +23,6 @@ def test_known_noise_is_found_again(rocking, sensed, noise):
     assert np.abs(found.whiteness).max() < 0.2
 
 
-def test_noise_of_each_axis_is_its_own(rocking, sensed):
-    t, crv = sensed(rocking(), noise=1e-3)
-    crv = crv + np.random.default_rng(3).standard_normal(crv.shape) * [0.0, 3e-3, 0.0]
-    sigma = noise_floor(t, crv).sigma
-    assert sigma[1] == pytest.approx(np.sqrt(10.0) * 1e-3, rel=0.1)
-    assert np.allclose(sigma[[0, 2]], 1e-3, rtol=0.1)
-
-
 def test_slow_disturbance_is_told_from_white_noise(rocking, sensed):
     t, crv = sensed(rocking(), noise=2e-4)
     hum = 2e-3 * np.sin(2.0 * np.pi * 100.0 * t)
@@ -52,22 +44,6 @@ def test_data_sheet_of_the_shipped_experiments_holds(shipped, number):
         # Clatter leaves few calm stretches, and base vibration some motion in them.
         assert np.all(np.abs(found.sigma / experiment.gyro.noise - 1.0) < 0.2)
         assert np.allclose(found.resolution, experiment.gyro.resolution, rtol=1e-6)
-
-
-def test_smallest_step():
-    rng = np.random.default_rng(0)
-    x = rng.standard_normal((500, 3))
-    x[:, 0] = np.rint(x[:, 0] / 0.05) * 0.05
-    x[:, 2] = 1.0
-    assert smallest_step(x)[0] == pytest.approx(0.05, rel=1e-9)
-    assert smallest_step(x)[1:].tolist() == [0.0, 0.0]
-
-
-def test_run_that_is_too_short_is_refused():
-    t = np.arange(100) / 1000.0
-    with pytest.raises(InputError) as caught:
-        noise_floor(t, np.zeros((100, 3)))
-    assert caught.value.code == "E-SIGNAL"
 
 
 # One period of 20 samples at 1 kHz of three axes.

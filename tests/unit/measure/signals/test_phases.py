@@ -37,22 +37,6 @@ def test_phases_of_a_made_record(clattering):
     assert len(found.shares) == 5
 
 
-def test_repeated_runs_say_how_long_it_repeats(clattering):
-    _, t, crv = clattering(2.0)
-    found = phases(t, crv, agree_until=1.9)
-    assert found.repeatable_from_runs and found.repeatable_until == 1.9
-    assert found.intervals[1][2] == found.intervals[2][1] == 1.9
-    assert phases(t, crv, agree_until=np.inf).repeatable_until == t[-1]
-    assert [name for name, *_ in phases(t, crv, agree_until=np.inf).intervals] == [PLANAR, REPEATABLE, QUASI_2D]
-
-
-def test_clatter_to_the_end_leaves_no_planar_phase(clattering):
-    _, t, crv = clattering(9.0)
-    found = phases(t, crv)
-    assert found.quasi_2d_from == np.inf
-    assert found.intervals[-1][0] == ERRATIC
-
-
 def test_planar_record_is_planar_throughout(rocking, sensed):
     t, crv = sensed(rocking())
     found = phases(t, crv)
