@@ -80,53 +80,58 @@ def test_models_without_sliders_are_refused(change):
         pack.start(Model().replace(**change))
 
 
-class TestListening:
-    """A run that listens to a record of the same block leaves white noise, and of another block more."""
+# A run that listens to a record of the same block leaves white noise, and of another block more.
+SAMPLES, SIGMA = 1000, np.full(3, 0.05 / DEGREES)
 
-    SAMPLES, SIGMA = 1000, np.full(3, 0.05 / DEGREES)
 
-    @pytest.fixture(scope="class")
-    def module(self):
-        pytest.importorskip("wasmtime", reason="wasmtime runs WebAssembly outside a browser: the extra `lab`")
-        from rockref.lab.wasm import Module
+@pytest.fixture(scope="module")
+def module():
+    pytest.importorskip("wasmtime", reason="wasmtime runs WebAssembly outside a browser: the extra `lab`")
+    from rockref.lab.wasm import Module
 
-        return Module()
+    return Module()
 
-    @pytest.fixture(scope="class")
-    def record(self):
-        from rockref.measure.gyroscope import record
-        from rockref.measure.records.release import Gyro
 
-        response = rockref.simulate(Model.table_3_1(), 1.05, output_rate=4000.0, engine="auto")
-        rng = np.random.default_rng(1)
-        gyro = Gyro(sample_rate=1000.0, noise=self.SIGMA[0], bandwidth=300.0, resolution=0.0)
-        return np.ascontiguousarray(record(response.t, response.W, gyro, rng)[1][: self.SAMPLES])
+@pytest.fixture(scope="module")
+def record():
+    from rockref.measure.gyroscope import record
+    from rockref.measure.records.release import Gyro
 
-    def loss(self, module, record, model, memory=(0.04, 1.0), steps=16, effects=()):
-        """Mean robust loss of the innovations, 25 log(1 + r^2/25)."""
-        r = np.zeros((self.SAMPLES, 3))
-        row, values = np.array(layout.model_row(model)), np.array(layout.values_of(effects))
-        gyro = 1000.0, 300.0, 0.0
-        release = model.parameters.theta_0, 0.0, 0
-        how = *memory, 5e-5, steps, 0
-        module.call("innovations_of", row, values, *gyro, *release, *how, record, self.SAMPLES, self.SIGMA, r)
-        return np.mean(25 * np.log1p(r**2 / 25))
+    response = rockref.simulate(Model.table_3_1(), 1.05, output_rate=4000.0, engine="auto")
+    rng = np.random.default_rng(1)
+    gyro = Gyro(sample_rate=1000.0, noise=SIGMA[0], bandwidth=300.0, resolution=0.0)
+    return np.ascontiguousarray(record(response.t, response.W, gyro, rng)[1][:SAMPLES])
 
-    def test_the_truth_leaves_white_noise(self, module, record):
-        # White noise leaves 0.945; its mean over 3000 samples is known to 0.02, and impacts in steps three times as
-        # long as those of the record add up to 0.1.
-        assert 0.9 < self.loss(module, record, Model.table_3_1()) < 1.1
 
-    def test_without_listening_the_run_is_the_free_one(self, module, record):
-        assert self.loss(module, record, Model.table_3_1(), (1e9, 1e9), 50) == pytest.approx(0.945, abs=0.06)
+def loss(module, record, model, memory=(0.04, 1.0), steps=16, effects=()):
+    """Mean robust loss of the innovations, 25 log(1 + r^2/25)."""
+    r = np.zeros((SAMPLES, 3))
+    row, values = np.array(layout.model_row(model)), np.array(layout.values_of(effects))
+    gyro = 1000.0, 300.0, 0.0
+    release = model.parameters.theta_0, 0.0, 0
+    how = *memory, 5e-5, steps, 0
+    module.call("innovations_of", row, values, *gyro, *release, *how, record, SAMPLES, SIGMA, r)
+    return np.mean(25 * np.log1p(r**2 / 25))
 
-    @pytest.mark.parametrize("words", ["quadratic_drag:c=0.4", "gyro_scale:x=1.02", "compliant_support"])
-    def test_another_block_leaves_more(self, module, record, words):
-        truth = self.loss(module, record, Model.table_3_1())
-        # Five deviations of a mean over 3000 samples.
-        assert self.loss(module, record, Model.table_3_1(), effects=(parse(words),)) > truth + 0.1
 
-    def test_a_short_memory_bears_more(self, module, record):
-        other = Model.table_3_1().replace(delta_diag=6.6e-3)
-        long, short = (self.loss(module, record, other, memory) for memory in ((0.04, 1.0), (0.005, 0.1)))
-        assert short - 0.945 < 0.5 * (long - 0.945)
+def test_the_truth_leaves_white_noise(module, record):
+    # White noise leaves 0.945; its mean over 3000 samples is known to 0.02, and impacts in steps three times as
+    # long as those of the record add up to 0.1.
+    assert 0.9 < loss(module, record, Model.table_3_1()) < 1.1
+
+
+def test_without_listening_the_run_is_the_free_one(module, record):
+    assert loss(module, record, Model.table_3_1(), (1e9, 1e9), 50) == pytest.approx(0.945, abs=0.06)
+
+
+@pytest.mark.parametrize("words", ["quadratic_drag:c=0.4", "gyro_scale:x=1.02", "compliant_support"])
+def test_another_block_leaves_more(module, record, words):
+    truth = loss(module, record, Model.table_3_1())
+    # Five deviations of a mean over 3000 samples.
+    assert loss(module, record, Model.table_3_1(), effects=(parse(words),)) > truth + 0.1
+
+
+def test_a_short_memory_bears_more(module, record):
+    other = Model.table_3_1().replace(delta_diag=6.6e-3)
+    long, short = (loss(module, record, other, memory) for memory in ((0.04, 1.0), (0.005, 0.1)))
+    assert short - 0.945 < 0.5 * (long - 0.945)
