@@ -11,7 +11,6 @@ and which parameters are at work: one that is zero, or that no number depends on
 
 from __future__ import annotations
 
-import json
 import random
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -25,7 +24,7 @@ from rockref.conformance.generator.bounds.answers import pattern
 from rockref.conformance.generator.bounds.bars import FACTOR, ulp
 from rockref.conformance.generator.questions.drawing import table_3_1
 from rockref.conformance.generator.questions.scenes import WINDOW_RATE, WINDOWS, corners_only, scenes, standing
-from rockref.conformance.generator.small_layers import rounded_up, stored
+from rockref.conformance.generator.small_layers import rounded_up, stored, written
 from rockref.conformance.generator.trajectories import window_inputs
 from rockref.conformance.judge import claims
 from rockref.conformance.vectors import SCHEMA, problem_of
@@ -234,6 +233,4 @@ def document(say: Callable[[str], None]) -> bytes:
             entries.append(found)
     for name in idle(entries):
         say(f"LE: {name} is at work in no vector")
-    lines = ",\n".join(json.dumps(e, ensure_ascii=False, separators=(",", ":")) for e in entries)
-    head = json.dumps({"schema": SCHEMA, "layer": "LE", "sets": sets}, ensure_ascii=False, separators=(",", ":"))
-    return (head[:-1] + ',\n"vectors":[\n' + lines + "\n]}\n").encode()
+    return written({"schema": SCHEMA, "layer": "LE", "sets": sets, "vectors": entries})

@@ -13,7 +13,7 @@ from rockref.conformance.generator.admission import hunted
 from rockref.conformance.generator.bounds.bars import Barred, Case, barred
 from rockref.conformance.generator.bounds.branches import branch
 from rockref.conformance.generator.questions import body, derived, full, point, step
-from rockref.conformance.generator.short_runs import alone, apart, askew, basic, habits, memory, scheme
+from rockref.conformance.generator.short_runs import scheme
 from rockref.conformance.rules import BY_ID
 from rockref.conformance.vectors import SCHEMA, vector_of
 
@@ -24,14 +24,7 @@ QUESTIONS = {
     "L2": (body.assembly, full.assembly),
     "L3": (body.exponentials, body.steps, body.no_rotation, full.steps),
     "L4": (step.steps, step.elsewhere),
-    "L5s": (
-        basic.all_short,
-        alone.alone,
-        memory.memory,
-        apart.apart,
-        askew.askew,
-        habits.habits,
-    ),
+    "L5s": scheme.SHORT_RUNS,
     "L7": (derived.channel,),
 }
 LAYERS = (*QUESTIONS, "LS")

@@ -24,6 +24,8 @@ from rockref.conformance.judge import negligible
 from rockref.conformance.vectors import problem_of
 from rockref.model.problem import Problem
 
+#: The questions of L5s, in order.
+SHORT_RUNS = (basic.all_short, alone.alone, memory.memory, apart.apart, askew.askew, habits.habits)
 #: Steps of a run, and the parts of a step of the converged solution: decided, a contact swings once in 200 steps.
 STEPS, PARTS = 16, 256
 #: By how many radians a block on its feet may swing in a step: decided, integrators that resolve a contact stay below.
@@ -111,15 +113,7 @@ def asked(case: Case) -> Case | None:
 def all_of_them() -> Iterator[tuple[int, Case]]:
     """Yield every question, with the number of its short run."""
     number = 0
-    groups = (
-        basic.all_short,
-        alone.alone,
-        memory.memory,
-        apart.apart,
-        askew.askew,
-        habits.habits,
-    )
-    for group in groups:
+    for group in SHORT_RUNS:
         for case in group():
             number += 1
             found = asked(case)
