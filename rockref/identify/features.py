@@ -17,7 +17,6 @@ from rockref.measure.signals.spectra import FREQUENCIES, amplitude_spectrum
 
 #: Distance of the lines of the padded transform [Hz]: every second one is a line of `FREQUENCIES`.
 LINE = 0.625
-TRANSVERSE, LONGITUDINAL = 1, 2
 
 
 @dataclass(frozen=True, eq=False)

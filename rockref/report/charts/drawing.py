@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from html import escape
 
@@ -263,6 +263,11 @@ def _log_ticks(low: float, high: float) -> list[float]:
 
 def _number(value: float) -> str:
     return f"{value:.6g}".replace("-", "\u2212")
+
+
+def key_of(lines: Iterable[Line]) -> str:
+    """Return the legend of lines, each name once."""
+    return key(list({line.name: (line.name, line.colour, line.dash) for line in lines}.values()))
 
 
 def key(entries: Sequence[tuple[str, str, tuple[int, ...]]]) -> str:

@@ -16,7 +16,7 @@ from rockref.engines import machine
 from rockref.measure.signals.impacts import Impacts
 from rockref.model.channel import DEGREES
 from rockref.report.charts import style
-from rockref.report.charts.drawing import Line, Panel, chart, key
+from rockref.report.charts.drawing import Line, Panel, chart, key, key_of
 from rockref.report.charts.run_lines import contact_strips, housner_line
 from rockref.report.html.curves import Curves, curves
 from rockref.report.html.page import Page
@@ -75,7 +75,7 @@ def add_error_figure(page: Page, c: Comparison) -> None:
         marks=(2.5, 5.5),
         ticks=ticks,
     )
-    keys = key([(line.name, line.colour, line.dash) for line in lines])
+    keys = key_of(lines)
     sentence = (
         "Dots: quadratic mean of model minus measured over all runs, by axis, in the three stretches of a run, on a "
         "logarithmic scale. Dashes: what noise alone makes, and by how much two repeated runs differ."
@@ -231,7 +231,7 @@ def add_energy(page: Page, c: Comparison) -> None:
         x_limits=(0.7, count + 0.3),
         ticks=[(float(k), str(k)) for k in range(1, count + 1)],
     )
-    keys = key([(line.name, line.colour, line.dash) for line in panels[0].lines])
+    keys = key_of(panels[0].lines)
     sentence = (
         "Energy of the rocking lost at each main impact and in each free arc, means over the runs; the band is the "
         "standard deviation between the measured runs. The split between impact and arc scatters with the clatter, "

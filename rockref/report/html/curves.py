@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.report.charts.drawing import Panel, chart, key
+from rockref.report.charts.drawing import Panel, chart, key_of
 from rockref.report.html.encoding import packed
 from rockref.report.tables.table import Table
 
@@ -44,7 +44,6 @@ def curves(
     `opening` is the one that is shown first, by default all.
     """
     lines = [line for panel in panels for line in panel.lines]
-    entries = list({line.name: (line.name, line.colour, line.dash) for line in lines}.values())
     data = {
         "title": title,
         "xLabel": x_label,
@@ -56,7 +55,7 @@ def curves(
     if opening is not None:
         data["open"] = [round(float(end), 5) for end in opening]
     picture = chart(panels, title=title, x_label=x_label, x_limits=(float(t[0]), float(t[-1])), marks=marks)
-    return Curves(title, sentence, picture, key(entries), table, data)
+    return Curves(title, sentence, picture, key_of(lines), table, data)
 
 
 def _abscissa(t: np.ndarray) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from rockref.discover.compare.stretches import AXES
 from rockref.report.charts import style
-from rockref.report.charts.drawing import Line, Panel, chart, key
+from rockref.report.charts.drawing import Line, Panel, chart, key_of
 from rockref.report.html.page import Page
 from rockref.report.tables.table import Table
 
@@ -38,7 +38,7 @@ def falling_figure(
         x_limits=(-0.6, len(AXES) - 0.4),
         ticks=[(float(k), axis) for k, axis in enumerate(AXES)],
     )
-    return svg, key([(line.name, line.colour, line.dash) for line in lines])
+    return svg, key_of(lines)
 
 
 def add_falling(
@@ -70,7 +70,7 @@ def history_figure(history: Sequence[dict], noise: float) -> tuple[str, str]:
         x_limits=(-0.6, len(history) - 0.4),
         ticks=[(float(k), name) for k, name in enumerate(names)],
     )
-    return svg, key([(line.name, line.colour, line.dash) for line in lines])
+    return svg, key_of(lines)
 
 
 def _largest(lines: Sequence[Line]) -> float:

@@ -19,7 +19,7 @@ from rockref.effects.scale import to_scale
 from rockref.measure.prediction import gyro_of, predict
 from rockref.model.channel import DEGREES
 from rockref.report.charts import style
-from rockref.report.charts.drawing import Line, Panel, chart, key
+from rockref.report.charts.drawing import Line, Panel, chart, key_of
 from rockref.report.html.encoding import packed
 from rockref.report.tables.spoken import spoken
 
@@ -122,7 +122,7 @@ class Trial:
             [Panel(f"{AXES[self.axis]} (deg/s)", lines, height=220.0)],
             title=title, x_label="time (s)", x_limits=self.view, marks=marks,
         )  # fmt: skip
-        return svg, key([(ln.name, ln.colour, ln.dash) for ln in lines])
+        return svg, key_of(lines)
 
 
 def trial(c: Comparison, effects: Sequence[str]) -> Trial:

@@ -16,7 +16,7 @@ from rockref.discover.diagnosis_record import plain
 from rockref.discover.provenance import OF_ONE_RELEASE
 from rockref.effects import catalogue
 from rockref.report.charts import style
-from rockref.report.charts.drawing import Line, Panel, chart, key
+from rockref.report.charts.drawing import Line, Panel, chart, key_of
 from rockref.report.html import blocks
 from rockref.report.html.falling import levels
 from rockref.report.html.page import Page
@@ -140,7 +140,7 @@ def add_shares(page: Page, states: Sequence[tuple[str, dict[str, float]]]) -> No
         ticks=[(float(k), a) for k, a in enumerate(AXES)],
     )
     sentence = "How the misfit of the fitted baseline, noise taken out, is shared among the axes of the gyroscope."
-    page.add_figure(svg, sentence, None, "Shares of the axes", key([(ln.name, ln.colour, ln.dash) for ln in lines]))
+    page.add_figure(svg, sentence, None, "Shares of the axes", key_of(lines))
 
 
 def add_tried(page: Page, record: dict[str, Any]) -> None:
@@ -235,5 +235,4 @@ def add_falling_error(page: Page, record: dict[str, Any]) -> None:
     sentence = (
         "Quadratic mean of measured minus modelled, deg/s, before and after, on the runs that were fitted and not."
     )
-    keys = key([(line.name, line.colour, line.dash) for line in lines])
-    page.add_figure(svg, sentence, diagnosis_text.errors_table(record), "The error falling", keys)
+    page.add_figure(svg, sentence, diagnosis_text.errors_table(record), "The error falling", key_of(lines))

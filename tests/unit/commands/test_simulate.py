@@ -85,10 +85,6 @@ def test_overturned_block_is_a_result_and_is_said(capsys, monkeypatch):
     [
         (("simulate", "--model", "no_such.toml"), "no_such.toml"),
         (("simulate", "--effect", "gyro_scal"), "gyro_scale"),
-        (("simulate", "--effect", "gyro_scale:q=1"), "E-KEY"),
-        (("simulate", "--duration", "-1"), "E-RANGE"),
-        (("simulate", "--step", "0.0004"), "E-STEP"),
-        (("simulate", "--engine", "abacus"), "E-ENGINE"),
         (("simulate", "-o", "out.txt"), "E-PATH"),
         (("simulate", "-o", "no_folder/out.csv"), "E-PATH"),
     ],
