@@ -41,7 +41,7 @@ class Choices:
 
     Attributes: ``mass`` kg, ``width``, ``height`` m; ``tilts`` rad and ``turned``, ``holdout`` by run; ``tilt`` rad of
     all runs; ``axes`` as ``("y", "-x", "z")``; ``columns``; ``unit`` of the rates; ``rate``, ``bandwidth`` Hz;
-    ``noise``, ``resolution``, ``range`` rad/s; ``baseline``.
+    ``baseline``.
     """
 
     mass: float
@@ -56,9 +56,6 @@ class Choices:
     unit: str | None = None
     rate: float | None = None
     bandwidth: float | None = None
-    noise: float | None = None
-    resolution: float | None = None
-    range: float | None = None
     baseline: str = "eight_points"
 
 
@@ -164,8 +161,8 @@ def import_logs(paths: Sequence[Path], choices: Choices, progress: Callable[[flo
         axes.spoken(first.channels.chip),
         rate,
         bandwidth,
-        noise if choices.noise is None else choices.noise,
-        resolution if choices.resolution is None else choices.resolution,
+        noise,
+        resolution,
         _zero_uncertainty(runs, noise, rate),
         max(WIRE, SCALE_ERROR * largest) if tilts_measured else WIRE,
         tilts_measured,

@@ -16,14 +16,8 @@ from rockref.model.errors import InputError
 
 #: Delimiter and decimal mark, the likeliest first where a text fits several. None is any white space.
 LAYOUTS: tuple[tuple[str | None, str], ...] = (
-    (";", "."),
-    (";", ","),
-    ("\t", "."),
-    ("\t", ","),
-    (",", "."),
-    (None, "."),
-    (None, ","),
-)
+    (";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), (None, "."), (None, ","),
+)  # fmt: skip
 SPOKEN = {";": "semicolons", "\t": "tabs", ",": "commas", None: "spaces"}
 # decided: the layout shows in forty rows; the last row may be cut off.
 LOOKED_AT = 40

@@ -95,19 +95,16 @@ def experiment_toml(campaign: Campaign, name: str) -> str:
     )
     gyro = [
         f"sample_rate_hz = {c.rate:.10g}  # from the time stamps",
-        f"noise_deg_s = {c.noise / DEGREE:.4g}  # {'stated' if choices.noise is not None else measured}",
+        f"noise_deg_s = {c.noise / DEGREE:.4g}  # {measured}",
         f"bandwidth_hz = {c.bandwidth:.6g}  # "
         + ("stated" if choices.bandwidth else "not known: three tenths of the sample rate; the data sheet says better"),
-        f"resolution_deg_s = {c.resolution / DEGREE:.6g}  # "
-        + ("stated" if choices.resolution is not None else "the step between values; 0 where there is none"),
+        f"resolution_deg_s = {c.resolution / DEGREE:.6g}  # the step between values; 0 where there is none",
     ]
     if any(run.standing > 0.0 for run in c.runs):
         why = "of the zero that was taken off: noise of its mean while the block stood, and what it wanders"
     else:
         why = "of the zero: nobody measured it, as the block does not stand before its release"
     gyro.append(f"zero_uncertainty_deg_s = {c.zero_uncertainty / DEGREE:.2g}  # {why}")
-    if choices.range is not None:
-        gyro.append(f"range_deg_s = {choices.range / DEGREE:.6g}")
     tilts = "measured: what the rates add up to until the block stands" if c.tilts_measured else "stated"
     head = f"""# Made by `rockref new`. Every line may be changed; `rockref compare` says what does not fit.
 name = "{_safe(name)}"
