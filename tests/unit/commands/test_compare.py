@@ -7,7 +7,9 @@ from pathlib import Path
 import pytest
 
 from rockref import Model
+from rockref.report.terminal.comparison_text import print_comparison
 from tests.command import run
+from tests.printed import printed
 from tests.shipped import two_runs
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -107,19 +109,6 @@ def test_demo_without_data_says_where_to_get_it(capsys, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
-def printed(comparison, width, terminal, full=True):
-    """What a console of this width, terminal or pipe, shows of a comparison."""
-    import io
-
-    from rich.console import Console
-
-    from rockref.report.terminal.comparison_text import print_comparison
-
-    file = io.StringIO()
-    print_comparison(Console(file=file, width=width, force_terminal=terminal, color_system=None), comparison, full)
-    return file.getvalue()
-
-
 @pytest.fixture(scope="module")
 def of_two_models(short):
     from rockref.discover.compare.models import compare
@@ -133,7 +122,7 @@ def test_every_number_of_the_tables_is_there(of_two_models, width, terminal):
     """In whatever width, as a word of its own: nothing is cut, no number is broken."""
     from rockref.report.tables import comparison_tables
 
-    shown = printed(of_two_models, width, terminal)
+    shown = printed(print_comparison, of_two_models, True, width=width, terminal=terminal)
     assert "\u2026" not in shown
     words = set(shown.split())
     made = [comparison_tables.runs_table(of_two_models), comparison_tables.energy_table(of_two_models)]
@@ -146,12 +135,12 @@ def test_every_number_of_the_tables_is_there(of_two_models, width, terminal):
 
 
 def test_at_80_columns_no_line_of_a_table_is_longer(of_two_models):
-    shown = printed(of_two_models, 80, True)
+    shown = printed(print_comparison, of_two_models, True, width=80, terminal=True)
     assert max(map(len, shown.splitlines())) <= 80
 
 
 def test_in_a_pipe_a_row_is_a_line(of_two_models):
-    shown = printed(of_two_models, 80, False)
+    shown = printed(print_comparison, of_two_models, True, width=80)
     rows = [line.split() for line in shown.splitlines() if line.startswith("01 (fit) ")]
     # one of the runs, one a model of where it leaves the band
     assert len(rows) == 3

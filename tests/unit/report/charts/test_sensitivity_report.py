@@ -1,10 +1,8 @@
 """Figures and tables of a sensitivity study, from made-up responses."""
 
-import io
 from dataclasses import replace
 
 import pytest
-from rich.console import Console
 
 from rockref.model.parameters import TABLE_3_1
 from rockref.report.charts.figures import rendered
@@ -12,6 +10,7 @@ from rockref.report.charts.sensitivity_figures import sensitivity_figures
 from rockref.report.terminal.sensitivity_text import digits_table, horizons_table, print_sensitivity, sentences
 from rockref.studies.sensitivity import Digits
 from rockref.studies.sensitivity_study import record
+from tests.printed import printed
 from tests.unit.report import made_up
 
 
@@ -53,9 +52,7 @@ def test_parameters_without_digits_are_named(study):
 
 
 def test_a_study_is_printed_whole(study):
-    out = io.StringIO()
-    print_sensitivity(Console(file=out, width=200), record(study))
-    text = out.getvalue()
+    text = printed(print_sensitivity, record(study))
     assert "A small difference grows 10 times" in text and "beyond 3.0" in text
     (row,) = [line.split() for line in text.splitlines() if line.startswith("K_N")]
     assert row == ["K_N", "6e+07", "1", "30", "%", "2", "4.0", "%"]

@@ -1,13 +1,11 @@
 """A diagnosis in words says what its record says, and nothing of what it has not."""
 
-import io
-
 import pytest
-from rich.console import Console
 
 from rockref.discover.diagnosis_record import plain
 from rockref.discover.evidence.parity import PARITIES
 from rockref.report.terminal import diagnosis_text
+from tests.printed import printed
 from tests.unit.discover import fakes
 
 
@@ -17,9 +15,7 @@ def record():
 
 
 def said(record):
-    out = io.StringIO()
-    diagnosis_text.print_diagnosis(Console(file=out, width=220), record, full=True)
-    return out.getvalue()
+    return printed(diagnosis_text.print_diagnosis, record, True)
 
 
 LIMITS = {"gyro_scale.x": {"value": 0.0123, "unit": "1"}, "adhesion.force": {"value": 4.5, "unit": "N"}}

@@ -1,19 +1,16 @@
 """An identification in words and tables says what its record says."""
 
 import copy
-import io
 
 import pytest
-from rich.console import Console
 
 from rockref.report.terminal.identification_text import print_identification
+from tests.printed import printed
 from tests.unit.report.made_up import IDENTIFICATION as RECORD
 
 
 def said(record):
-    out = io.StringIO()
-    print_identification(Console(file=out, width=200), record, full=True)
-    return out.getvalue()
+    return printed(print_identification, record, True)
 
 
 def row(text, start):

@@ -1,11 +1,9 @@
 """A plan in words and tables says what its record says."""
 
-import io
-
 import pytest
-from rich.console import Console
 
 from rockref.report.terminal.plan_text import print_plan, sentences
+from tests.printed import printed
 from tests.unit.discover import fakes
 
 
@@ -15,43 +13,41 @@ def plan():
 
 
 @pytest.fixture(scope="module")
-def printed(plan):
-    out = io.StringIO()
-    print_plan(Console(file=out, width=400), plan, full=True)
-    return out.getvalue()
+def shown(plan):
+    return printed(print_plan, plan, True, width=400)
 
 
-def test_the_next_run_is_the_first_of_the_record(plan, printed):
+def test_the_next_run_is_the_first_of_the_record(plan, shown):
     best = plan.to_dict()["further_runs"][0]
-    assert f"The run that would help most next: {best['run']} (tilt" in printed
-    assert f"for {best['helps_most']} by {100 * (1 - 1 / best['its_limit_falls_by']):.0f} %." in printed
-    assert "0.117 (a repeat)" in printed and "0.117t" in printed
+    assert f"The run that would help most next: {best['run']} (tilt" in shown
+    assert f"for {best['helps_most']} by {100 * (1 - 1 / best['its_limit_falls_by']):.0f} %." in shown
+    assert "0.117 (a repeat)" in shown and "0.117t" in shown
 
 
-def test_every_limit_is_there_with_its_unit_and_size(plan, printed):
+def test_every_limit_is_there_with_its_unit_and_size(plan, shown):
     limits = plan.to_dict()["limits"]
     assert set(limits) == {"viscous_friction.c", "rolling_resistance.lever"}
     for name, limit in limits.items():
-        (row,) = [line for line in printed.splitlines() if line.startswith(name)]
+        (row,) = [line for line in shown.splitlines() if line.startswith(name)]
         assert f"{limit['limit']:.3g} {limit['unit']}" in row and f"{limit['in_typical_sizes']:.2g}" in row
 
 
-def test_what_is_confused_or_unseen_is_said(plan, printed):
+def test_what_is_confused_or_unseen_is_said(plan, shown):
     found = plan.to_dict()
     assert [p["effects"] for p in found["confused"]] == [["viscous_friction", "rolling_resistance"]]
-    (row,) = [line for line in printed.splitlines() if line.startswith("viscous_friction ")]
+    (row,) = [line for line in shown.splitlines() if line.startswith("viscous_friction ")]
     assert row.split() == ["viscous_friction", "rolling_resistance", f"{found['confused'][0]['cosine']:.3f}"]
     unseen = found["undetectable"]
     seen = len(plan.outlook.effects) - len(unseen)
-    assert f"{seen} of 2 effects would show" in printed
-    assert ("These would not: " + ", ".join(unseen) in printed) == bool(unseen)
+    assert f"{seen} of 2 effects would show" in shown
+    assert ("These would not: " + ", ".join(unseen) in shown) == bool(unseen)
 
 
-def test_repeats_are_set_against_varied_releases(plan, printed):
+def test_repeats_are_set_against_varied_releases(plan, shown):
     versus = plan.to_dict()["repeats_against_varied"]
-    assert f"lower by a factor of {versus['median_ratio']:.1f} (median)" in printed
+    assert f"lower by a factor of {versus['median_ratio']:.1f} (median)" in shown
     pairs = versus["confused_pairs"]
-    assert f"{pairs[1]} pairs stay confused, not {pairs[0]}" in printed
+    assert f"{pairs[1]} pairs stay confused, not {pairs[0]}" in shown
 
 
 def test_effects_that_would_not_show_are_named(plan, monkeypatch):

@@ -1,10 +1,8 @@
 """Words on the terminal: few lines, the answer last, nothing broken within a word; tables where they are asked for."""
 
-import io
 from dataclasses import replace
 
 import pytest
-from rich.console import Console
 
 from rockref.discover.diagnosis_record import plain
 from rockref.discover.story import Journey
@@ -18,14 +16,9 @@ from rockref.report.terminal.identification_text import print_identification
 from rockref.report.terminal.plan_text import print_plan
 from rockref.report.terminal.text import print_table, say_command
 from rockref.workflows.demo import Story, the_error, the_missing_effect
+from tests.printed import printed
 from tests.unit.discover import fakes
 from tests.unit.report.made_up import IDENTIFICATION
-
-
-def said(show, what, width=220, terminal=False):
-    out = io.StringIO()
-    show(Console(file=out, width=width, force_terminal=terminal, color_system=None), what)
-    return out.getvalue()
 
 
 def in_full(show):
@@ -45,12 +38,12 @@ def test_nothing_is_broken_within_a_word(name, short):
     show, make = SHOWN[name]
     what = short if make is None else make()
     for one in (show, in_full(show)):
-        lines = said(one, what).splitlines()
+        lines = printed(one, what).splitlines()
         # A table that is a list names its columns at each row, and not where it has none.
         heads = [k for k, line in enumerate(lines[1:]) if set(line.strip()) == {"─"}]
         words = {w for k, line in enumerate(lines) if k not in heads for w in line.split() if set(w) != {"─"}}
         for width in (40, 80, 120):
-            shown = said(one, what, width, terminal=True)
+            shown = printed(one, what, width=width, terminal=True)
             assert words <= set(shown.split()), width
             assert all(len(line.rstrip()) <= width or " " not in line.strip() for line in shown.splitlines()), width
 
@@ -59,44 +52,44 @@ def test_nothing_is_broken_within_a_word(name, short):
 def test_few_lines_are_enough(name, short):
     show, make = SHOWN[name]
     # A file and the next command follow, which makes twelve.
-    assert len(said(show, short if make is None else make()).splitlines()) <= 10
+    assert len(printed(show, short if make is None else make()).splitlines()) <= 10
 
 
 @pytest.mark.parametrize("verdict", MEANINGS)
 def test_a_verdict_is_in_the_last_line(verdict):
-    lines = said(print_diagnosis, plain(fakes.diagnosis(verdict).to_dict())).splitlines()
+    lines = printed(print_diagnosis, plain(fakes.diagnosis(verdict).to_dict())).splitlines()
     assert lines[-1].startswith(verdict.upper().replace("_", " ")) and len(lines) <= 10
     assert ("Its size is 0.41 N m s² (90 %: 0.38 to 0.44)" in lines[-1]) is (verdict == "named")
 
 
 def test_a_command_that_is_wider_than_the_terminal_can_still_be_pasted():
     command = "rockref compare data/experiments/mystery-05 --model model.toml"
-    shown = said(say_command, command, 40, terminal=True)
+    shown = printed(say_command, command, width=40, terminal=True)
     assert shown.splitlines() == [
         "Next:", "  rockref compare \\", "  data/experiments/mystery-05 --model \\", "  model.toml",
     ]  # fmt: skip
-    assert said(say_command, command) == f"Next: {command}\n"
+    assert printed(say_command, command) == f"Next: {command}\n"
 
 
 def test_a_table_wider_than_the_terminal_is_a_list():
     table = Table("Numbers", ("run", "a_long_name", "another_long_name"), [["01", "1.5", ""], ["02", "2.5", "x"]])
-    assert said(print_table, table, 20, terminal=True).split("\n")[:6] == [
+    assert printed(print_table, table, width=20, terminal=True).split("\n")[:6] == [
         "Numbers", "01", "  a_long_name: 1.5", "02", "  a_long_name: 2.5", "  another_long_name:",
     ]  # fmt: skip
 
 
 def test_held_out_runs_have_a_table_where_there_are_some(short):
-    assert said(in_full(print_comparison), short).count("holdout runs") > 0
+    assert printed(in_full(print_comparison), short).count("holdout runs") > 0
     fit = short.of("fit")
     alone = replace(
         short,
         measured=tuple(short.measured[k] for k in fit),
         results=tuple(tuple(runs[k] for k in fit) for runs in short.results),
     )
-    text = said(in_full(print_comparison), alone)
+    text = printed(in_full(print_comparison), alone)
     assert "fit runs" in text and "holdout runs" not in text
     # The number that counts is the last one, for the runs that there are.
-    assert "held-out runs: its error over" in said(print_comparison, short).splitlines()[-1]
+    assert "held-out runs: its error over" in printed(print_comparison, short).splitlines()[-1]
     assert "% on the fit runs: its error over the measured rates, up to the second" in text.splitlines()[-1]
 
 
@@ -104,7 +97,7 @@ def test_held_out_runs_have_a_table_where_there_are_some(short):
 def test_gates_that_nobody_asked_for_are_not_printed(gates):
     found = fakes.fitted("not_trustworthy")
     found = found if gates else replace(found, gates=[], outcome="not_checked")
-    text = said(lambda console, f: print_fit(console, f, full=True), found)
+    text = printed(lambda console, f: print_fit(console, f, full=True), found)
     assert ("Not trustworthy" in text) is gates and ("FAILED" in text) is gates and "5.900e+07" in text
 
 

@@ -1,19 +1,11 @@
 """Tosses in words and tables say what their records say."""
 
-import io
-
 import pytest
-from rich.console import Console
 
 from rockref.discover.tosses.compare import PUBLISHED
 from rockref.report.terminal import toss_text
+from tests.printed import printed
 from tests.unit.report import toss_records as made
-
-
-def printed(show, record):
-    out = io.StringIO()
-    show(Console(file=out, width=220), record)
-    return out.getvalue()
 
 
 def cells(table, head):

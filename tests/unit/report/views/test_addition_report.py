@@ -1,15 +1,14 @@
 """An addition in words and on its page, with and without held-out runs."""
 
-import io
 from dataclasses import replace
 
 import pytest
-from rich.console import Console
 
 from rockref.discover.add_effect import State
 from rockref.report.html.falling import falling_figure, history_figure
 from rockref.report.terminal.addition_text import axes_table, lines, print_addition
 from rockref.report.views.addition_page import addition_page
+from tests.printed import printed
 from tests.unit.discover import fakes
 from tests.unit.report.page_checks import faults_of
 
@@ -50,9 +49,7 @@ def test_the_page_has_a_figure_for_each_kind_of_runs_and_the_history(whole, bare
 
 
 def test_printed_it_has_the_size_of_the_effect_and_no_number_of_the_baseline(whole):
-    out = io.StringIO()
-    print_addition(Console(file=out, width=200), whole)
-    text = out.getvalue()
+    text = printed(print_addition, whole)
     assert "quadratic_drag.c = 0.41 N m s² (90 %: 0.38 to 0.44)" in text and "K_N" not in text
     assert text.splitlines()[-1].startswith("Held-out runs")
 
