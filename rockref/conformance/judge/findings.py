@@ -125,16 +125,7 @@ def judge(
     begin = time.perf_counter()
     for layer in wanted:
         report = None if progress is None else (lambda share, layer=layer: progress(layer, share))
-        if layer == "L5":
-            findings.runs = judge_runs(backend, profile, report)
-        elif layer == "LE":
-            findings.effects = judge_claims(backend) if profile == "float64" else []
-        elif layer == "LB":
-            findings.effects += judge_shaken(backend) if profile == "float64" else []
-        elif layer == "L6":
-            _properties(backend, findings, examples)
-        else:
-            _small(backend, findings, asked_in(layer, backend), report)
+        _layer(backend, findings, layer, report, examples)
     findings.checks = of_the_right_shape(findings.checks)
     if profile == "float64":
         # Where nothing is wrong yet, the rows after the forces are looked at, too.
@@ -144,6 +135,19 @@ def judge(
     findings.remarks += getattr(backend, "remarks", [])
     findings.seconds = time.perf_counter() - begin
     return findings
+
+
+def _layer(backend: Any, found: Findings, layer: str, report: Callable[[float], None] | None, examples: int) -> None:
+    """Judge one layer."""
+    if layer == "L5":
+        found.runs = judge_runs(backend, found.profile, report)
+    elif layer in ("LE", "LB"):
+        judged = judge_claims if layer == "LE" else judge_shaken
+        found.effects += judged(backend) if found.profile == "float64" else []
+    elif layer == "L6":
+        _properties(backend, found, examples)
+    else:
+        _small(backend, found, asked_in(layer, backend), report)
 
 
 def asked_in(layer: str, backend: Any) -> tuple[Vector, ...]:

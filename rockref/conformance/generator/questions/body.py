@@ -70,93 +70,69 @@ def exponentials() -> Iterator[Case]:
         yield ask(flag, size * normalised(d.vector(1)))
 
 
+#: The rule of each result of a step under prescribed loads.
+RULES = {"x": "I1", "Theta": "I2", "Lambda": "I3", "v_predicted": "S1", "W_predicted": "S1", "v": "I4", "W": "I5"}
+J_FULL = np.array([[1.0, 0.25, -0.125], [0.25, 1.5, 0.0625], [-0.125, 0.0625, 0.75]])
+
+
+def integrated(rule: str, names: str, *flags: str, **changes: Any) -> Case:
+    """Return a step under prescribed loads, from rest at the origin but for the changes."""
+    q: dict[str, Any] = dict.fromkeys(("x", "v", "W", "a", "T", "a_next", "T_next"), np.zeros(3))
+    q = {"x": q["x"], "v": q["v"], "Lambda": np.eye(3)} | q | {"h": 2.0**-16, "inertia": J_BLOCK} | changes
+    return Case(rule, "L3", "integrate", q, {k: (RULES[k], RULES[k]) for k in names.split()}, flags)
+
+
 def steps() -> Iterator[Case]:
     """Yield I1 to I5 with prescribed loads: each rule by itself, then the torque-free top and steady spins."""
     d = Draw(32)
-    zero, one = np.zeros(3), np.eye(3)
+    yield from poses(d)
+    yield from rates(d)
 
-    def ask(rule: str, names: str, flags: tuple[str, ...], **changes: Any) -> Case:
-        q: dict[str, Any] = {
-            "x": zero,
-            "v": zero,
-            "Lambda": one,
-            "W": zero,
-            "a": zero,
-            "T": zero,
-            "a_next": zero,
-            "T_next": zero,
-        }
-        q |= {"h": 2.0**-16, "inertia": J_BLOCK} | changes
-        rules = {
-            "x": "I1",
-            "Theta": "I2",
-            "Lambda": "I3",
-            "v_predicted": "S1",
-            "W_predicted": "S1",
-            "v": "I4",
-            "W": "I5",
-        }
-        fields = {k: (rules[k], rules[k]) for k in names.split()}
-        if "Theta" not in fields and "Lambda" in fields and rule == "I2":
-            fields["Lambda"] = ("I2", "I2")
-        return Case(rule, "L3", "integrate", q, fields, flags)
 
-    yield ask("I1", "x", ("moving",), x=d.vector(0.5), v=d.vector(1))
-    yield ask("I1", "x", ("falling",), a=np.array([0, 0, -9.8125]))
+def poses(d: Draw) -> Iterator[Case]:
+    """Yield I1 to I3: where a step ends, and how far it turns."""
+    yield integrated("I1", "x", "moving", x=d.vector(0.5), v=d.vector(1))
+    yield integrated("I1", "x", "falling", a=np.array([0, 0, -9.8125]))
     for h in (2.0**-16, 1e-5, 2.0**-10):
-        yield ask("I1", "x", ("moving and falling",), x=d.vector(2.0**-10), v=d.vector(1), a=d.vector(20), h=h)
+        yield integrated("I1", "x", "moving and falling", x=d.vector(2.0**-10), v=d.vector(1), a=d.vector(20), h=h)
+    under = "spinning under a moment"
     for h in (1e-5, 2.0**-10):
-        yield ask("I2", "Theta", ("turned by a moment",), T=d.vector(300), h=h)
-        yield ask("I2", "Theta", ("torque-free",), W=d.vector(20), h=h, inertia=J_TOP)
-        yield ask("I2", "Theta", ("spinning under a moment",), W=d.vector(5), T=d.vector(300), h=h, inertia=J_TOP)
-    full = np.array([[1.0, 0.25, -0.125], [0.25, 1.5, 0.0625], [-0.125, 0.0625, 0.75]])
-    yield ask(
-        "I2",
-        "Theta",
-        ("spinning under a moment", "oblique inertia"),
-        W=d.vector(5),
-        T=d.vector(300),
-        h=2.0**-10,
-        inertia=full,
-    )
+        yield integrated("I2", "Theta", "turned by a moment", T=d.vector(300), h=h)
+        yield integrated("I2", "Theta", "torque-free", W=d.vector(20), h=h, inertia=J_TOP)
+        yield integrated("I2", "Theta", under, W=d.vector(5), T=d.vector(300), h=h, inertia=J_TOP)
+    loads: dict[str, Any] = {"W": d.vector(5), "T": d.vector(300)}
+    yield integrated("I2", "Theta", under, "oblique inertia", h=2.0**-10, inertia=J_FULL, **loads)
     for i in range(3):
-        yield ask("I3", "Lambda", ("steady spin",), W=one[i] * 3.0, Lambda=d.rotation(0.5), h=2.0**-10)
+        yield integrated("I3", "Lambda", "steady spin", W=np.eye(3)[i] * 3.0, Lambda=d.rotation(0.5), h=2.0**-10)
     for h in (1e-5, 2.0**-10, 2.0**-5):
-        yield ask(
-            "I3",
-            "Lambda",
-            ("spinning", "ball"),
-            W=d.vector(6),
-            Lambda=d.rotation(0.5),
-            h=h,
-            inertia=diagonal(1.0, 1.0, 1.0),
-        )
+        ball: dict[str, Any] = {"W": d.vector(6), "Lambda": d.rotation(0.5), "inertia": diagonal(1.0, 1.0, 1.0)}
+        yield integrated("I3", "Lambda", "spinning", "ball", h=h, **ball)
+
+
+def rates(d: Draw) -> Iterator[Case]:
+    """Yield S1, I4, I5: the velocities that are predicted, and those at the end of a step."""
     for h in (1e-5, 2.0**-10):
         q = {"v": d.vector(1), "a": d.vector(20), "W": d.vector(3), "T": d.vector(300), "h": h}
-        yield ask("S1", "v_predicted W_predicted", ("predicted velocities",), **q)
+        yield integrated("S1", "v_predicted W_predicted", "predicted velocities", **q)
     q = {"v": d.vector(1), "a": d.vector(20), "W": d.vector(8), "T": d.vector(30), "h": 2.0**-8, "inertia": J_TOP}
-    yield ask("S1", "v_predicted W_predicted", ("predicted velocities",), **q)
+    yield integrated("S1", "v_predicted W_predicted", "predicted velocities", **q)
     for h in (1e-5, 2.0**-10, 2.0**-6):
-        yield ask("I4", "v", ("accelerated",), v=d.vector(1), a=d.vector(30), a_next=d.vector(30), h=h)
-    yield ask("I5", "W", ("old moment alone",), T=d.vector(300), h=2.0**-10)
-    yield ask("I5", "W", ("new moment alone",), T_next=d.vector(300), h=2.0**-10)
+        yield integrated("I4", "v", "accelerated", v=d.vector(1), a=d.vector(30), a_next=d.vector(30), h=h)
+    yield integrated("I5", "W", "old moment alone", T=d.vector(300), h=2.0**-10)
+    yield integrated("I5", "W", "new moment alone", T_next=d.vector(300), h=2.0**-10)
     for i in range(3):
-        yield ask("I5", "W", ("steady spin",), W=one[i] * 3.0, h=2.0**-8, inertia=J_TOP)
+        yield integrated("I5", "W", "steady spin", W=np.eye(3)[i] * 3.0, h=2.0**-8, inertia=J_TOP)
     for h in (1e-5, 2.0**-10, 2.0**-6, 2.0**-4):
-        yield ask("I5", "W", ("torque-free top",), W=d.vector(20) if h < 0.01 else d.vector(6), h=h, inertia=J_TOP)
-    for h in (1e-5, 2.0**-10, 2.0**-8):
-        yield ask(
-            "I5",
-            "W",
-            ("spinning under a moment",),
-            W=d.vector(5),
-            T=d.vector(300),
-            T_next=d.vector(300),
-            h=h,
-            inertia=J_TOP,
-        )
-    loads = {"W": d.vector(5), "T": d.vector(300), "T_next": d.vector(300)}
-    yield ask("I5", "W", ("spinning under a moment", "oblique inertia"), h=2.0**-10, inertia=full, **loads)
+        W = d.vector(20) if h < 0.01 else d.vector(6)
+        yield integrated("I5", "W", "torque-free top", W=W, h=h, inertia=J_TOP)
+    for h, J, more in (
+        (1e-5, J_TOP, ()),
+        (2.0**-10, J_TOP, ()),
+        (2.0**-8, J_TOP, ()),
+        (2.0**-10, J_FULL, ("oblique inertia",)),
+    ):
+        loads = {"W": d.vector(5), "T": d.vector(300), "T_next": d.vector(300)}
+        yield integrated("I5", "W", "spinning under a moment", *more, h=h, inertia=J, **loads)
 
 
 def no_rotation() -> Iterator[Case]:

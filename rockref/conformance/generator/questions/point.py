@@ -116,6 +116,7 @@ def towards(direction: float, ratio: float, F_N: float, mu: float) -> np.ndarray
     return size * np.array([math.cos(direction), math.sin(direction)])
 
 
+DECIDED = {"sliding": ("T2", "T2"), "trace.threshold": ("T6", "T6")}
 #: Sizes of the trial force against the cone.
 RATIOS = (
     (0.5, "inside"), (0.9, "inside"), (1 - 2.0**-20, "just inside"), (1 + 2.0**-20, "just outside"), (1.1, "outside"),
@@ -124,9 +125,8 @@ RATIOS = (
 
 
 def cone() -> Iterator[Case]:
-    """Yield T2: inside, just inside, just outside, outside; on the cone; at its tip; too small to be squared."""
-    d = Draw(23)
-    decided = {"sliding": ("T2", "T2"), "trace.threshold": ("T6", "T6")}
+    """Yield T2: inside, just inside, just outside, outside; with the damper's part; then its edges."""
+    d, decided = Draw(23), DECIDED
     for ratio, where in RATIOS:
         for direction in (0.1, 0.75, 2.5, 4.0, 5.2):
             xi = d.decade(1e-6, 1e-4)
@@ -152,6 +152,12 @@ def cone() -> Iterator[Case]:
             s=spring * mu * F_N / FOOT["K_T"] * np.array([0.6, 0.8]),
             v_slide=v,
         )
+    yield from edges()
+
+
+def edges() -> Iterator[Case]:
+    """Yield T2, T3: on the cone; at its tip; too small to be squared."""
+    decided = DECIDED
     surface = {"K_N": 2.0**26, "K_T": 2.0**26, "xi": 5 * 2.0**-19, "mu": 0.5, "mu_0": 0.5}
     for sign in (1, -1):
         s = sign * np.array([3.0, 4.0]) * 2.0**-20
