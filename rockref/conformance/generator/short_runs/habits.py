@@ -1,7 +1,7 @@
 """Short runs (L5s) for what programs do of themselves: they put slow bodies to rest, count eight feet, remember the run
 before, show flags a row late, and take small turns for none.
 
-They stand behind all others; `place` says between which they are judged. The last three are asked one after another.
+They stand behind all others; `place` says between which they are judged. Three are asked one after another.
 """
 
 from __future__ import annotations
@@ -90,6 +90,15 @@ def one_after_another() -> Iterator[tuple[float, Case]]:
     yield 45.1, ask({"F_T@0": "T5"}, "touching anew, after a run whose feet were tied", 1, DEEP, **anew)
 
 
+def turned_and_tied() -> Iterator[tuple[float, Case]]:
+    """Yield I5 of a body that has turned by a radian since the start, and T1 of friction below a newton."""
+    d = Draw(82, 53)
+    top: Any = {"W": d.vector(8), "Lambda": d.rotation(0.5), "step": 2.0**-7, "every": 16.0}
+    yield 16.8, fly({"W@1": "I5"}, "torque-free top, turned by a radian", 16, **top)
+    hardly: Any = {"v": [d.between(1e-6, 2e-6), -1e-6, 0.0], "every": 2.0, **held(d.vectors(1e-9, 8, 2))}
+    yield 49.9, ask({"F_T@0": "T1"}, "spring and damper below a newton", 2, standing(), made=GLUE, **hardly)
+
+
 def habits() -> Iterator[Case]:
     """Yield all of them."""
-    return placed(slowly, small_turns, other_numbers, flags, tied, one_after_another)
+    return placed(slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied)
