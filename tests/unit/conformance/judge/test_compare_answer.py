@@ -78,7 +78,7 @@ def test_rows_after_the_forces_are_looked_at_where_nothing_else_is_wrong():
     asked = vectors.problem_of(vector.inputs)
 
     def elsewhere(problem, rows):
-        if np.array_equal(problem.start.x, asked.start.x) and problem.duration == asked.duration:
+        if np.array_equal(problem.start.x, asked.start.x) and len(rows["x"]) == 3:
             rows["x"][2] += 1e-6
 
     shown = judge(Changed(elsewhere), ["L5s"]).failures
