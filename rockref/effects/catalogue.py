@@ -294,7 +294,9 @@ def in_step_order(effects: Iterable[Effect]) -> tuple[Effect, ...]:
 
     Raises InputError (E-EFFECT) where one is given twice.
     """
-    effects = list(effects)
+    effects = tuple(effects)
+    if len(effects) < 2:
+        return effects
     ids = [effect.id for effect in effects]
     for id in ids:
         if ids.count(id) > 1:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.prior import OF_ROLE, RIGID, SHAPE_SPREAD, Prior
 
 
+@cache
 def prior_of(kind: type[Effect], name: str) -> Prior:
     """Return the prior of a quantity: what its effect declares, completed from the Quantity."""
     declared, q = kind.priors.get(name, Prior()), kind.quantities[name]

@@ -223,7 +223,8 @@ def damped(
     """Return z after a damped Gauss-Newton step, no component longer than LONGEST, inside its limits."""
     d = -np.linalg.solve(H + damping * np.diag(np.diag(H)), g)
     d = d if moves is None else moves @ d
-    d *= min(1.0, LONGEST / max(float(np.abs(d).max()), 1e-300))
+    reach = np.array([p.reach for p in parameters])
+    d *= min(1.0, LONGEST / max(float((np.abs(d) / reach).max()), 1e-300))
     if moves is not None:
         return moved(parameters, z, d)
     least, most = np.array([p.least for p in parameters]), np.array([p.most for p in parameters])

@@ -8,6 +8,7 @@ farther and farther.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,6 +25,8 @@ HORIZONS: tuple[float | None, ...] = (2.2, 3.7, None)
 STEPS = (3, 3, 4)
 #: Moves along a ridge in prior deviations.
 KICKS = (-1.4, -0.7, -0.35, 0.35, 0.7, 1.4)
+#: Prior deviations beyond which no number is moved.
+OUTSIDE = 2.5
 #: Mean losses between which a fit is moved along ridges (decided: below it is right; above it lacks more than a ridge
 #: could mend).
 WHITE_ENOUGH, FAR_OFF = 1.0, 5.0
@@ -73,46 +76,60 @@ def draws(fitter: Fitter, effects: Sequence[str], z: np.ndarray, count: int) -> 
     return found
 
 
-def global_fit(
-    fitter: Fitter, effects: Sequence[str] = (), z: np.ndarray | None = None, count: int = DRAWS
-) -> FittedModel:
-    """Return a hypothesis fitted at the shortest memory from starts over the whole prior.
-
-    z : where it is known already (releases, sizes of sensor effects); by default nominal.
-    """
-    z = fitter.problem.nominal(effects) if z is None else z
+def stages(fitter: Fitter) -> list[Stage]:
+    """Return the stages of shortest memory that follow runs farther and farther."""
     unit = first_impact(fitter)
-    field = draws(fitter, effects, z, count)
-    for factor, most, keep in zip(HORIZONS, STEPS, SURVIVORS, strict=True):
-        stage = S1.upto(None if factor is None else factor * unit)
+    return [S1.upto(None if factor is None else factor * unit) for factor in HORIZONS]
+
+
+@dataclass
+class GlobalFit:
+    """A fit from starts over the whole prior: the best, and the fits over each horizon on the way, best first."""
+
+    best: FittedModel
+    fields: list[list[FittedModel]]
+
+
+def global_fit(fitter: Fitter, effects: Sequence[str], z: np.ndarray, count: int = DRAWS) -> GlobalFit:
+    """Fit a hypothesis at the shortest memory from starts over the whole prior, farther and farther.
+
+    z : numbers of releases and effects from which all start
+    """
+    field, fields = draws(fitter, effects, z, count), []
+    for stage, most, keep in zip(stages(fitter), STEPS, SURVIVORS, strict=True):
         fitter.evaluate_all(field, stage)
         field = sorted(field, key=lambda h: h.loss)[:keep]
         for h in field:
             fitter.tempered(h, stage, most)
-        field = sorted(field, key=lambda h: h.loss)[: max(1, keep // 2)]
+        tried = sorted(field, key=lambda h: h.loss)
+        field = [h.copy() for h in tried[: max(1, keep // 2)]]
         for h in field:
             if WHITE_ENOUGH < h.loss < FAR_OFF:
                 kicked(fitter, h, stage, most)
         field.sort(key=lambda h: h.loss)
+        fields.append([field[0].copy(), *tried])
         fitter.problem.say(f"starts over the whole prior: mean loss {field[0].loss:.2f}")
     best = field[0]
     best.start = best.z.copy()
-    return best
+    return GlobalFit(best, fields)
 
 
 def kicked(fitter: Fitter, h: FittedModel, stage: Stage, most: int, rounds: int = 3) -> FittedModel:
-    """Move a fit along the ridges of the law as long as a move, refined, is lower."""
+    """Move a fit along the ridges of the law, and each number of its effects, as long as a move, refined, is lower."""
     parameters = fitter.parameters(h)
     index = {p.name: k for k, p in enumerate(parameters)}
+    own: list[dict[str, float]] = [{p.name: p.reach} for p in parameters if p.effect and p.run is None]
     for _ in range(rounds):
         moved = []
-        for ridge in RIDGES:
+        for ridge in (*RIDGES, *own):
             if not ridge.keys() <= index.keys():
                 continue
             for size in KICKS:
                 z = h.z.copy()
                 for name, sign in ridge.items():
-                    z[index[name]] = np.clip(z[index[name]] + size * sign, -2.5, 2.5)
+                    k = index[name]
+                    far = OUTSIDE * parameters[k].reach
+                    z[k] = np.clip(z[k] + size * sign, max(-far, parameters[k].least), min(far, parameters[k].most))
                 moved.append(FittedModel(h.effects, z))
         fitter.evaluate_all(moved, stage)
         best = min(moved, key=lambda k: k.loss)

@@ -14,6 +14,10 @@ from rockref.effects.base import Effect
 from rockref.effects.natural import SOURCE, NaturalUnits, factor_of
 from rockref.effects.scale import from_scale, prior_of, to_scale
 
+#: Part of a spread that a step may take a number whose prior is narrower (decided: a third leads from one form of a law
+#: to another one in three steps).
+REACH = 1 / 3
+
 
 def effect_parameters(
     id: str, runs: int, tone: float | None = None, units: NaturalUnits = SOURCE
@@ -36,6 +40,7 @@ def counted_in_priors(p: Counted, units: NaturalUnits = SOURCE) -> Parameter:
         typical=0.0 if shapes else 1 / p.prior, one_sided=not p.log and p.low >= p.centre, unit=p.unit,
         moves_target=kind is not None and kind.changes_target(), by_ratio=kind is not None and key in kind.by_ratio,
         drawn=between(kind, key, units) if kind is not None and key in kind.anywhere else None,
+        reach=max(1.0, REACH / p.prior),
     )  # fmt: skip
 
 

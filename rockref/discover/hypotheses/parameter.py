@@ -27,7 +27,8 @@ class Parameter:
     set(model, value) -> model, for run `run` or for all (None).  typical : z of one typical size of an effect, else 0.
     low, high : hard limits.  moves_target : whether the number changes what the run listens to.  by_ratio : whether it
     is one of an effect's factors that only act by their ratios.  drawn : values between which starts over the whole
-    prior draw a number of an effect, if they do.
+    prior draw a number of an effect, if they do.  reach : by how much farther than others a step may take it: of a
+    number that is typically none the prior is narrow.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Parameter:
     moves_target: bool = False
     by_ratio: bool = False
     drawn: tuple[float, float] | None = None
+    reach: float = 1.0
 
     @property
     def effect(self) -> str:

@@ -89,6 +89,7 @@ class Listener:
         self.ticks = grid(self.gyro.sample_rate, min(end, max(float(t[-1]) for t in self.t)))
         self._at = [ticks_at(self.ticks, t) for t in self.t]
         self._targets: dict[tuple, Target] = {}
+        self._undone: dict[tuple[int, int], dict] = {}
         self.simulated = 0
 
     def target(self, i: int, effects: tuple[Effect, ...], ticks: Grid | None = None) -> Target:
@@ -98,7 +99,9 @@ class Listener:
         if key not in self._targets:
             if len(self._targets) >= 100:
                 self._targets.clear()
-            self._targets[key] = target_of(self.runs[i], self.gyro, effects, ticks)
+                self._undone.clear()
+            undone = self._undone.setdefault((i, ticks.count), {})
+            self._targets[key] = target_of(self.runs[i], self.gyro, effects, ticks, undone)
         return self._targets[key]
 
     def predict(self, jobs: Sequence[Job], memory: Memory, horizon: float | None = None) -> np.ndarray:

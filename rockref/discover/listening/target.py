@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -22,6 +23,10 @@ NODES = 6
 BEYOND = 0.1
 #: Share of an interval by which instants may be uneven and are taken as they are (decided: 0.03 ms at 1 kHz).
 UNEVEN = 0.03
+
+
+#: Instants (N,) [s] and rates (N, 3) [rad/s].
+Rows = tuple[np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -68,11 +73,12 @@ def zero_offset(model) -> tuple[float, ...]:
     return tuple(float(model.origin.get(name, 0.0)) for name in ZERO_OFFSETS)
 
 
-def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid) -> Target:
+def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid, undone: dict[tuple, Rows]) -> Target:
     """Return what a record tells of the block if its sensor had these effects.
 
     The sensor is undone in reverse order: recorder, electronics, the data sheet's low-pass, mounting. Beyond the end of
     a record, and where it was cut flat, nothing is heard.
+    undone : what is behind the electronics, by their effects, of this run and these ticks; what is new is added
     """
     assert run.t is not None and run.crv is not None
     from rockref.effects import catalogue
@@ -82,10 +88,15 @@ def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid) -> T
     heard = catalogue.heard(effects, t, crv)
     if gyro.range is not None:
         heard &= np.abs(crv) < gyro.range * (1 - 1e-6)
-    t, crv = catalogue.undone(effects, t, crv, gyro.bandwidth)
+    behind = tuple(e for e in effects if e.stage != "mounting")
+    if behind not in undone:
+        undone[behind] = catalogue.undone(behind, t, crv, gyro.bandwidth)
+    t, crv = catalogue.undone([e for e in effects if e.stage == "mounting"], *undone[behind])
     at = ticks.t
     rates = between(t, crv, at)
-    seen = np.stack([np.interp(at, t, heard[:, j].astype(float)) > 0.999 for j in range(3)], axis=-1)
+    seen = np.ones((len(at), 3), bool)
+    for j in np.flatnonzero(~heard.all(axis=0)):
+        seen[:, j] = np.interp(at, t, heard[:, j].astype(float)) > 0.999
     seen &= (at <= t[-1])[:, None]
     whole = np.logical_and.accumulate(seen.all(axis=1))
     return Target(
@@ -99,16 +110,30 @@ def between(t: np.ndarray, crv: np.ndarray, at: np.ndarray) -> np.ndarray:
     t : even.  Beyond its ends the first or the last sample.  Straight lines between samples of 2 ms cut the corners of
     an impact by ten noise widths, and a model that listens to them follows.
     """
-    nodes = min(NODES, len(t))
-    place = np.clip((at - t[0]) * ((len(t) - 1) / float(t[-1] - t[0])), 0, len(t) - 1)
-    first = np.clip(np.floor(place).astype(int) - nodes // 2 + 1, 0, len(t) - nodes)
-    away = (place - first)[:, None] - np.arange(nodes)
+    first, shares = nodes_about(float(t[0]), float(t[-1]), len(t), at)
     rates = np.zeros((len(at), 3))
+    for k in range(shares.shape[1]):
+        rates += shares[:, k, None] * crv[first + k]
+    return rates
+
+
+def nodes_about(start: float, end: float, count: int, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the first of the samples about each instant (K,), and the shares of those (K, nodes)."""
+    return _nodes_about(start, end, count, at.tobytes())
+
+
+@lru_cache(maxsize=32)
+def _nodes_about(start: float, end: float, count: int, instants: bytes) -> tuple[np.ndarray, np.ndarray]:
+    at = np.frombuffer(instants)
+    nodes = min(NODES, count)
+    place = np.clip((at - start) * ((count - 1) / (end - start)), 0, count - 1)
+    first = np.clip(np.floor(place).astype(int) - nodes // 2 + 1, 0, count - nodes)
+    away = (place - first)[:, None] - np.arange(nodes)
+    shares = np.empty((len(at), nodes))
     for k in range(nodes):
         others = [j for j in range(nodes) if j != k]
-        share = np.prod(away[:, others], axis=1) / math.prod(k - j for j in others)
-        rates += share[:, None] * crv[first + k]
-    return rates
+        shares[:, k] = np.prod(away[:, others], axis=1) / math.prod(k - j for j in others)
+    return first, shares
 
 
 def even(t: np.ndarray, crv: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

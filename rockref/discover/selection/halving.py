@@ -11,7 +11,7 @@ import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import inflation_for
-from rockref.discover.fit.stages import S1, S2, F
+from rockref.discover.fit.stages import S1, S2, F, Stage
 from rockref.discover.fit.starts import first_impact
 from rockref.discover.selection.score_test import best_of_each, proposals
 
@@ -63,11 +63,16 @@ def halving(fitter: Fitter, starts: Sequence[FittedModel], left: float = np.inf)
 
 def entrants(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
     """Return a model with each of the best effects that it lacks, and each error of the sensor, sized at release."""
-    fitter.evaluate(base, S1)
+    return proposed(fitter, base, S1, ENTRANTS) + sized_at_release(fitter, base)
+
+
+def proposed(fitter: Fitter, base: FittedModel, stage: Stage, most: int) -> list[FittedModel]:
+    """Return a model with each of the best effects that it lacks, by a step with the noise inflated to what is left."""
+    fitter.evaluate(base, stage)
     assert base.r is not None
-    warm = S1.inflated(inflation_for(base.r, fitter.residuals(S1).count, WARM))
+    warm = stage.inflated(inflation_for(base.r, fitter.residuals(stage).count, WARM))
     fitter.widen()
-    return proposals(fitter, fitter.evaluate(base, warm), warm, ENTRANTS) + sized_at_release(fitter, base)
+    return proposals(fitter, fitter.evaluate(base, warm), warm, most)
 
 
 def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:

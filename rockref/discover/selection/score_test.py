@@ -81,22 +81,31 @@ def proposals(
 ) -> list[FittedModel]:
     """Return the `most` best additions of one effect to h: a step from h each, or a finite start that is lower."""
     test = score_test(fitter, h, stage) if test is None else test
-    found, seeds = [], []
+    found = finite_starts(fitter, h, stage, tuple(test.places))
     for p in test.gains()[: EVALUATED * most]:
         k = fitter.with_effect(h, p.effect)
         k.r, k.objective, k.loss = h.r, h.objective, h.loss
         k.H, gradient = test.with_effect(p.effect)
         fitter.step(k, stage, k.H, gradient)
         found.append(k)
-    base = len(fitter.problem.parameters())
-    for e in test.places:
-        numbers = fitter.problem.parameters((e,))[base:]
-        seeds += [
-            fitter.with_effect(h, e, z) for z in seeds_of(numbers, e, fitter.problem.records, fitter.problem.units)
-        ]
-    if seeds:
-        fitter.evaluate_all(seeds, stage)
-    return sorted(best_of_each([*found, *seeds]), key=lambda k: k.objective)[:most]
+    return sorted(best_of_each(found), key=lambda k: k.objective)[:most]
+
+
+def finite_starts(fitter: Fitter, h: FittedModel, stage: Stage, effects: Sequence[str]) -> list[FittedModel]:
+    """Return h with each of these effects that has finite starts: the best of them, and one step from it."""
+    base, problem = len(fitter.problem.parameters()), fitter.problem
+    seeds = []
+    for e in effects:
+        numbers = problem.parameters((e,))[base:]
+        seeds += [fitter.with_effect(h, e, z) for z in seeds_of(numbers, e, problem.records, problem.units)]
+    if not seeds:
+        return []
+    fitter.evaluate_all(seeds, stage)
+    found = best_of_each(seeds)
+    for k in found:
+        k.H, gradient = fitter.linearise(k, stage)
+        fitter.step(k, stage, k.H, gradient)
+    return found
 
 
 def best_of_each(field: Sequence[FittedModel]) -> list[FittedModel]:

@@ -20,8 +20,9 @@ from rockref.discover.fit.floor import floor
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit, kicked
-from rockref.discover.selection.halving import WORTH, halving, say, seen_at_release, sized_at_release, within
+from rockref.discover.selection.halving import WORTH, halving, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
+from rockref.discover.selection.together import telling, together
 from rockref.discover.selection.tone import tone
 
 #: Mean loss from which innovations contradict a model, and from which nothing explains the runs at S3 and nothing more
@@ -171,27 +172,21 @@ class Search:
         """
         progress, null = self.problem.progress, self.best(beam)
         progress.begin("effects", f"comparing {self.compared(null)}", null.name)
-        left = WHITE + LEAVES[0] * (null.loss - WHITE)
-        self.add(beam, halving(self.fitter, [self.nominal()], left))
+        self.add(beam, together(self.fitter, [self.nominal()], left=UNEXPLAINED))
         if self.is_explained(best := self.best(beam)) and self.moved(best) < STAYED:
             return
         progress.begin("starts", "fitting the baseline from other starts", best.name)
-        beam.append(other := self.anywhere(self.nominal()))
-        if self.is_explained(self.best(beam)):
-            return
-        self.add(beam, halving(self.fitter, [other]))
-        if self.is_explained(now := self.best(beam)):
-            return
-        seen = seen_at_release(self.fitter, other)
-        if seen is not None and seen.effects != now.effects:
-            beam.append(self.anywhere(seen))
+        nominal = self.nominal()
+        found = global_fit(self.fitter, nominal.effects, nominal.z)
+        beam.append(self.settled(found.best))
+        self.problem.say(f"the law from anywhere: mean loss {found.best.loss:.2f}")
         if not self.is_explained(self.best(beam)):
-            beam.append(self.anywhere(now))
+            self.add(beam, together(self.fitter, *telling(found)))
 
     def add(self, beam: list[FittedModel], added: Sequence[FittedModel]) -> None:
         """Add hypotheses to a beam, and let the best go on at S2."""
         beam += added
-        self.fitter.settle(self.best(beam), S2, 4)
+        self.fitter.polish(self.best(beam), S2, 5)
 
     def may_add(self, best: FittedModel, left: float) -> bool:
         """Return whether one more effect is looked for: `left` is the mean loss that the last one was to explain."""
@@ -232,7 +227,7 @@ class Search:
 
     def anywhere(self, h: FittedModel) -> FittedModel:
         """Return a hypothesis whose law starts over the whole prior; releases and effects start as they are in h."""
-        found = self.settled(global_fit(self.fitter, h.effects, h.z))
+        found = self.settled(global_fit(self.fitter, h.effects, h.z).best)
         self.problem.say(f"{h.name}, the law from anywhere: mean loss {found.loss:.2f}")
         return found
 

@@ -17,8 +17,8 @@ GYRATION = 0.6 / math.sqrt(12)
 #: step has to follow (decided).
 LEAST_PITCH = 0.01
 #: Frequencies [Hz] and masses [kg] of the plate from which fits start, since what rings shows nothing in a small step
-#: from zero. Decided: steps of 12 % about the typical tone; the typical mass and three times it.
-TONES, MASSES = (100.0, 89.0, 79.0, 71.0, 63.0, 56.0, 50.0, 45.0, 40.0), (100.0, 300.0)
+#: from zero. Decided: steps of 12 % over the range of tones that rocking excites; the typical mass and three times it.
+TONES, MASSES = tuple(100.0 / 1.12**k for k in range(15)), (100.0, 300.0)
 #: Spread of the logarithms of mass and damping ratio (decided: a factor of two).
 SPREAD = 0.7
 

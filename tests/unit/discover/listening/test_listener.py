@@ -91,7 +91,7 @@ def test_the_target_is_the_motion_behind_the_sensor():
     plain = experiment(MODEL, [{}], duration=0.4)
     shown = experiment(MODEL.replace(effects=effects), [{}], duration=0.4)
     ticks = grid(1000.0, 0.3)
-    a, b = target_of(plain.runs[0], GYRO, (), ticks), target_of(shown.runs[0], GYRO, effects, ticks)
+    a, b = (target_of(e.runs[0], GYRO, own, ticks, {}) for e, own in ((plain, ()), (shown, effects)))
     # Without noise both are the same but for the rounding of the inverse filter.
     assert np.allclose(a.rates, b.rates, atol=1e-9) and np.allclose(a.turns, b.turns, atol=1e-9)
     assert a.heard.all()
@@ -102,7 +102,7 @@ def test_a_clipped_record_is_not_heard():
     limit = 0.6 * np.abs(e.runs[0].crv).max()
     clipped = parse(f"gyro_saturation:range={limit}")
     run = experiment(MODEL.replace(effects=(clipped,)), [{}], duration=0.6).runs[0]
-    target = target_of(run, GYRO, (clipped,), grid(1000.0, 0.55))
+    target = target_of(run, GYRO, (clipped,), grid(1000.0, 0.55), {})
     at = int(np.argmax(np.abs(e.runs[0].crv[:, 0])) * 2)
     assert target.heard[at, 0] == 0 and target.heard[0].all()
     assert target.heard[-1, 3] == 0  # the turn since the release is not known any more
