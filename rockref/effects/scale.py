@@ -5,14 +5,19 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.prior import OF_ROLE, RIGID, SHAPE_SPREAD, Prior
 
 
-@cache
 def prior_of(kind: type[Effect], name: str) -> Prior:
     """Return the prior of a quantity: what its effect declares, completed from the Quantity."""
+    return _prior_of(kind, name)
+
+
+@cache
+def _prior_of(kind: Any, name: str) -> Prior:
     declared, q = kind.priors.get(name, Prior()), kind.quantities[name]
     brings_in = kind.switches is None or name in kind.switches
     role = declared.role or ("size" if brings_in else "fixed")

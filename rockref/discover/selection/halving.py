@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import inflation_for
 from rockref.discover.fit.stages import S1, S2, F, Stage
@@ -37,11 +35,8 @@ def within(field: Sequence[FittedModel], most: int, margin: float = MARGIN) -> l
     return [h for h in ranked if h.objective <= margin * ranked[0].objective][:most]
 
 
-def halving(fitter: Fitter, starts: Sequence[FittedModel], left: float = np.inf) -> list[FittedModel]:
-    """Return the best additions of one effect to models, each from its start at the shortest memory, fitted at S2.
-
-    left : mean loss above which the best of the shortest memory is not the cause, and none goes on.
-    """
+def halving(fitter: Fitter, starts: Sequence[FittedModel]) -> list[FittedModel]:
+    """Return the best additions of one effect to models, each from its start at the shortest memory, fitted at S2."""
     field: list[FittedModel] = []
     for start in starts:
         field += entrants(fitter, FittedModel(start.effects, start.z if start.start is None else start.start))
@@ -51,8 +46,6 @@ def halving(fitter: Fitter, starts: Sequence[FittedModel], left: float = np.inf)
         for h in field:
             fitter.tempered(h, S1, 1)
     say(fitter, "S1", field := within(field, FIRST, 2 * MARGIN))
-    if field[0].loss > left:
-        return []
     for h in field:
         h.start = h.z.copy()
         fitter.refine(h, S2, 3)
@@ -88,26 +81,6 @@ def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
         found.append(FittedModel(h.effects, h.z.copy()))
         found[-1].z[:own] = base.z
     return found
-
-
-def seen_at_release(fitter: Fitter, base: FittedModel) -> FittedModel | None:
-    """Return the base with the effect that the first swing alone shows, sized there at a long memory, or None.
-
-    Before the first impact the motion hardly depends on the feet. What is seen there is found before the feet are, or
-    the feet bend towards it.
-    """
-    stage = F.upto(FIRST_SWING * first_impact(fitter))
-    null = fitter.tempered(base.copy(), stage, SIZED)
-    fitter.refine(null, stage, SIZED)
-    added = proposals(fitter, null, stage, FIRST)
-    for h in added:
-        fitter.refine(h, stage, SIZED)
-    best = min(added, key=lambda h: h.objective)
-    say(fitter, "first swing", [null, *within(added, SECOND)])
-    if null.objective - best.objective < WORTH:
-        return None
-    own = len(base.z)
-    return FittedModel(best.effects, np.concatenate([base.z, best.z[own:]]))
 
 
 def say(fitter: Fitter, stage: str, field: Sequence[FittedModel]) -> None:

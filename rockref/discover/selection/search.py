@@ -1,8 +1,8 @@
 """Forward selection with backward elimination over {nothing, each effect, pairs, triples}, one budget for all.
 
 1. Fit the baseline at short memories. Innovations that stay above white contradict it.
-2. If contradicted: try all effects by successive halving; fit the baseline from starts over the whole prior; try all
-   effects beside that; then the law anew beside the best effect, and one more effect.
+2. If contradicted: try all effects with the law as it is stated. If none explains the runs there: fit the baseline from
+   starts over the whole prior, and look for the law and an effect together; then for one more effect, and the law anew.
 3. Lengthen the memory. At the longest the score test proposes more effects; those that gain enough join.
 4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
 5. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
@@ -168,7 +168,8 @@ class Search:
         """Add hypotheses of one effect to a beam of the baseline: with feet as they are, then with other feet.
 
         Where an effect explains the runs and the law stays where it was, no other feet are looked for. Else the
-        baseline starts over the whole prior; then all effects beside it; then the effect that the first swing shows.
+        baseline starts over the whole prior; where that does not explain them, an effect and the law are looked for
+        together.
         """
         progress, null = self.problem.progress, self.best(beam)
         progress.begin("effects", f"comparing {self.compared(null)}", null.name)

@@ -18,7 +18,6 @@ class Calibration:
     least_amplitude: float
     misfit: float
     misfit_of_run: float
-    agreeing_run: float
     proof: float
     remnant: float
 

@@ -101,7 +101,7 @@ def contradicting_run(h: HypothesisEvidence, c: Calibration) -> str | None:
         return None
     worst = max(means, key=means.__getitem__)
     others = [value for run, value in means.items() if run != worst]
-    return worst if means[worst] > c.misfit_of_run and max(others) < c.agreeing_run else None
+    return worst if means[worst] > c.misfit_of_run and max(others) <= c.misfit else None
 
 
 def is_explained(h: HypothesisEvidence, c: Calibration) -> bool:
