@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
-from typing import Any
 
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.prior import OF_ROLE, RIGID, SHAPE_SPREAD, Prior
@@ -13,11 +12,12 @@ from rockref.effects.prior import OF_ROLE, RIGID, SHAPE_SPREAD, Prior
 
 def prior_of(kind: type[Effect], name: str) -> Prior:
     """Return the prior of a quantity: what its effect declares, completed from the Quantity."""
-    return _prior_of(kind, name)
+    found: Prior = _prior_of(kind, name)  # type: ignore[arg-type]  # a class is hashable; its protocol is not seen
+    return found
 
 
 @cache
-def _prior_of(kind: Any, name: str) -> Prior:
+def _prior_of(kind: type[Effect], name: str) -> Prior:
     declared, q = kind.priors.get(name, Prior()), kind.quantities[name]
     brings_in = kind.switches is None or name in kind.switches
     role = declared.role or ("size" if brings_in else "fixed")
