@@ -79,13 +79,9 @@ def seeds_of(
     return found
 
 
-def candidate_effects(
-    points: str, carried: Sequence[str], records: Sequence, own: Sequence[str] = ()
-) -> tuple[str, ...]:
+def candidate_effects(points: str, carried: Sequence[str], own: Sequence[str] = ()) -> tuple[str, ...]:
     """Return the ids of the effects that may be missing: the catalogue's on these points, and those of the user's own.
 
-    carried : effects that the user's model has already.  records : as in `seeds_of`; what cuts samples is a candidate
-    only where a record shows a cut.
+    carried : effects that the user's model has already
     """
-    found = candidates.kinds(points, carried, own)
-    return tuple(kind.id for kind in found if kind.stage != "samples" or kind.seeds_in(records))
+    return tuple(kind.id for kind in candidates.kinds(points, carried, own))

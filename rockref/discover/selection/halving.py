@@ -11,6 +11,7 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import inflation_for
 from rockref.discover.fit.stages import S1, S2, F, Stage
 from rockref.discover.fit.starts import first_impact
+from rockref.discover.hypotheses.effects import seeds_of
 from rockref.discover.selection.score_test import best_of_each, proposals
 
 #: Additions that are tried at the first stage, refined at it, and taken to the second, at most.
@@ -69,12 +70,16 @@ def proposed(fitter: Fitter, base: FittedModel, stage: Stage, most: int) -> list
 
 
 def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
-    """Return the base with each error of the sensor that it lacks, sized before the first impact at a long memory."""
+    """Return the base with each error of the sensor that it lacks, sized before the first impact at a long memory.
+
+    What has finite starts is not among them: small, it shows nothing.
+    """
     found = []
     stage = F.upto(FIRST_SWING * first_impact(fitter))
     for e in fitter.problem.candidates:
         numbers = fitter.problem.parameters((e,))[len(fitter.problem.parameters()) :]
-        if e in base.effects or not any(p.moves_target for p in numbers):
+        has_finite_starts = seeds_of(numbers, e, fitter.problem.records, fitter.problem.units)
+        if e in base.effects or has_finite_starts or not any(p.moves_target for p in numbers):
             continue
         h = fitter.tempered(fitter.with_effect(base, e), stage, SIZED)
         own = len(base.z)

@@ -22,7 +22,7 @@ from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit, kicked
 from rockref.discover.selection.halving import WORTH, halving, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
-from rockref.discover.selection.together import telling, together
+from rockref.discover.selection.together import from_anywhere, from_statement
 from rockref.discover.selection.tone import tone
 
 #: Mean loss from which innovations contradict a model, and from which nothing explains the runs at S3 and nothing more
@@ -173,7 +173,7 @@ class Search:
         """
         progress, null = self.problem.progress, self.best(beam)
         progress.begin("effects", f"comparing {self.compared(null)}", null.name)
-        self.add(beam, together(self.fitter, [self.nominal()], left=UNEXPLAINED))
+        self.add(beam, from_statement(self.fitter, null, self.nominal(), UNEXPLAINED))
         if self.is_explained(best := self.best(beam)) and self.moved(best) < STAYED:
             return
         progress.begin("starts", "fitting the baseline from other starts", best.name)
@@ -182,7 +182,7 @@ class Search:
         beam.append(self.settled(found.best))
         self.problem.say(f"the law from anywhere: mean loss {found.best.loss:.2f}")
         if not self.is_explained(self.best(beam)):
-            self.add(beam, together(self.fitter, *telling(found)))
+            self.add(beam, from_anywhere(self.fitter, found))
 
     def add(self, beam: list[FittedModel], added: Sequence[FittedModel]) -> None:
         """Add hypotheses to a beam, and let the best go on at S2."""

@@ -31,19 +31,30 @@ ROUNDS = ((16, 2, 4.0, 1), (16, 2, 2.5, 1), (4, 1, 1.5, 3))
 FARTHER = ((12, 1.5, 3, 4), (5, 1.3, 3, 4))
 
 
-def telling(found: GlobalFit) -> tuple[list[FittedModel], int]:
-    """Return starts of the law to be tried with every effect, and the first horizon over which they tell effects apart.
+def telling(losses: Sequence[float]) -> int:
+    """Return the first horizon over which effects are told apart, by the mean losses of the law alone over each.
 
     Feet and releases explain a short stretch by themselves, whatever is missing.
     """
-    last = len(found.fields) - 1
-    k = next((k for k, field in enumerate(found.fields) if field[0].loss > TELLING), last)
-    return [*found.fields[k][: STARTS - 1], found.best], k
+    return next((k for k, loss in enumerate(losses) if loss > TELLING), len(losses) - 1)
 
 
-def together(
-    fitter: Fitter, starts: Sequence[FittedModel], horizon: int = 0, left: float = np.inf
-) -> list[FittedModel]:
+def from_statement(fitter: Fitter, null: FittedModel, nominal: FittedModel, left: float) -> list[FittedModel]:
+    """Return the best effects beside the law as it is stated; null : the baseline fitted from there.
+
+    left : mean loss above which the best over the first horizon is not the cause, and none goes on.
+    """
+    losses = [fitter.evaluate(null.copy(), stage).loss for stage in stages(fitter)]
+    return together(fitter, [nominal], telling(losses), left)
+
+
+def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
+    """Return the best pairs of an effect and a law, from the starts of the law over the whole prior that went far."""
+    k = telling([field[0].loss for field in found.fields])
+    return together(fitter, [*found.fields[k][: STARTS - 1], found.best], k)
+
+
+def together(fitter: Fitter, starts: Sequence[FittedModel], horizon: int, left: float = np.inf) -> list[FittedModel]:
     """Return the best pairs of effect and law, fitted at S2, from starts of the law over a horizon and farther.
 
     left : mean loss above which the best over the first horizon is not the cause, and none goes on.

@@ -17,6 +17,9 @@ TOP = 0.99
 #: Seconds near the largest rate that make a top flat (decided: a cusp of a rocking block is within a hundredth of its
 #: peak for some 2 ms).
 FLAT = 12e-3
+#: Ranges of soft stops from which fits start, in largest rates that a record shows (decided: there they take a half, a
+#: quarter and a tenth off the true rate).
+SOFT = (1.05, 1.3, 1.8)
 
 
 @dataclass(frozen=True)
@@ -68,8 +71,9 @@ class GyroSaturation(Effect):
 
     @classmethod
     def seeds_in(cls, records):
-        """Return the largest rate of all records, if one shows it for longer than a cusp lasts; else none: nothing is
-        cut."""
+        """Return the largest rate of all records, if one shows it for longer than a cusp lasts, and soft stops beyond
+        it."""
         limit = max(float(np.abs(crv).max()) for _, crv in records)
         longest = max(float(np.sum(np.abs(crv) > TOP * limit, axis=0).max() * (t[1] - t[0])) for t, crv in records)
-        return ({"range": limit},) if longest >= FLAT else ()
+        hard = ({"range": limit},) if longest >= FLAT else ()
+        return (*hard, *({"range": beyond * limit, "softness": 1.0} for beyond in SOFT))

@@ -158,3 +158,16 @@ def test_a_users_own_sensor_acts_before_the_sample_is_taken():
     out = measured([GyroSaturation(0.4), Hum(), ClockError(1.01)], T, tone(3.0))
     hummed = tone(3.0) + 0.5 * np.sin(300.0 * T)[:, None]
     assert np.array_equal(out, np.clip(ClockError(1.01).sensor(T, hummed), -0.4, 0.4))
+
+
+def test_fits_start_from_a_flat_top_and_from_soft_stops():
+    """Hard stops are where the top is flat; soft ones of any strength lie near one of the starts."""
+    t = np.arange(0.0, 2.0, 1e-3)
+    # With cusps that fall, as those of a rocking block.
+    rates = (np.exp(-t) * np.abs(2 * np.mod(t, 0.5) - 0.5))[:, None] * [2.0, 0.1, 0.0]
+    assert GyroSaturation.seeds_in([(t, GyroSaturation(0.6).sensor(t, rates))])[0] == {"range": 0.6}
+    assert all("softness" in seed for seed in GyroSaturation.seeds_in([(t, rates)]))
+    for strength in (0.6, 0.8, 0.9):
+        seeds = GyroSaturation.seeds_in([(t, GyroSaturation(strength, 1.0).sensor(t, rates))])
+        # A step of a fit takes a range by half.
+        assert min(abs(np.log(seed["range"] / strength)) for seed in seeds if "softness" in seed) < np.log(1.5)

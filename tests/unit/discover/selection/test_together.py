@@ -3,8 +3,7 @@
 import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel
-from rockref.discover.fit.starts import GlobalFit
-from rockref.discover.selection.together import STARTS, TELLING, best_pairs, telling
+from rockref.discover.selection.together import TELLING, best_pairs, telling
 
 
 def fit(effects: str, loss: float) -> FittedModel:
@@ -20,11 +19,6 @@ def test_of_each_effect_the_best_starts_go_on():
 
 def test_effects_are_told_apart_where_the_law_alone_leaves_something():
     little, much = TELLING - 0.1, TELLING + 0.1
-    fields = [[fit("", loss)] * 5 for loss in (little, much, 2 * much)]
-    starts, horizon = telling(GlobalFit(fit("", 3.0), fields))
-    assert horizon == 1 and len(starts) == STARTS and [h.loss for h in starts] == [much] * (STARTS - 1) + [3.0]
-
-
-def test_where_the_law_alone_explains_all_whole_runs_tell_effects_apart():
-    fields = [[fit("", TELLING - 0.1)]] * 3
-    assert telling(GlobalFit(fit("", 1.0), fields))[1] == 2
+    assert telling([much, little, much]) == 0
+    assert telling([little, much, 2 * much]) == 1
+    assert telling([little] * 3) == 2, "where the law alone explains all, whole runs tell effects apart"
