@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
-from rockref.discover.fit.stages import Stage
+from rockref.discover.fit.stages import S1, Stage
 from rockref.discover.hypotheses.effects import seeds_of
 from rockref.discover.hypotheses.parameter import Parameter
 
@@ -92,7 +92,10 @@ def proposals(
 
 
 def finite_starts(fitter: Fitter, h: FittedModel, stage: Stage, effects: Sequence[str]) -> list[FittedModel]:
-    """Return h with each of these effects that has finite starts: the best of them, and one step from it."""
+    """Return h with each of these effects that has finite starts: the best of them, and one step from it at S1.
+
+    The objective of longer memories is too rough for a step from far.
+    """
     base, problem = len(fitter.problem.parameters()), fitter.problem
     seeds = []
     for e in effects:
@@ -102,7 +105,7 @@ def finite_starts(fitter: Fitter, h: FittedModel, stage: Stage, effects: Sequenc
         return []
     fitter.evaluate_all(seeds, stage)
     found = best_of_each(seeds)
-    for k in found:
+    for k in found if stage.name == S1.name else ():
         k.H, gradient = fitter.linearise(k, stage)
         fitter.step(k, stage, k.H, gradient)
     return found
