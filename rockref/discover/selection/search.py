@@ -168,12 +168,13 @@ class Search:
         """Add hypotheses of one effect to a beam of the baseline: with feet as they are, then with other feet.
 
         Where an effect explains the runs and the law stays where it was, no other feet are looked for. Else the
-        baseline starts over the whole prior; where that does not explain them, an effect and the law are looked for
-        together.
+        baseline starts over the whole prior; where that does not explain them, so does the law beside an effect that
+        leads by far; where there is none, an effect and the law are looked for together.
         """
         progress, null = self.problem.progress, self.best(beam)
         progress.begin("effects", f"comparing {self.compared(null)}", null.name)
-        self.add(beam, from_statement(self.fitter, null, self.nominal(), UNEXPLAINED))
+        added, leader = from_statement(self.fitter, null, self.nominal(), UNEXPLAINED)
+        self.add(beam, added)
         if self.is_explained(best := self.best(beam)) and self.moved(best) < STAYED:
             return
         progress.begin("starts", "fitting the baseline from other starts", best.name)
@@ -181,6 +182,8 @@ class Search:
         found = global_fit(self.fitter, nominal.effects, nominal.z)
         beam.append(self.settled(found.best))
         self.problem.say(f"the law from anywhere: mean loss {found.best.loss:.2f}")
+        if leader is not None and not self.is_explained(self.best(beam)):
+            beam.append(self.anywhere(leader))
         if not self.is_explained(self.best(beam)):
             self.add(beam, from_anywhere(self.fitter, found))
 

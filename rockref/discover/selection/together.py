@@ -13,12 +13,15 @@ from itertools import count
 import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S2, Stage
 from rockref.discover.fit.starts import GlobalFit, stages
 from rockref.discover.selection.halving import MARGIN, SECOND, proposed, say, sized_at_release, within
 
 #: Mean loss of the law alone from which a horizon tells effects apart, and the starts that are tried there (decided).
 TELLING, STARTS = 1.5, 4
+#: Part of the misfit of the law alone that an effect may leave and lead by far (decided: it is there, whatever the feet).
+LEADS = 0.1
 #: Effects that each start is tried with (decided: nearly all; one step from far says little).
 TRIED = 16
 #: Rounds over the first horizon: pairs that go on, how many of one effect among them, the factor on the best loss up to
@@ -39,32 +42,32 @@ def telling(losses: Sequence[float]) -> int:
     return next((k for k, loss in enumerate(losses) if loss > TELLING), len(losses) - 1)
 
 
-def from_statement(fitter: Fitter, null: FittedModel, nominal: FittedModel, left: float) -> list[FittedModel]:
-    """Return the best effects beside the law as it is stated; null : the baseline fitted from there.
+def from_statement(
+    fitter: Fitter, null: FittedModel, nominal: FittedModel, left: float
+) -> tuple[list[FittedModel], FittedModel | None]:
+    """Return the best effects beside the law as it is stated, and the one that leads by far, if one does.
 
-    left : mean loss above which the best over the first horizon is not the cause, and none goes on.
+    null : the baseline fitted from there
+    left : mean loss above which the best over the first horizon is not the cause beside this law, and none goes on.
     """
     losses = [fitter.evaluate(null.copy(), stage).loss for stage in stages(fitter)]
-    return together(fitter, [nominal], telling(losses), left)
+    k = telling(losses)
+    pairs = first_pairs(fitter, [nominal], stages(fitter)[k])
+    best = pairs[0].copy()
+    leads = best.loss - WHITE <= LEADS * (losses[k] - WHITE)
+    return followed(fitter, pairs, k) if best.loss <= left else [], best if leads else None
 
 
 def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
     """Return the best pairs of an effect and a law, from the starts of the law over the whole prior that went far."""
     k = telling([field[0].loss for field in found.fields])
-    return together(fitter, [*found.fields[k][: STARTS - 1], found.best], k)
+    starts = [*found.fields[k][: STARTS - 1], found.best]
+    return followed(fitter, first_pairs(fitter, starts, stages(fitter)[k]), k)
 
 
-def together(fitter: Fitter, starts: Sequence[FittedModel], horizon: int, left: float = np.inf) -> list[FittedModel]:
-    """Return the best pairs of effect and law, fitted at S2, from starts of the law over a horizon and farther.
-
-    left : mean loss above which the best over the first horizon is not the cause, and none goes on.
-    """
-    first, *longer = stages(fitter)[horizon:]
-    field = first_pairs(fitter, starts, first)
-    say(fitter, "pairs", field[: FARTHER[0][0]])
-    if field[0].loss > left:
-        return []
-    for stage, (most, margin, steps, moved) in zip(longer, FARTHER[horizon:], strict=True):
+def followed(fitter: Fitter, field: list[FittedModel], horizon: int) -> list[FittedModel]:
+    """Return pairs over a horizon that stay near the best over farther ones, fitted at S2."""
+    for stage, (most, margin, steps, moved) in zip(stages(fitter)[horizon + 1 :], FARTHER[horizon:], strict=True):
         field = best_pairs(field, most, 1, margin)
         fitter.evaluate_all(field, stage)
         for h in field:
@@ -83,7 +86,7 @@ def together(fitter: Fitter, starts: Sequence[FittedModel], horizon: int, left: 
 
 
 def first_pairs(fitter: Fitter, starts: Sequence[FittedModel], stage: Stage) -> list[FittedModel]:
-    """Return the pairs of a start and an effect that explain the first swings, best first."""
+    """Return the pairs of a start and an effect by how they explain the runs over a horizon, best first."""
     field: list[FittedModel] = []
     for start in starts:
         field += proposed(fitter, start.copy(), stage, TRIED)
@@ -92,7 +95,9 @@ def first_pairs(fitter: Fitter, starts: Sequence[FittedModel], stage: Stage) -> 
     for most, of_each, margin, steps in ROUNDS:
         for h in best_pairs(field, most, of_each, margin):
             fitter.tempered(h, stage, steps)
-    return best_pairs(field, len(field), 1)
+    field = best_pairs(field, len(field), 1)
+    say(fitter, "pairs", field[: FARTHER[0][0]])
+    return field
 
 
 def with_sensors(fitter: Fitter, starts: Sequence[FittedModel]) -> list[FittedModel]:
