@@ -20,7 +20,8 @@ from rockref.discover.selection.halving import MARGIN, SECOND, proposed, say, si
 
 #: Mean loss of the law alone from which a horizon tells effects apart, and the starts that are tried there (decided).
 TELLING, STARTS = 1.5, 4
-#: Part of the misfit of the law alone that an effect may leave and lead by far (decided: it is there, whatever the feet).
+#: Part of the misfit of the law alone that an effect may leave and lead by far (decided: it is there, whatever the
+#: feet).
 LEADS = 0.1
 #: Effects that each start is tried with (decided: nearly all; one step from far says little).
 TRIED = 16
