@@ -39,7 +39,7 @@ from rockref.conformance.reports import terminal
 from rockref.conformance.reports.junit import junit
 from rockref.conformance.reports.page import badge
 from rockref.conformance.reports.page import page as page_of
-from rockref.conformance.vectors import Vector
+from rockref.conformance.vectors import Vector, shipped
 from rockref.effects import catalogue
 from rockref.measure.experiment import load_experiment
 from rockref.measure.reading.table import read_table
@@ -167,7 +167,7 @@ def stored(data: bytes, folder: Path) -> None:
         text = json.dumps({"files": digests, "trajectories": ["run"], "windows": []})
         (folder / "MANIFEST.json").write_text(text)
     try:
-        with mock.patch.object(vectors, "folder", lambda: folder):
+        with mock.patch.object(shipped, "folder", lambda: folder):
             forgotten()
             for name in [n[:-5] for n in names if n.endswith(".json") and n != "MANIFEST.json"]:
                 with reading(folder):

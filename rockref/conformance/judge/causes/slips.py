@@ -38,7 +38,7 @@ IN_BODY, IN_PLATE = ("W", "T", "crv_deg_s", "W_predicted", "Theta"), ("x", "v", 
 @dataclass(frozen=True)
 class Pair:
     """One expected result and what was given: `before` the row before it, `start` and `Lambda` the poses that belong
-    to it; None where there are none."""
+    to it; None where there are none. `apart`: rows lie several steps apart, and of the step before nothing is known."""
 
     name: str
     expected: np.ndarray
@@ -47,6 +47,7 @@ class Pair:
     before: np.ndarray | None = None
     start: np.ndarray | None = None
     Lambda: np.ndarray | None = None
+    apart: bool = False
 
 
 #: What a slip makes of a pair's expected result (None: it says nothing of it), and the slip in words.
@@ -55,6 +56,7 @@ Slip = tuple[Callable[[Pair], "np.ndarray | None"], str]
 
 def pairs_of(vector: Vector, out: dict[str, Any], failed: set[str]) -> Iterator[Pair]:
     """Yield the numbers of one vector with their answers."""
+    apart = float(vector.inputs.get("step", 1.0)) * float(vector.inputs.get("output_rate", 1.0)) < 1 - 1e-9
     for name, e in vector.expect.items():
         try:
             got = np.asarray(result(name, out, vector.branch), float)
@@ -69,7 +71,7 @@ def pairs_of(vector: Vector, out: dict[str, Any], failed: set[str]) -> Iterator[
             origin = vector.inputs.get(base.removesuffix("_T")) if int(row) == 1 else None
             before = known.value if known else None if origin is None else np.asarray(origin)[..., : len(e.value)]
         start = vector.inputs.get("Lambda")
-        yield Pair(name, e.value, got, name in failed, before, start, _pose(vector, row))
+        yield Pair(name, e.value, got, name in failed, before, start, _pose(vector, row), apart)
 
 
 def _pose(vector: Vector, row: str) -> np.ndarray | None:
@@ -150,10 +152,10 @@ def turned(names: tuple[str, ...], back: bool) -> Callable[[Pair], np.ndarray | 
 
 
 def row_late(p: Pair) -> np.ndarray | None:
-    """Return the row before."""
+    """Return the row before; what was given, where nothing is known of it."""
     if p.name == "crv_deg_s":
         return np.concatenate([p.got[:1], p.expected[:-1]])
-    return p.before
+    return p.got if p.apart else p.before
 
 
 def slips() -> Iterator[Slip]:
