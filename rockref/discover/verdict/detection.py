@@ -15,13 +15,18 @@ if TYPE_CHECKING:
     from rockref.discover.selection.score_test import ScoreTest
     from rockref.discover.verdict.calibration import Calibration
 
+#: Typical sizes from which a limit says nothing (decided): a small step from zero does not show the effect, which a
+#: search tries at finite sizes.
+UNSEEN = 50.0
+
 
 def detection(
     problem: FitProblem, test: ScoreTest, c: Calibration
 ) -> tuple[dict[str, dict[str, Any]], dict[str, dict[str, float]]]:
     """Return limits by number and cosines between effects, from the linearisation of a model and what it lacks.
 
-    A limit is the amplitude from which the evidence for an effect, were it alone there, would be certain.
+    A limit is the amplitude from which the evidence for an effect, were it alone there, would be certain; none where
+    no small step shows it.
     """
     base = len(problem.parameters())
     limits: dict[str, dict[str, Any]] = {}
@@ -40,7 +45,8 @@ def detection(
         names.append(effect)
         for k, p in zip(block, numbers, strict=True):
             if p.typical > 0 and p.run is None:
-                limits[p.name] = limit(p, float(S[k, k]), c)
+                found = limit(p, float(S[k, k]), c)
+                limits |= {p.name: found} if found["in_typical_sizes"] < UNSEEN else {}
     table = np.round(cosines(S, blocks), 3).tolist()
     return limits, {a: dict(zip(names, row, strict=True)) for a, row in zip(names, table, strict=True)}
 
