@@ -107,7 +107,7 @@ def global_fit(fitter: Fitter, effects: Sequence[str], z: np.ndarray, count: int
             if WHITE_ENOUGH < h.loss < FAR_OFF:
                 kicked(fitter, h, stage, most)
         field.sort(key=lambda h: h.loss)
-        fields.append([field[0].copy(), *tried])
+        fields.append([*(h.copy() for h in field), *tried[len(field) :]])
         fitter.problem.say(f"starts over the whole prior: mean loss {field[0].loss:.2f}")
     best = field[0]
     best.start = best.z.copy()

@@ -1,8 +1,8 @@
 """An effect and the law, looked for together: pairs of a start and an effect compete.
 
 Without the effect the law bends towards what is missing, and what fits best is not near the truth. So starts of the law
-that have gone some way are each tried with every effect; few steps for many pairs over the first swings, more for few
-over whole runs.
+that have gone some way are each tried with every effect; few steps for many pairs over the first horizon that tells
+them apart, more for few over whole runs.
 """
 
 from __future__ import annotations
@@ -62,7 +62,9 @@ def from_statement(
 def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
     """Return the best pairs of an effect and a law, from the starts of the law over the whole prior that went far."""
     k = telling([field[0].loss for field in found.fields])
-    starts = [*found.fields[k][: STARTS - 1], found.best]
+    starts = found.fields[k][: STARTS - 1]
+    if k < len(found.fields) - 1:  # over whole runs it is the first of them
+        starts = [*starts, found.best]
     return followed(fitter, first_pairs(fitter, starts, stages(fitter)[k]), k)
 
 
