@@ -6,7 +6,7 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | sixth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | seventh the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
@@ -34,6 +34,7 @@ import strangers_fourth
 import strangers_list
 import strangers_schemes
 import strangers_second
+import strangers_seventh
 import strangers_sixth
 import strangers_third
 from strangers_list import HARMLESS, Mistake
@@ -54,6 +55,7 @@ LISTS = {
     "fourth": strangers_fourth.MISTAKES,
     "fifth": strangers_fifth.MISTAKES,
     "sixth": strangers_sixth.MISTAKES,
+    "seventh": strangers_seventh.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -189,6 +191,7 @@ IN_PYTHON = (
     *strangers_fourth.IN_PYTHON,
     *strangers_fifth.IN_PYTHON,
     *strangers_sixth.IN_PYTHON,
+    *strangers_seventh.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
