@@ -71,7 +71,7 @@ coverage: env  ## which branches of what is not compiled the tests take, folder 
 	$(PY) -m tests.covered .coverage.json
 
 golden: env  ## compute the golden files anew and say what differs (ten minutes)
-	$(PY) -m tests.golden.make
+	$(PY) -m golden.make
 
 bench: env  ## measure the speeds that the README states
 	$(PY) benchmarks/run.py

@@ -13,9 +13,9 @@ sys.path.insert(0, str(ROOT))
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 
+from golden import table_3_1_files as golden  # noqa: E402
 from rockref import simulate  # noqa: E402
 from rockref.report.charts.block_drawing import block_drawing  # noqa: E402
-from tests.golden import table_3_1_files as golden  # noqa: E402
 
 STEPS = (5e-5, 2.5e-5, 1e-5, 5e-6, 2.5e-6, 1e-6, 5e-7, 2e-7, 1e-7)
 ENDS = {"first swing, to 0.48 s": 0.48, "past the first main impact, to 0.6 s": 0.6, "to 1.3355 s": golden.END}

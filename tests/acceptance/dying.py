@@ -61,7 +61,7 @@ def diagnose(experiment: Path, folder: Path) -> None:
 
 def golden(experiment: Path, folder: Path) -> None:
     """The vectors of two pieces and the manifest, made anew beside those that are shipped."""
-    from rockref.conformance.generator import make
+    from golden.generator import make
 
     if not (folder / "MANIFEST.json").exists():
         for path in make.FOLDER.glob("*.*"):

@@ -11,8 +11,8 @@ import shutil
 import numpy as np
 import pytest
 
-from rockref.conformance.generator import base_motion, effects, fingerprints, make, small_layers, trajectories
-from tests.golden.make import table_3_1
+from golden.generator import base_motion, effects, fingerprints, make, small_layers, trajectories
+from golden.make import table_3_1
 
 pytestmark = [
     pytest.mark.slow,

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import rockref
+from golden import make_table_3_1
+from golden import table_3_1_files as files
+from golden.bars import bar, down_to, rounded_up
+from golden.make import main
 from rockref.model.rotation import from_quaternion
-from tests.golden import make_table_3_1
-from tests.golden import table_3_1_files as files
-from tests.golden.bars import bar, down_to, rounded_up
-from tests.golden.make import main
 
 NAMES = rockref.Model.table_3_1().body()[1].names
 

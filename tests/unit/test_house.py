@@ -14,7 +14,7 @@ import grimp
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-CODE = ("rockref", "tests", "benchmarks", "examples")
+CODE = ("rockref", "golden", "tests", "benchmarks", "examples")
 TEXT = {
     ".py",
     ".md",
@@ -255,7 +255,7 @@ NO_VERBS = re.compile(
 
 def test_docstrings_of_functions_begin_with_a_verb():
     found = []
-    for path in (ROOT / "rockref").rglob("*.py"):
+    for path in [*(ROOT / "rockref").rglob("*.py"), *(ROOT / "golden").rglob("*.py")]:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.FunctionDef) and NO_VERBS.match(ast.get_docstring(node) or "Return"):
                 found.append(f"{path.relative_to(ROOT)}:{node.lineno} {node.name}")

@@ -9,13 +9,13 @@ import jsonschema
 import numpy as np
 import pytest
 
+from golden.generator.admission import RESOLVED, RESOLVED_BY_SCHEMES
+from golden.generator.bounds.answers import ANSWERS
+from golden.generator.bounds.arithmetic import converted
+from golden.generator.bounds.bars import FIFTY, converted_floats_of, is_flag
 from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine
 from rockref.conformance.faults.mistakes import BY_ID
-from rockref.conformance.generator.admission import RESOLVED, RESOLVED_BY_SCHEMES
-from rockref.conformance.generator.bounds.answers import ANSWERS
-from rockref.conformance.generator.bounds.arithmetic import converted
-from rockref.conformance.generator.bounds.bars import FIFTY, converted_floats_of, is_flag
 from rockref.conformance.judge.compare_answer import compare
 from rockref.conformance.rules import ORDER, PIECES
 from rockref.conformance.vectors import shipped as vectors

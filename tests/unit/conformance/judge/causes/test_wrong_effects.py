@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from golden.generator.bounds.arithmetic import Doubles
+from golden.generator.questions.drawing import DELTA_DIAG, DELTA_LONG, DEPTH, HEIGHT, MASS, TABLE, WIDTH
+from golden.independent import exact
 from rockref.conformance.backends.executable import Executable
 from rockref.conformance.backends.law import NumpyEngine
-from rockref.conformance.generator.bounds.arithmetic import Doubles
-from rockref.conformance.generator.questions.drawing import DELTA_DIAG, DELTA_LONG, DEPTH, HEIGHT, MASS, TABLE, WIDTH
-from rockref.conformance.independent import exact
 from rockref.conformance.judge import claims
 from rockref.conformance.judge.causes.wrong_effects import without_point
 from rockref.conformance.judge.findings import judge

@@ -1,0 +1,104 @@
+"""Short runs (L5s) for what programs do of themselves: they put slow bodies to rest, count eight feet, remember the run
+before, show flags a row late, and take small turns for none.
+
+They stand behind all others; `place` says between which they are judged. Three are asked one after another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from golden.generator.bounds.bars import Case
+from golden.generator.questions.drawing import Draw, diagonal, table_3_1
+from golden.generator.questions.scenes import EVEN, PER_POINT
+from golden.generator.short_runs.alone import DRIFT, TIP, UNLOADED, fly
+from golden.generator.short_runs.askew import C_T
+from golden.generator.short_runs.basic import GLUE, ICE, IN, UP, Z, ask, held, placed, standing
+
+#: So slow that engines take a body for one at rest [m/s, rad/s]; the way of a step still has all its digits.
+SLOW = 2.0**-22
+ALL = np.ones(8, bool)
+#: All eight feet are down.
+DEEP = standing(2.0**-12)
+
+
+def slowly() -> Iterator[tuple[float, Case]]:
+    """Yield S2 and I4, I3 and I5 of a block that drifts and turns by less than a micrometre a second."""
+    drift = np.array(DRIFT) * SLOW
+    fields = {"x_T@1": "S2", "x_T@2": "I4"}
+    yield 0.9, fly(fields, "drifting by less than a micrometre a second", 2, v=drift, **UNLOADED)
+    spun: Any = {"inertia": diagonal(1.0, 1.0, 1.0), "W": Draw(80).vector(4) * SLOW}
+    fields = {"Lambda@1": "I3", "Lambda@2": "I5"}
+    yield 8.65, fly(fields, "a ball that hardly turns", 2, **spun, **UNLOADED)
+
+
+def small_turns() -> Iterator[tuple[float, Case]]:
+    """Yield I3 of turns between those of a long step and those whose squares round away."""
+    ball: Any = {"inertia": diagonal(1.0, 1.0, 1.0), "W": Draw(81).vector(4)}
+    for place, h in ((8.7, 2.0**-13), (8.71, 2.0**-18)):
+        yield place, fly({"Lambda@1": "I3"}, "spinning ball, a small turn", step=h, **ball)
+
+
+def on_feet(P: np.ndarray, flag: str) -> Case:
+    """Return a block that sinks on other feet: their forces, or the next row."""
+    case = ask({"F_N@0": "N1"}, flag, 1, standing(), made=ICE, v=-0.125 * Z)
+    n = len(P)
+    feet = {k: np.full(n, case.inputs[k][0]) for k in PER_POINT if k != "P"}
+    memory = {"s": np.zeros((n, 2)), "anchored": np.zeros(n, bool), "sliding": np.zeros(n, bool)}
+    return replace(case, inputs=case.inputs | feet | memory | {"P": P, "names": [f"foot {i}" for i in range(n)]})
+
+
+def other_numbers() -> Iterator[tuple[float, Case]]:
+    """Yield N1 of a block on twelve feet, and on three."""
+    corners = table_3_1(delta_long=EVEN)["P"]
+    more = np.array([[0.03125, 0, 0], [-0.0625, 0.0078125, 0], [0, 0.046875, 0], [0.015625, -0.03125, 0]])
+    yield 22.91, on_feet(np.concatenate([corners, more - UP * Z]), "twelve feet, compressing")
+    yield 22.92, on_feet(more[:3] - UP * Z, "three feet, compressing")
+
+
+def flags() -> Iterator[tuple[float, Case]]:
+    """Yield S2 of flags: in which row feet touch that come down."""
+    # Half-way between two steps, whatever the integrator makes of the fall.
+    v = -0.125 * Z
+    above = standing(-1.5 * 0.125 * 2.0**-17)
+    rows = {f"anchored@{i}": "S2" for i in (1, 2, 3)}
+    yield 18.6, ask(rows, "the row in which feet touch", 3, above, made=ICE, stand=False, v=v)
+
+
+def tied() -> Iterator[tuple[float, Case]]:
+    """Yield T5 of springs alone under a block that turns: the anchors do not."""
+    turning: Any = {"W": [0.25, -0.5, 2.0], "made": GLUE | {"C_T": 0.0}, **held(np.full((8, 2), 2.0**-18))}
+    yield 64.1, ask({"F_T@1": "T5"}, "anchors stay while the block turns, springs alone", 2, standing(), **turning)
+
+
+def one_after_another() -> Iterator[tuple[float, Case]]:
+    """Yield T3, T6, T5: a run at whose end all feet slide, one whose feet stick, and one whose feet touch anew. Who
+    forgets to forget what the run before left has other coefficients, and other anchors."""
+    pair = {"mu": 0.25, "mu_0": 0.5}
+    here = held(np.zeros((8, 2))) | {"anchored": ALL}
+    # Three times the cone of the deepest feet.
+    v = 3 * 0.5 * 32 * IN * 6e7 / C_T * np.array([0.8, -0.6, 0.0])
+    yield 54.6, ask({"F_T@0": "T3"}, "all feet slide to the end", 2, DEEP, made=pair, v=v, sliding=ALL, **here)
+    # The shallow feet are 2^-12 - 5e-5 deep; the deep ones hold more.
+    near = held(TIP * 32 * 1.2) | {"anchored": ALL}
+    yield 62.3, ask({"F_T@0": "T6"}, "between the cones, after a run that slid", 1, DEEP, made=pair, **near)
+    anew: Any = {"v": [0.0625, -0.03125, 0.0], "made": GLUE}
+    yield 45.1, ask({"F_T@0": "T5"}, "touching anew, after a run whose feet were tied", 1, DEEP, **anew)
+
+
+def turned_and_tied() -> Iterator[tuple[float, Case]]:
+    """Yield I5 of a body that has turned by a radian since the start, and T1 of friction below a newton."""
+    d = Draw(82, 53)
+    top: Any = {"W": d.vector(8), "Lambda": d.rotation(0.5), "step": 2.0**-7, "every": 16.0}
+    yield 16.8, fly({"W@1": "I5"}, "torque-free top, turned by a radian", 16, **top)
+    hardly: Any = {"v": [d.between(1e-6, 2e-6), -1e-6, 0.0], "every": 2.0, **held(d.vectors(1e-9, 8, 2))}
+    yield 49.9, ask({"F_T@0": "T1"}, "spring and damper below a newton", 2, standing(), made=GLUE, **hardly)
+
+
+def habits() -> Iterator[Case]:
+    """Yield all of them."""
+    return placed(slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied)
