@@ -14,6 +14,8 @@ PYTHON ?= $(shell for p in python3.11 python3.12 python3.13 python3.14 python3; 
 WORKERS ?= 2
 BESIDE := -n $(WORKERS) --dist loadfile --no-loadscope-reorder
 PYTEST := $(PY) -m pytest $(BESIDE)
+# Tests start some hundred commands, and each would translate the package anew.
+unexport PYTHONDONTWRITEBYTECODE
 # numba, BLAS and OpenMP keep to one thread each, or two workers would fight over two cores.
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1

@@ -7,6 +7,7 @@ import re
 import shlex
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -93,6 +94,7 @@ def parses(words):
     command.make_context(name, rest, parent=context)
 
 
+@cache
 def typer_command():
     import typer.main
 
