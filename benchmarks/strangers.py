@@ -6,7 +6,7 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | seventh the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | eighth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
@@ -29,6 +29,7 @@ from typing import Any
 import numpy as np
 import strangers_controls
 import strangers_controls_c
+import strangers_eighth
 import strangers_fifth
 import strangers_fourth
 import strangers_list
@@ -56,6 +57,7 @@ LISTS = {
     "fifth": strangers_fifth.MISTAKES,
     "sixth": strangers_sixth.MISTAKES,
     "seventh": strangers_seventh.MISTAKES,
+    "eighth": strangers_eighth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -192,6 +194,7 @@ IN_PYTHON = (
     *strangers_fifth.IN_PYTHON,
     *strangers_sixth.IN_PYTHON,
     *strangers_seventh.IN_PYTHON,
+    *strangers_eighth.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
