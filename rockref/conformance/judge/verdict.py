@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
+from rockref.conformance.judge.causes.friction import rule_of_friction
 from rockref.conformance.judge.causes.whole_steps import rule_of_a_step
 from rockref.conformance.judge.compare_answer import ELSEWHERE, OTHERWISE, Check
 from rockref.conformance.judge.findings import LAYERS, Findings, finite, of_the_profile
@@ -216,6 +217,8 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     """Weigh the findings. `backend` is asked once more for its fingerprint, where the pieces do not name the rule."""
     rules = status_of_rules(findings.checks)
     rule, check, says = suspect(findings)
+    if check is not None and rule == check.rule and not says:
+        rule, says = rule_of_friction(findings.answers, findings.checks, check)
     if check is not None and not check.weighed:
         rule, says = None, unanswered(findings.checks)
         # What was asked first tells why; later questions may not have been put any more.

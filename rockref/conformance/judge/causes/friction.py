@@ -1,0 +1,99 @@
+"""Which rule a wrong friction force speaks of: the trial force, the decision between sticking and sliding, or the sum.
+
+A foot that sticks shows its trial force, and friction moves and turns the block at once. What is wrong of these tells
+more than the first result that is outside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance.judge.compare_answer import LOOK, Check, weighed_in_bars
+from rockref.conformance.judge.negligible import size_and_unit
+from rockref.conformance.vectors import Vector
+from rockref.conformance.vectors.fields import result
+from rockref.model.contact import point_kinematics, touch, trial_force
+
+HELD = "Feet that should slide show their trial force: they are held to stick."
+DAMPER = "The spring's part of the friction force is right, the damper's is not."
+OTHER_TRIAL = "The foot is held to stick, and shows another force than the trial force."
+MOVES_ALONE = "Friction turns the block as it should, and moves it otherwise."
+#: Rules whose vectors show the friction of the start. A wrong sliding velocity (K1) has vectors of its own.
+OF_FRICTION = ("T5", "T1", "T2", "T6", "T3")
+#: A force is another one where it differs by this share. Decided: far above rounding, also of single precision.
+SAME = 1e-5
+
+
+def rule_of_friction(
+    answers: Sequence[tuple[Vector, dict[str, Any]]], checks: Sequence[Check], check: Check
+) -> tuple[str, str]:
+    """Return the rule that a failure about friction speaks of, and a sentence where that is another than its own."""
+    vector, out = next(((v, out) for v, out in answers if v.id == check.vector), (None, {}))
+    if vector is None or not check.weighed or check.rule not in OF_FRICTION:
+        return check.rule, ""
+    if vector.piece == "contact_law":
+        other = check.name == "sliding" and check.got is False and shows_another_trial(vector.inputs, out)
+        return ("T1", OTHER_TRIAL) if other else (check.rule, "")
+    if vector.piece != "simulate":
+        return check.rule, ""
+    if check.name == "F_T@0" and vector.inputs.get("F") is None:
+        return rule_of_the_start(vector, out, check)
+    return ("A1", MOVES_ALONE) if moves_alone(answers, checks, check) else (check.rule, "")
+
+
+def shows_another_trial(q: dict[str, Any], out: dict[str, Any]) -> bool:
+    """Return whether the force of a foot that is held to stick is not its trial force. q : inputs of `contact_law`"""
+    if out.get("F_T") is None or not q["xi"] >= 0:
+        return False
+    stretch = np.asarray(q["u_t"]) - q["s"] if q["anchored"] else np.zeros(2)
+    spring, damper = -q["K_T"] * stretch, -q["C_T"] * np.asarray(q["v_slide"])
+    scale = max(np.max(np.abs(spring)), np.max(np.abs(damper)))
+    return bool(np.max(np.abs(np.asarray(out["F_T"], float) - spring - damper)) > SAME * scale)
+
+
+def rule_of_the_start(vector: Vector, out: dict[str, Any], check: Check) -> tuple[str, str]:
+    """Return the rule that the friction of the first row speaks of, and a sentence."""
+    q, expected = vector.inputs, vector.expect["F_T@0"]
+    got = np.asarray(result("F_T@0", out, vector.branch), float)
+    bar = np.broadcast_to(np.asarray(expected.bar, float), got.shape)
+    size = size_and_unit("F_T@0", vector.layer)[0]
+
+    def alike(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        return np.all(weighed_in_bars(a, b, bar, size)[0] <= LOOK, axis=-1)
+
+    k = point_kinematics(q["x"], q["Lambda"], q["v"], q["W"], q["P"])
+    s, _ = touch(k.xi, k.u[:, :2], q["s"], q["anchored"])
+    whole = trial_force(k.u[:, :2], s, k.v_slide, q["K_T"], q["C_T"])
+    damper = -q["C_T"][:, None] * k.v_slide
+    off = ~alike(got, expected.value)
+    if not np.any(off) or not np.all(np.isfinite(got)):
+        return check.rule, ""
+    if check.rule == "T3" and np.all(alike(got, whole)[off]):
+        return "T2", HELD
+    stick = alike(expected.value, whole)
+    left = got - (whole - damper)
+    share = np.sum(left[off] * damper[off]) / max(np.sum(damper[off] ** 2), 1e-300)
+    if check.rule == "T5" and np.all(stick[off]) and np.any(damper[off]) and np.all(alike(left, share * damper)[off]):
+        return "T1", DAMPER
+    return check.rule, ""
+
+
+def moves_alone(answers: Sequence[tuple[Vector, dict[str, Any]]], checks: Sequence[Check], check: Check) -> bool:
+    """Return whether, where rows stand in for friction forces that are not shown, the block is moved wrongly by them
+    and never turned wrongly in the step after the start."""
+    # Where the row after the start is several steps away, what moved the block has turned it, too.
+    vectors = {v.id: v for v, _ in answers if v.piece == "simulate" and one_step_a_row(v.inputs)}
+    standing = {"x@1": 0, "Lambda@1": 0}
+    for c in checks:
+        e = vectors[c.vector].expect.get(c.name) if c.vector in vectors else None
+        if c.failed and c.name in standing and e is not None and e.instead_of == "F_T@0":
+            standing[c.name] += 1
+    return check.name == "x@1" and standing["x@1"] > 1 and standing["Lambda@1"] == 0
+
+
+def one_step_a_row(q: dict[str, Any]) -> bool:
+    """Return whether the rows of a run lie one step apart."""
+    return bool(q["step"] * q["output_rate"] > 1 - 1e-9)
