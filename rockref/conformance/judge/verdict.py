@@ -217,8 +217,9 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     """Weigh the findings. `backend` is asked once more for its fingerprint, where the pieces do not name the rule."""
     rules = status_of_rules(findings.checks)
     rule, check, says = suspect(findings)
-    if check is not None and rule == check.rule and not says:
-        rule, says = rule_of_friction(findings.answers, findings.checks, check)
+    if check is not None and rule == check.rule and says in ("", COMPANY):
+        rule, words = rule_of_friction(findings.answers, findings.checks, check)
+        says = " ".join(filter(None, (says, words)))
     if check is not None and not check.weighed:
         rule, says = None, unanswered(findings.checks)
         # What was asked first tells why; later questions may not have been put any more.

@@ -15,9 +15,10 @@ from rockref.conformance.judge.compare_answer import LOOK, Check, weighed_in_bar
 from rockref.conformance.judge.negligible import size_and_unit
 from rockref.conformance.vectors import Vector
 from rockref.conformance.vectors.fields import result
-from rockref.model.contact import point_kinematics, touch, trial_force
+from rockref.model.contact import Kinematics, kelvin_voigt, norm, open_gap, point_kinematics, touch, trial_force
 
 HELD = "Feet that should slide show their trial force: they are held to stick."
+LOOSE = "Feet that should stick show the sliding force: they are made to slide."
 DAMPER = "The spring's part of the friction force is right, the damper's is not."
 OTHER_TRIAL = "The foot is held to stick, and shows another force than the trial force."
 MOVES_ALONE = "Friction turns the block as it should, and moves it otherwise."
@@ -74,11 +75,21 @@ def rule_of_the_start(vector: Vector, out: dict[str, Any], check: Check) -> tupl
     if check.rule == "T3" and np.all(alike(got, whole)[off]):
         return "T2", HELD
     stick = alike(expected.value, whole)
+    slide = sliding_force(q, k, whole)
+    if check.rule in ("T5", "T1") and np.all(stick[off]) and np.allclose(got[off], slide[off], rtol=SAME, atol=size):
+        return "T2", LOOSE
     left = got - (whole - damper)
     share = np.sum(left[off] * damper[off]) / max(np.sum(damper[off] ** 2), 1e-300)
     if check.rule == "T5" and np.all(stick[off]) and np.any(damper[off]) and np.all(alike(left, share * damper)[off]):
         return "T1", DAMPER
     return check.rule, ""
+
+
+def sliding_force(q: dict[str, Any], k: Kinematics, F_trial: np.ndarray) -> np.ndarray:
+    """Return the force (n, 2) [N] of feet that slide along their trial force (n, 2) [N]. q : inputs of a run"""
+    F_N = open_gap(k.xi, kelvin_voigt(k.xi, k.xi_rate, q["K_N"], q["C_N"]))
+    length = np.maximum(norm(F_trial), np.finfo(float).tiny)
+    return (q["mu"] * F_N / length)[:, None] * F_trial
 
 
 def moves_alone(answers: Sequence[tuple[Vector, dict[str, Any]]], checks: Sequence[Check], check: Check) -> bool:

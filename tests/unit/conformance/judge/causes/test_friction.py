@@ -35,6 +35,15 @@ def test_a_sliding_foot_that_shows_its_trial_force_is_held_to_stick(share, rule)
     assert named([(vector, out)], "F_T@0") == rule
 
 
+@pytest.mark.parametrize(("share", "rule"), [(1.0, "T2"), (0.5, "T1")])
+def test_a_sticking_foot_that_shows_the_sliding_force_is_made_to_slide(share, rule):
+    vector, out = asked("L5s", "spring and damper, it hardly turns")
+    F_T, F_N = trial(vector.inputs), out["F"][0, :, 2]
+    length = np.maximum(np.hypot(*F_T.T), 1e-300)
+    out["F"][0, :, :2] = share * (vector.inputs["mu"] * F_N / length)[:, None] * F_T
+    assert named([(vector, out)], "F_T@0") == rule
+
+
 @pytest.mark.parametrize(("added", "rule"), [(0.0, "T1"), (10.0, "T5")])
 def test_a_force_without_the_damper_s_part_is_a_wrong_trial_force(added, rule):
     """Feet that touch anew have no spring: without the damper nothing is left, and what is left is another anchor's."""
