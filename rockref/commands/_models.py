@@ -75,7 +75,7 @@ def models_and_others(texts: Iterable[str], effects: Iterable[str] | None) -> tu
     theirs = [words for words in effects if any(has(m, words) for m in models)]
     for words in theirs:
         if words.strip() != spec_of(words):
-            what = "gives numbers to an effect that a model has, which stays as the model has it"
+            what = "gives numbers to an effect of the model, whose own numbers hold"
             raise InputError("E-EFFECT", f"--effect {words}", what, f"Write {spec_of(words)}.")
     return models, [words for words in effects if words not in theirs]
 
@@ -99,7 +99,7 @@ def named_models(texts: Iterable[str], effects: Iterable[str] | None) -> list[Mo
     if others:
         from rockref.model.errors import InputError
 
-        what = "is no effect of your own that a model here has; this command adds none"
+        what = "is in no model here, and this command adds no effect"
         raise InputError("E-EFFECT", f"--effect {others[0]}", what, "Leave it out.")
     return models
 

@@ -32,7 +32,7 @@ def make(
     folder: Annotated[
         Path,
         typer.Argument(
-            parser=folder_name, metavar="FOLDER", help="Folder to make; an interrupted one is gone on with."
+            parser=folder_name, metavar="FOLDER", help="Folder to make; after an interruption the same command goes on."
         ),
     ],
     seed: Annotated[int, typer.Option(min=0, help="Draws the plan and every case.")],
@@ -50,7 +50,7 @@ def make(
     """Make experiments with hidden effects, by a simulator that shares no code with the model, and seal the truth.
 
     A fifth are controls with nothing hidden, half have one effect at half, once or twice its typical size, the others
-    two effects, effects that are in no list, twins that no one could tell apart, and faulty records. A third are of
+    two effects, effects that are in no list, matched pairs that the runs cannot tell apart, and faulty records. A third are of
     blocks of any mass, size, feet, stiffness and friction. MANIFEST.json holds the digest of the truth. Some seconds a
     case with numba, an hour a case without.
 

@@ -41,14 +41,14 @@ def compare(
 ) -> None:
     """Show how far models are from measured runs, from when on, and with which feet on the plate.
 
-    Reads fit and holdout runs alike and says which is which: it judges nothing. Exit code 0, or 2 if the input cannot
+    Shows fit and held-out runs and says which is which; names no cause. Exit code 0, or 2 if the input cannot
     be used; with --check, 1 if a model leaves the band of noise and run-to-run spread before the second main impact.
 
     Of a folder of tosses: errors of position and rotation over the frames, where they grow, and what needs no contact
     model; with --model, --report and --json.
 
     Of tests on a shake table (kind = "shaken"): scores of predicted probabilities, held out by motion, beside the
-    ceiling that repeats set, and distributions of maxima; with --model, --runs, --step, --report and --json.
+    best that repeats allow, and distributions of maxima; with --model, --runs, --step, --report and --json.
 
     \b
     Example:

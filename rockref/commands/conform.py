@@ -75,7 +75,7 @@ def conform(
       answer, serve      let a Python backend answer a file, or serve as a program
       example LANGUAGE   write a backend to start from: python, c or javascript
       physics ENGINE     judge an engine with a contact law of its own, by mechanics: mujoco, pybullet, ..., or a file
-      zoo                judge the judge, by planted mistakes
+      zoo                test the judge itself with seeded faults
 
     Options of PROGRAM itself come after --. Exit code 1 where the backend falls short.
 

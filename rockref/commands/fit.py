@@ -20,7 +20,7 @@ def fit(
     output: Annotated[Path, typer.Option("--output", "-o", help="Where the model goes, a .toml.")] = Path("model.toml"),
     effect: Annotated[
         list[str] | None,
-        typer.Option("--effect", "-e", help="An effect to fit along, id or file.py:Class; may be repeated."),
+        typer.Option("--effect", "-e", help="An effect to fit too, id or file.py:Class; may be repeated."),
     ] = None,
     model: Annotated[
         str | None, typer.Option("--model", "-m", help="Start from this model.toml, effects and all.")
@@ -28,7 +28,7 @@ def fit(
     report: Annotated[
         Path | None, folder_option("--report", help="Folder for the page: the runs before and after the fit.")
     ] = None,
-    gates: Annotated[bool, typer.Option("--gates/--no-gates", help="Check the fit; costs as much again.")] = True,
+    gates: Annotated[bool, typer.Option("--gates/--no-gates", help="Check the fit; takes as long again.")] = True,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
     full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
@@ -39,7 +39,7 @@ def fit(
     """Fit the baseline to the fit runs of an experiment, check the fit, write the model with its uncertainty.
 
     No fit sees a held-out run. Exit code 0, also where an effect is missing, which the fit and its model say; 1 if a
-    gate was not passed (the model is written all the same and says so); 2 if the input cannot be used.
+    gate (a check of the fit) was not passed: the model is written all the same and says so; 2 if the input cannot be used.
 
     \b
     Example:

@@ -31,13 +31,13 @@ def reproduce(
         Path | None, typer.Option("--data", help="The measured input of the study; by default the shipped one.")
     ] = None,
     workers: Annotated[int | None, typer.Option(min=1, help="Local processes; default: one per core.")] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Once through with next to nothing.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Run every part with a tiny budget, to see that it works.")] = False,
     only: Annotated[
         list[str] | None,
         typer.Option("--only", help="A part of the study source, as twins, on a page of its own; may be repeated."),
     ] = None,
     signals: Annotated[
-        int | None, typer.Option(min=20, help="Of the study earthquake, in all; by default 2000.")
+        int | None, typer.Option(min=20, help="Of the study earthquake: signals in all; by default 2000.")
     ] = None,
     step: Annotated[float | None, typer.Option(help="Of the study earthquake: time step in seconds; 2e-5.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,

@@ -18,7 +18,7 @@ def shake(
     records: Annotated[
         list[str], typer.Argument(metavar="RECORDS", help="Files of motion; + joins the components of one.")
     ],
-    output: Annotated[Path, folder_option("--output", "-o", help="Folder for the table; an interrupted one goes on.")],
+    output: Annotated[Path, folder_option("--output", "-o", help="Folder for the table; after an interruption the same command goes on.")],
     runs: Annotated[int, typer.Option(min=1, help="How many runs.")] = 1000,
     scale: Annotated[str, typer.Option(help="Factors on the records, separated by commas.")] = "1",
     rotate: Annotated[float, typer.Option(help="Turn of the records about z, from x to y, in degrees.")] = 0.0,
@@ -36,12 +36,12 @@ def shake(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of lines.")] = False,
 ) -> None:
-    """Run a block many times on shaken plates and write what became of each run.
+    """Run a block many times on a shaken plate and write the outcome of each run.
 
-    Every run stands still at first, takes a record and a factor in turn, and what is drawn anew: placing, feet,
-    friction. The same seed gives the same table, whatever the workers and the interruptions. A row a run: whether it
-    fell, largest tilt, slide and twist, first uplift, impacts, what is left at the end. The page of --report has
-    fragility, maps of what fell, distributions, and a replay of chosen runs.
+    Every run starts at rest. Records and factors are taken in turn; placing, feet and friction are drawn for each run.
+    The same seed gives the same table, whatever the workers and the interruptions. The table has a row for each run:
+    whether the block fell, largest tilt, slide and twist, first uplift, impacts, and the displacement at the end. The
+    page of --report has fragility, maps of what fell, distributions, and a replay of chosen runs.
 
     \b
     Example:

@@ -40,7 +40,7 @@ def simulate(
     ] = None,
     base: Annotated[
         list[str] | None,
-        typer.Option("--base", help="Shake the plate by a record, on which the block stands: a file of motion."),
+        typer.Option("--base", help="Shake the plate on which the block stands: a file of its motion."),
     ] = None,
     scale: Annotated[float, typer.Option(help="Factor on the record.")] = 1.0,
     rotate: Annotated[float, typer.Option(help="Turn of the record about z, from x to y, in degrees.")] = 0.0,

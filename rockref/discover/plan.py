@@ -304,7 +304,7 @@ def plan(
     has = {e.id for e in model.effects}
     chosen = kinds(model.points, (*LEFT_OUT, *has)) if effects is None else catalogue.of_releases(effects)
     if unseen := [kind.id for kind in chosen if kind.id in LEFT_OUT]:
-        what = f"no derivative foretells {unseen[0]}: it has a phase of its own in every run, or cuts samples"
+        what = f"no small step foretells {unseen[0]}: it has a phase of its own in every run, or cuts samples"
         raise InputError("E-EFFECT", "argument effects", what, "Leave it out.")
     wanted = alternatives(runs)
     every = sorted({*runs, *wanted})

@@ -118,7 +118,7 @@ def test_the_words_of_that_message_are_understood(capsys, monkeypatch, folder, n
 @pytest.mark.parametrize("effect", ["mine.py:EddyBrake", "quadratic_drag:c=1"])
 def test_a_command_that_adds_none_says_so(capsys, folder, words, effect):
     code, err = said(capsys, f"{words} --effect {effect}")
-    assert code == 2 and "this command adds none" in err and "[E-EFFECT]" in err
+    assert code == 2 and "this command adds no effect" in err and "[E-EFFECT]" in err
 
 
 @pytest.mark.parametrize(
@@ -126,7 +126,7 @@ def test_a_command_that_adds_none_says_so(capsys, folder, words, effect):
 )
 def test_numbers_that_would_change_nothing_are_refused(capsys, folder, words):
     code, err = said(capsys, f"{words} --model MODEL --effect mine.py:EddyBrake:c=0.9")
-    assert code == 2 and "stays as the model has it. Write mine.py:EddyBrake." in err and "[E-EFFECT]" in err
+    assert code == 2 and "own numbers hold. Write mine.py:EddyBrake." in err and "[E-EFFECT]" in err
 
 
 def test_the_effect_that_is_added_names_its_file_too(capsys, monkeypatch, folder):
