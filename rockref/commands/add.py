@@ -19,7 +19,8 @@ def add(
     experiment: ExperimentFolder,
     effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`, or file.py:Class.")],
     model: Annotated[
-        str | None, typer.Option("--model", "-m", help="The model that gets the effect, a model.toml. Default: the baseline.")
+        str | None,
+        typer.Option("--model", "-m", help="Model that gets the effect, a model.toml. Default: the baseline."),
     ] = None,
     own: OwnEffects = None,
     output: Annotated[Path, typer.Option("--output", "-o", help="Where the new model goes.")] = Path(

@@ -50,9 +50,9 @@ def make(
     """Make experiments with hidden effects, by a simulator that shares no code with the model, and seal the truth.
 
     A fifth are controls with nothing hidden, half have one effect at half, once or twice its typical size, the others
-    two effects, effects that are in no list, matched pairs that the runs cannot tell apart, and faulty records. A third are of
-    blocks of any mass, size, feet, stiffness and friction. MANIFEST.json holds the digest of the truth. Some seconds a
-    case with numba, an hour a case without.
+    two effects, effects that are in no list, matched pairs that the runs cannot tell apart, and faulty records. A third
+    are of blocks of any mass, size, feet, stiffness and friction. MANIFEST.json holds the digest of the truth. Some
+    seconds a case with numba, an hour a case without.
 
     \b
     Example:

@@ -47,11 +47,12 @@ def diagnose(
     computes anew. Exit code 0 if there is a verdict (that nothing is missing is one), 1 if the fit is not trustworthy,
     2 if the input cannot be used.
 
-    Of a folder of tosses: effects added one after the other, each with what it takes off the held-out error; without effects of
-    your own, --seed and --workers.
+    Of a folder of tosses: effects added one after the other, each with what it takes off the held-out error; without
+    effects of your own, --seed and --workers.
 
     Of tests on a shake table (kind = "shaken"): which of damping, friction, feet, and faults of the table the outcomes
-    ask for; with --model, --output, --runs, --step, --seed, --workers and --json. A test is simulated 40 times as often as --runs says.
+    ask for; with --model, --output, --runs, --step, --seed, --workers and --json. A test is simulated 40 times as often
+    as --runs says.
 
     \b
     Example:

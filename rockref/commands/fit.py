@@ -39,7 +39,8 @@ def fit(
     """Fit the baseline to the fit runs of an experiment, check the fit, write the model with its uncertainty.
 
     No fit sees a held-out run. Exit code 0, also where an effect is missing, which the fit and its model say; 1 if a
-    gate (a check of the fit) was not passed: the model is written all the same and says so; 2 if the input cannot be used.
+    gate (a check of the fit) was not passed: the model is written all the same and says so; 2 if the input cannot be
+    used.
 
     \b
     Example:

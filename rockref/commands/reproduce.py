@@ -31,7 +31,7 @@ def reproduce(
         Path | None, typer.Option("--data", help="The measured input of the study; by default the shipped one.")
     ] = None,
     workers: Annotated[int | None, typer.Option(min=1, help="Local processes; default: one per core.")] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Run every part with a tiny budget, to see that it works.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Every part with a tiny budget, to see it work.")] = False,
     only: Annotated[
         list[str] | None,
         typer.Option("--only", help="A part of the study source, as twins, on a page of its own; may be repeated."),

@@ -18,7 +18,9 @@ def shake(
     records: Annotated[
         list[str], typer.Argument(metavar="RECORDS", help="Files of motion; + joins the components of one.")
     ],
-    output: Annotated[Path, folder_option("--output", "-o", help="Folder for the table; after an interruption the same command goes on.")],
+    output: Annotated[
+        Path, folder_option("--output", "-o", help="Folder for the table; the same command goes on there.")
+    ],
     runs: Annotated[int, typer.Option(min=1, help="How many runs.")] = 1000,
     scale: Annotated[str, typer.Option(help="Factors on the records, separated by commas.")] = "1",
     rotate: Annotated[float, typer.Option(help="Turn of the records about z, from x to y, in degrees.")] = 0.0,
