@@ -13,8 +13,8 @@ from tests.shipped import shortened
 from tests.unit.report.page_checks import faults_of
 
 ROOT = Path(__file__).resolve().parents[2]
-# Up to just behind the second main impact, between which and the first the model fails.
-SECONDS = 1.5
+# Half a second behind the first main impact, by which the model has failed and the effect shows.
+SECONDS = 1.0
 
 
 @pytest.fixture(scope="module", params=["short", pytest.param("whole", marks=pytest.mark.slow)])
