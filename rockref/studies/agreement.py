@@ -8,15 +8,15 @@ import numpy as np
 
 from rockref.measure.signals.running import half_width, running_rms
 
-#: Two responses agree while their difference, as a quadratic mean over `WINDOW` [s], is below this share of the
-#: quadratic mean of the motion about the same axis. Decided: a tenth is what one sees in a figure of a page's width.
+#: Two responses agree while their difference, as an RMS over `WINDOW` [s], is below this share of the
+#: RMS of the motion about the same axis. Decided: a tenth is what one sees in a figure of a page's width.
 SHARE, WINDOW = 0.1, 0.1
 
 
 def horizon(t: np.ndarray, a: np.ndarray, b: np.ndarray, share: float = SHARE) -> np.ndarray:
     """Return time (3,) [s] from which b differs from a by more than `share` of the motion, by axis; infinite if never.
 
-    t : (N,) [s];  a, b : (N, 3) rates of any one unit. The motion is the quadratic mean of a over the whole record.
+    t : (N,) [s];  a, b : (N, 3) rates of any one unit. The motion is the RMS of a over the whole record.
     """
     motion = np.sqrt(np.mean(np.square(a), axis=0))
     apart = running_rms(b - a, half_width(t, WINDOW)) > share * motion
@@ -24,7 +24,7 @@ def horizon(t: np.ndarray, a: np.ndarray, b: np.ndarray, share: float = SHARE) -
 
 
 def difference(t: np.ndarray, a: np.ndarray, b: np.ndarray, until: float) -> np.ndarray:
-    """Return quadratic mean of b - a over that of a up to `until` [s], by axis, (3,).
+    """Return the RMS of b - a over that of a up to `until` [s], by axis, (3,).
 
     About an axis with no motion at all, as on four even feet, it is zero, or infinite where only b moves.
     """

@@ -39,7 +39,7 @@ def growth(
 ) -> Growth:
     """Turn the block at release by 1e-9 rad about random axes and follow the difference of the rates.
 
-    The difference is taken as the quadratic mean over a tenth of the time to the next main impact, in the middle
+    The difference is taken as the RMS over a tenth of the time to the next main impact, in the middle
     between two impacts, so that a shift of the impact itself is not counted.
 
     Raises InputError (E-IMPACTS) where the run ends before the second main impact.

@@ -25,7 +25,7 @@ from rockref.studies.predictability import check_impacts
 STEPS = (1e-5, 3e-6, 1e-6, 3e-7)
 #: 1 mm of wire at the top of the block [rad].
 RELEASE_ERROR = float(np.radians(0.08))
-#: A change is significant where it exceeds this share of the response, quadratic means up to the second main impact,
+#: A change is significant where it exceeds this share of the response, RMS up to the second main impact,
 #: about the transverse or longitudinal axis. Decided: the horizon's tenth.
 SIGNIFICANT = 0.1
 #: Shares of the motion at which responses are said to part; decided: what one sees, and what one would call another
@@ -140,7 +140,7 @@ def significant_digits(
 ) -> list[Digits]:
     """Return the column of Table 3.1: the fewest digits at which rounding one parameter no longer changes the response.
 
-    A value with d digits may be off by half of the last. The response has not changed where the quadratic mean of the
+    A value with d digits may be off by half of the last. The response has not changed where the RMS of the
     difference up to the second main impact is below `threshold` of that of the response, about both the transverse and
     the longitudinal axis, for either sign and for all finer digits. What does not act in the model, or is zero,
     has no row.  duration [s] : within which the second main impact is looked for.

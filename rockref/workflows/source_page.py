@@ -159,6 +159,4 @@ def scenarios_table(rows: Sequence[dict[str, Any]]) -> Table:
         for row in rows
     ]
     columns = ("model", "genes", "best cost", "main (deg/s)", "transverse", "longitudinal", "returns to the plane")
-    return Table(
-        "Best error with the same budget", columns, body, "Errors up to the second main impact, quadratic means."
-    )
+    return Table("Best error with the same budget", columns, body, "Errors up to the second main impact, RMS.")

@@ -34,7 +34,7 @@ class Departure:
 
 
 def band(t: np.ndarray, first_impact: float, noise: np.ndarray, repeats: Repeatability | None) -> np.ndarray:
-    """Return the limits (N, 3) rad/s for the quadratic mean, over 50 ms, of model minus measured.
+    """Return the limits (N, 3) rad/s for the RMS, over 50 ms, of model minus measured.
 
     Three times the difference that a perfect model would show: the noise of the run (3,) rad/s, and the difference
     between two repeated runs (root 2 of their spread, noise taken out). Where the repeats end, their last spread holds.
@@ -48,7 +48,7 @@ def band(t: np.ndarray, first_impact: float, noise: np.ndarray, repeats: Repeata
 
 
 def running_error(t: np.ndarray, difference: np.ndarray) -> np.ndarray:
-    """Return the quadratic mean over 50 ms of difference (N, 3) rad/s at t (N,) s; NaN counts as zero."""
+    """Return the RMS over 50 ms of difference (N, 3) rad/s at t (N,) s; NaN counts as zero."""
     return running_rms(np.nan_to_num(difference), half_width(t, HORIZON_WINDOW))
 
 

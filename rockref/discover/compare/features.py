@@ -140,7 +140,7 @@ def losses(ledger: Ledger, count: int) -> Losses:
 class EnvelopeDifference:
     """Envelope of one axis between the first two impacts.
 
-    ``width``, model over measured mean half width; ``shape``, the quadratic mean over the arc of the difference of
+    ``width``, model over measured mean half width; ``shape``, the RMS over the arc of the difference of
     upper and lower line, in measured mean half widths; ``period``, model over measured time between teeth (None where
     one has fewer than three).
     """

@@ -134,7 +134,7 @@ class Comparison:
         return tuple(k for k, m in enumerate(self.measured) if use is None or m.run.use == use)
 
     def rms(self, model: int, stretch: str, axis: str | None = None, use: str | None = None) -> float:
-        """Return the quadratic mean of an error over runs (without `axis`, over the axes too), rad/s; NaN if none."""
+        """Return the RMS of an error over runs (without `axis`, over the axes too), rad/s; NaN if none."""
         values = [
             e.rms
             for k in self.of(use)
@@ -144,7 +144,7 @@ class Comparison:
         return float(np.sqrt(np.mean(np.square(values)))) if values else float("nan")
 
     def noise(self, axis: int | None = None, use: str | None = None) -> float:
-        """Return the noise floor, rad/s: the quadratic mean over runs (and over the three axes without `axis`)."""
+        """Return the noise floor, rad/s: the RMS over runs (and over the three axes without `axis`)."""
         square = np.mean([self.measured[k].noise ** 2 for k in self.of(use)], axis=0)
         return float(np.sqrt(np.mean(square) if axis is None else square[axis]))
 

@@ -10,7 +10,7 @@ from rockref.discover.compare.finding import Finding, finding, listed
 from rockref.discover.compare.models import Comparison, impact_time_per_tilt
 from rockref.discover.compare.stretches import AXES, STRETCH_WORDS
 
-# decided: "agrees to the noise": at most this many noise widths in the quadratic mean; 1 is a perfect model, and 500
+# decided: "agrees to the noise": at most this many noise widths in the RMS; 1 is a perfect model, and 500
 # samples of white noise scatter by 3 %.
 TO_NOISE = 1.2
 # decided: a swing is called as long as the block's within two standard deviations of repeated runs, or a sample.

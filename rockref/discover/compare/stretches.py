@@ -32,7 +32,7 @@ class StretchError:
     stretch, axis : str
         One of ``STRETCHES``, one of ``AXES``.
     rms : float
-        Quadratic mean of model minus measured, rad/s, noise included; the model aligned with the run's first main
+        RMS of model minus measured, rad/s, noise included; the model aligned with the run's first main
         impact.
     on_clock : float
         The same for the model let go at the stated tilt, both counted from the release, rad/s.

@@ -58,13 +58,13 @@ def out_of_plane(crv: np.ndarray, leak: Leakage) -> np.ndarray:
 
 
 def activity(t: np.ndarray, crv: np.ndarray, leak: Leakage, window: float = ACTIVITY_WINDOW) -> np.ndarray:
-    """Return the quadratic mean, over `window` s, of the rate out of the plane: (N,) rad/s for crv (N, 3) rad/s."""
+    """Return the RMS, over `window` s, of the rate out of the plane: (N,) rad/s for crv (N, 3) rad/s."""
     rates = out_of_plane(crv, leak)
     return np.sqrt((running_rms(rates, half_width(t, window)) ** 2).sum(axis=1))
 
 
 def arc_shares(t: np.ndarray, crv: np.ndarray, leak: Leakage, impacts: Impacts) -> np.ndarray:
-    """Return, for each arc, out-of-plane over main rate (quadratic means): (M + 1,) for M impacts.
+    """Return, for each arc, out-of-plane over main rate (RMS): (M + 1,) for M impacts.
 
     Arcs are cut at the impacts; the first begins with the record (times t (N,) s, rates crv (N, 3) rad/s), the last
     ends with it. NaN for an arc without samples.

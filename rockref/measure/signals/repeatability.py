@@ -30,8 +30,8 @@ class Repeatability:
     t : (G,) time after the first main impact, s
     mean, lower, upper : (G, 3) mean, smallest and largest rate of the runs, rad/s
     spread : (G, 3) standard deviation between runs, noise included, rad/s
-    smooth_spread : (G, 3) the same as a quadratic mean over 50 ms, with the noise taken out, rad/s
-    noise : (3,) noise of one run, rad/s: quadratic mean over the runs
+    smooth_spread : (G, 3) the same as an RMS over 50 ms, with the noise taken out, rad/s
+    noise : (3,) noise of one run, rad/s: RMS over the runs
     impacts : (R, K) times of the main impacts that all runs have, s after the first
     horizon : (3,) time from which the spread exceeds three noise widths, s; infinite if it never does
     alike_until : (3,) time from which the spread exceeds half of the motion, s; infinite if it never does

@@ -1,4 +1,4 @@
-"""Running means and quadratic means over a stretch of time."""
+"""Running mean and RMS over a stretch of time."""
 
 from __future__ import annotations
 
@@ -26,6 +26,6 @@ def running_mean(x: np.ndarray, half: int) -> np.ndarray:
 
 
 def running_rms(x: np.ndarray, half: int) -> np.ndarray:
-    """Return the quadratic mean of x (N, ...) over `half` samples on each side, of the unit of x."""
+    """Return the RMS of x (N, ...) over `half` samples on each side, of the unit of x."""
     # Cancellation in the sums may leave a tiny negative number where x is zero.
     return np.sqrt(np.maximum(running_mean(np.square(x), half), 0.0))

@@ -77,7 +77,7 @@ def add_error_figure(page: Page, c: Comparison) -> None:
     )
     keys = key_of(lines)
     sentence = (
-        "Dots: quadratic mean of model minus measured over all runs, by axis, in the three stretches of a run, on a "
+        "Dots: RMS of model minus measured over all runs, by axis, in the three stretches of a run, on a "
         "logarithmic scale. Dashes: what noise alone makes, and by how much two repeated runs differ."
     )
     page.add_figure(svg, sentence, title="Error by stretch and axis", keys=keys)
@@ -91,7 +91,7 @@ def _ticks(name: str, x: np.ndarray, values: list[float], dash: tuple[int, ...])
 
 
 def _repeats_differ(c: Comparison, stretch: str, axis: str) -> float:
-    """Return the quadratic mean over runs of the difference between two repeated runs, deg/s; NaN where unknown."""
+    """Return the RMS over runs of the difference between two repeated runs, deg/s; NaN where unknown."""
     squares = []
     for r in c.results[0]:
         e = r.error(stretch, axis)
@@ -188,7 +188,7 @@ def named_views(impacts: Impacts, end: float) -> list[tuple[str, float, float]]:
 
 
 def extremes_table(c: Comparison, k: int) -> Table:
-    """Return the numbers of a set of curves: smallest, largest and quadratic mean by stretch."""
+    """Return the numbers of a set of curves: smallest, largest and RMS by stretch."""
     m = c.measured[k]
     assert m.run.t is not None and m.run.crv is not None
     series = [("measured", m.run.crv), *((n, c.results[i][k].modelled) for i, n in enumerate(c.names))]
@@ -202,7 +202,7 @@ def extremes_table(c: Comparison, k: int) -> Table:
                     rms = float(np.sqrt(np.mean(x**2)))
                     numbers = [comparison_tables.number(float(v), 2) for v in (x.min(), x.max(), rms)]
                     rows.append([STRETCH_WORDS[stretch], label, name, *numbers])
-    return Table("Rates in deg/s", ("stretch", "axis", "of", "smallest", "largest", "quadratic mean"), rows)
+    return Table("Rates in deg/s", ("stretch", "axis", "of", "smallest", "largest", "RMS"), rows)
 
 
 def add_energy(page: Page, c: Comparison) -> None:

@@ -84,7 +84,7 @@ def errors_table(c: Comparison, model: int, use: str | None = None) -> Table:
                 ]
             rows.append(row)
     note = (
-        "Quadratic means over the runs, after the release tilt was moved within its uncertainty to meet the first main "
+        "RMS over the runs, after the release tilt was moved within its uncertainty to meet the first main "
         "impact. / noise: 1 is a perfect model. / spread: standard deviations between repeats, which differ by 1.4."
     )
     of_use = "" if use is None else f", {use} runs"
@@ -94,7 +94,7 @@ def errors_table(c: Comparison, model: int, use: str | None = None) -> Table:
 
 
 def mean_of(c: Comparison, model: int, use: str | None, stretch: str, axis: str, name: str) -> float | None:
-    """Return the quadratic mean over runs of one attribute of the errors, or None."""
+    """Return the RMS over runs of one attribute of the errors, or None."""
     errors = [c.results[model][k].error(stretch, axis) for k in c.of(use)]
     values = [v for e in errors if e is not None and (v := getattr(e, name)) is not None]
     return float(np.sqrt(np.mean(np.square(values)))) if values else None

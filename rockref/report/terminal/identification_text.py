@@ -103,5 +103,5 @@ def runs_table(result: dict[str, Any]) -> Table:
         for r in result["runs"]
     ]
     columns = ("run", "use", "tilt (rad)", "main (deg/s)", "transverse", "longitudinal", "over noise", "tilt as stated")
-    note = "Quadratic means of model minus measured up to the second main impact; 1 is the noise floor."
+    note = "RMS of model minus measured up to the second main impact; 1 is the noise floor."
     return Table("Runs", columns, rows, note)

@@ -55,7 +55,7 @@ def horizons_table(result: dict[str, Any]) -> Table:
             times = [f[key][axis] for axis in AXES]
             end = f"beyond {f['duration_s']:.1f}"
             rows.append([words, share, *(end if t is None else f"{t:.2f}" for t in times)])
-    note = "Quadratic mean of the difference over 0.1 s, in parts of the quadratic mean of the motion about the axis."
+    note = "RMS of the difference over 0.1 s, in parts of the RMS of the motion about the axis."
     columns = ("what is changed", "agree to", "main (s)", "transverse (s)", "longitudinal (s)")
     return Table("Until when responses agree", columns, rows, note)
 

@@ -232,7 +232,5 @@ def add_falling_error(page: Page, record: dict[str, Any]) -> None:
         x_limits=(-0.6, len(places) - 0.4),
         ticks=[(float(k), name) for k, (name, _) in enumerate(places)],
     )
-    sentence = (
-        "Quadratic mean of measured minus modelled, deg/s, before and after, on the runs that were fitted and not."
-    )
+    sentence = "RMS of measured minus modelled, deg/s, before and after, on the runs that were fitted and not."
     page.add_figure(svg, sentence, diagnosis_text.errors_table(record), "The error falling", key_of(lines))

@@ -135,7 +135,7 @@ def waves(base, size, other):
 
 @pytest.mark.parametrize(("other", "alike"), [(0.053, True), (0.046, False)])
 def test_runs_are_alike_while_their_spread_is_half_of_their_motion(base, other, alike):
-    """Amplitudes a and b: spread |a - b|/sqrt(2), motion sqrt((a^2 + b^2)/2), both as quadratic means.
+    """Amplitudes a and b: spread |a - b|/sqrt(2), motion sqrt((a^2 + b^2)/2), both as RMS.
 
     Half of it: (a - b)^2 = (a^2 + b^2)/4, or b/a = (4 - sqrt(7))/3 = 0.4514.
     """
