@@ -40,6 +40,7 @@ def compare(
     """
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
+    from rockref.discover.compare.record import to_dict
     from rockref.discover.compare.sentences import findings
     from rockref.report.charts.figures import whole_run
     from rockref.report.terminal.next_command import BASELINE
@@ -56,6 +57,7 @@ def compare(
         title,
         found,
         lambda: "\n".join(f.text if len(names) < 2 or f.model is None else f"{f.model}: {f.text}" for f in said),
+        found_dict=lambda: to_dict(found),
         draw=lambda: whole_run(found, 0),
         page=lambda folder: write_report(found, folder)[0],
     )

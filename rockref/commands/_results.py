@@ -92,9 +92,9 @@ def keep(text: str, output: Path | None, model: "Model", save_model: Path | None
     return [path for path in (output, save_model) if path is not None]
 
 
-def with_files(found: Any) -> Callable[[list[Path]], str]:
-    """Return what makes JSON of a result with a `to_dict`, and of the files that were written."""
-    return lambda written: in_json(found.to_dict() | {"written": [str(path) for path in written]})
+def with_files(record: Callable[[], dict[str, Any]]) -> Callable[[list[Path]], str]:
+    """Return what makes JSON of the record of a result, and of the files that were written."""
+    return lambda written: in_json(record() | {"written": [str(path) for path in written]})
 
 
 @contextmanager

@@ -29,7 +29,7 @@ def compare_shaken(
     say_remarks(loaded.notices)
     command = f"rockref compare {path} --model table_3_1 --report report"
     then = None if model or loaded.motions is None else lambda: command
-    with told(as_json, with_files(found), lambda c: print_shaken(c, found.to_dict()), then) as written:
+    with told(as_json, with_files(found.to_dict), lambda c: print_shaken(c, found.to_dict()), then) as written:
         if folder is not None:
             from rockref.report.views.shaken_page import write_shaken
 

@@ -35,7 +35,7 @@ def compare_tosses(
     given = named_models(model or (), effects)
     models, names = (given, labels(list(model))) if model else (None, None)
     found = compare(tosses, models, names)
-    with told(as_json, with_files(found), lambda c: print_toss_comparison(c, found.to_dict())) as written:
+    with told(as_json, with_files(found.to_dict), lambda c: print_toss_comparison(c, found.to_dict())) as written:
         if folder is not None:
             from rockref.report.views.toss_page import write_toss_comparison
 
@@ -90,7 +90,7 @@ def fit_to_tosses(
     given = models[0] if models else None
     with stages(f"fitting {path}", verbose=verbose) as say:
         found = fit_tosses(tosses, tuple(more), given, progress=say)
-    with told(as_json, with_files(found), lambda console: print_toss_fit(console, found.to_dict())) as written:
+    with told(as_json, with_files(found.to_dict), lambda c: print_toss_fit(c, found.to_dict())) as written:
         found.model.save(output)
         written.append(output)
     if not found.passed:
@@ -121,7 +121,7 @@ def add_to_model_of_tosses(
     given = next(iter(named_models([model] if model else [], own)), None)
     with stages(f"adding {effect}", verbose=verbose) as say:
         found = add_to_tosses(effect, tosses, given, progress=say)
-    with told(as_json, with_files(found), lambda console: print_toss_addition(console, found.to_dict())) as written:
+    with told(as_json, with_files(found.to_dict), lambda c: print_toss_addition(c, found.to_dict())) as written:
         found.after.model.save(output)
         written.append(output)
         if folder is not None:

@@ -84,7 +84,7 @@ def add(
         found = engine.add_effect(effect, experiment, given, seed, workers, progress=say, store=store)
     say_remarks(found.experiment.notices)
     words, then = lambda c: print_addition(c, found, full), lambda: after_addition(found, experiment, output, model)
-    with kept(store), told(as_json, with_files(found), words, then) as written:
+    with kept(store), told(as_json, with_files(found.to_dict), words, then) as written:
         found.model.save(output)
         written.append(output)
         if folder is not None:

@@ -76,6 +76,7 @@ def compare(
     from rockref.commands._results import say_remarks, told, with_files
     from rockref.discover.compare.models import baseline_model
     from rockref.discover.compare.models import compare as run_comparison
+    from rockref.discover.compare.record import to_dict
     from rockref.measure import load_experiment
     from rockref.report.output import usable_folder
     from rockref.report.terminal.comparison_text import print_comparison
@@ -90,8 +91,9 @@ def compare(
     with stages("simulating the runs") as say:
         comparison = run_comparison(loaded, models, names, engine=engine, progress=say)
     say_remarks(loaded.notices)
+    record = partial(to_dict, comparison)
     then = partial(after_comparison, experiment, model or [BASELINE], models)
-    with told(as_json, with_files(comparison), lambda c: print_comparison(c, comparison, full), then) as written:
+    with told(as_json, with_files(record), lambda c: print_comparison(c, comparison, full), then) as written:
         if folder is not None:
             written += write_report(comparison, folder)
     if check and not comparison.holds_to_second_impact():

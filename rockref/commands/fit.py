@@ -91,7 +91,7 @@ def fit(
         )
     say_remarks(found.experiment.notices)
     then = partial(after_fit, found, experiment, output, model, given)
-    with kept(store), told(as_json, with_files(found), lambda c: print_fit(c, found, full), then) as written:
+    with kept(store), told(as_json, with_files(found.to_dict), lambda c: print_fit(c, found, full), then) as written:
         found.model.save(output)
         written.append(output)
         if folder is not None:

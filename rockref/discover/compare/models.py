@@ -158,12 +158,6 @@ class Comparison:
                     return False
         return True
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return everything as plain JSON values; the keys are documented in ``docs/reference/compare.md``."""
-        from rockref.discover.compare.record import to_dict
-
-        return to_dict(self)
-
 
 def baseline_model(experiment: Experiment, model: Model | None = None) -> Model:
     """Return the model from which the experimenter starts, with the block of the file: the one that he gives, or Table

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from rockref.discover.compare.band import Departure
 from rockref.discover.compare.features import Features, Losses
+from rockref.discover.compare.models import Comparison, MeasuredRun, RunComparison
+from rockref.discover.compare.sentences import findings
 from rockref.discover.compare.stretches import AXES, STRETCHES, StretchError
 from rockref.discover.diagnosis_record import plain
 from rockref.model.channel import DEGREES
-
-if TYPE_CHECKING:
-    from rockref.discover.compare.models import Comparison, MeasuredRun, RunComparison
 
 SCHEMA = "rockref.compare/1"
 
 
 def to_dict(comparison: Comparison) -> dict[str, Any]:
-    """Return the whole comparison: JSON numbers, null where something is not known."""
-    from rockref.discover.compare.sentences import findings
-
+    """Return the whole comparison: JSON numbers, null where something is not known; keys: docs/reference/compare.md."""
     c, e = comparison, comparison.experiment
     return plain(
         {

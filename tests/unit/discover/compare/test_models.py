@@ -11,6 +11,7 @@ import pytest
 from rockref import Model
 from rockref.discover.compare import models
 from rockref.discover.compare.models import baseline_model, compare, impact_time_per_tilt
+from rockref.discover.compare.record import to_dict
 from rockref.discover.compare.sentences import findings
 from rockref.effects.catalogue import parse
 from rockref.measure import main_impacts
@@ -55,7 +56,7 @@ def test_model_beside_itself_in_words(itself):
 
 def test_runs_of_one_use_are_told_apart(itself):
     assert itself.of("fit") == (0,) and itself.of("holdout") == (1,) and itself.of() == (0, 1)
-    runs = itself.to_dict()["experiment"]["runs"]
+    runs = to_dict(itself)["experiment"]["runs"]
     assert runs == {"fit": ["01"], "holdout": ["02"]}
 
 
@@ -188,11 +189,11 @@ def test_overturned_block_is_said(itself):
     c = replace(itself, results=((replace(first, overturned=True), second),))
     assert texts(c, "overturned") == ["The modelled block falls over in run 01."]
     assert not c.holds_to_second_impact()
-    assert c.to_dict()["models"][0]["runs"][0]["overturned"] is True
+    assert to_dict(c)["models"][0]["runs"][0]["overturned"] is True
 
 
 def test_everything_is_plain_json(repeated):
-    text = json.dumps(repeated.to_dict(), allow_nan=False)
+    text = json.dumps(to_dict(repeated), allow_nan=False)
     again = json.loads(text)
     assert again["schema"] == "rockref.compare/1"
     first = again["models"][0]["runs"][0]["errors"][0]
