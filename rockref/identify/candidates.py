@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from rockref.identify.target import Target
 from rockref.measure.gyroscope import record
 from rockref.model.errors import InputError
 from rockref.model.problem import Problem, stack
+from rockref.model.simulate import output_steps
 from rockref.model.simulate import simulate as law
 
 #: The source's step [s], and an output rate at which the gyroscope's low-pass is exact enough [Hz].
@@ -25,12 +27,32 @@ OUTPUT_RATE = 2000.0
 
 
 def rates(problems: Sequence[Problem], workers: int | None = 1) -> np.ndarray:
-    """Return crv (B, T, 3) [rad/s] of problems of one structure; NaN from where a run lost its numbers."""
+    """Return crv (B, T, 3) [rad/s] of problems of one step, output rate and number of points.
+
+    NaN from where a run lost its numbers, and beyond the end of runs that are shorter than others.
+    """
     if has_numba():
         from rockref.engines.compiled import columns as col
-        from rockref.engines.compiled.batch import from_problems, run_batch
+        from rockref.engines.compiled.batch import batch_of, run_batch
+        from rockref.engines.compiled.pack import with_memory
 
-        return run_batch(from_problems(problems), workers=workers)[:, :, col.W_ : col.W_ + 3]
+        wanted = [output_steps(p) for p in problems]
+        rows = np.full((len(problems), max(map(len, wanted))), -1)
+        for row, own in zip(rows, wanted, strict=True):
+            row[: len(own)] = own
+        batch = batch_of([with_memory(p) for p in problems], rows)
+        return run_batch(batch, workers=workers)[:, :, col.W_ : col.W_ + 3]
+    alike: dict[float, list[int]] = {}
+    for i, p in enumerate(problems):
+        alike.setdefault(p.duration, []).append(i)
+    runs = {i: W for own in alike.values() for i, W in zip(own, _by_the_law([problems[i] for i in own]), strict=True)}
+    found = np.full((len(problems), max(map(len, runs.values())), 3), np.nan)
+    for i, W in runs.items():
+        found[i, : len(W)] = W
+    return found
+
+
+def _by_the_law(problems: Sequence[Problem]) -> np.ndarray:
     return law(stack(list(problems)), keep_going=True).W
 
 
@@ -39,31 +61,45 @@ def problem_for(model: Model, target: Target, tilt: float, step: float = STEP, s
     return model.problem(target.duration, step, OUTPUT_RATE, turned=target.turned, theta_0=tilt, **(start or {}))
 
 
-def records(
-    models: Sequence[Model], target: Target, tilts: Sequence[float], step: float = STEP, workers: int | None = 1,
-    starts: Sequence[dict] | None = None,
-) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """Return times (N,) [s] and rates (B, N, 3) [rad/s] that the target's gyroscope would have recorded of each model.
+class Releases(NamedTuple):
+    """Models to be released as the run of a target was: at tilts [rad], each with what its release needs beside."""
 
-    A model that cannot be released (tilt beyond its tipping angle) or loses its numbers has NaN.
+    target: Target
+    models: Sequence[Model]
+    tilts: Sequence[float]
+    starts: Sequence[dict]
+
+
+def records(
+    asked: Sequence[Releases], step: float = STEP, workers: int | None = 1
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return for each target times (N,) [s] and rates (B, N, 3) [rad/s] that its gyroscope would have recorded.
+
+    All runs are one batch. A model that cannot be released (tilt beyond its tipping angle) or loses its numbers has
+    NaN.
     """
-    starts = [{}] * len(models) if starts is None else starts
-    problems: dict[int, Problem] = {}
-    for i, (model, tilt, start) in enumerate(zip(models, tilts, starts, strict=True)):
-        try:
-            problems[i] = problem_for(model, target, tilt, step, start)
-        except InputError:
+    problems: dict[tuple[int, int], Problem] = {}
+    for k, (target, *each) in enumerate(asked):
+        for i, (model, tilt, start) in enumerate(zip(*each, strict=True)):
+            try:
+                problems[k, i] = problem_for(model, target, tilt, step, start)
+            except InputError:
+                continue
+    whole = rates(list(problems.values()), workers) if problems else np.zeros((0, 0, 3))
+    made = []
+    for k, (target, models, *_) in enumerate(asked):
+        at = [n for n, (of, _) in enumerate(problems) if of == k]
+        if not at:
+            made.append((target.t, np.full((len(models), len(target.t), 3), np.nan)))
             continue
-    crv = None
-    if problems:
-        found = rates(list(problems.values()), workers)
-        t = np.arange(found.shape[1]) / OUTPUT_RATE
-        at, seen = record(t, np.nan_to_num(found), target.gyro)
+        own = [i for of, i in problems if of == k]
+        found = whole[at, : len(output_steps(problems[k, own[0]]))]
+        times, seen = record(np.arange(found.shape[1]) / OUTPUT_RATE, np.nan_to_num(found), target.gyro)
         seen[~np.isfinite(found[:, -1]).all(axis=-1)] = np.nan
         crv = np.full((len(models), *seen.shape[1:]), np.nan)
-        crv[list(problems)] = seen
-        return at, crv
-    return target.t, np.full((len(models), len(target.t), 3), np.nan)
+        crv[own] = seen
+        made.append((times, crv))
+    return made
 
 
 def evaluate(
@@ -75,8 +111,7 @@ def evaluate(
     """
     sums: list[float] = [0.0] * len(chromosomes)
     kept: list[list[Terms | None]] = [[] for _ in chromosomes]
-    for target in targets:
-        t, crv = releases(space, target, list(chromosomes))
+    for target, (t, crv) in zip(targets, releases(space, targets, [list(chromosomes)] * len(targets)), strict=True):
         for i in range(len(chromosomes)):
             found = features(t, crv[i]) if np.isfinite(crv[i]).all() else Features(np.zeros(0))
             terms = cost_terms(found, target.features)
@@ -91,12 +126,19 @@ def feature_costs(space: Space, targets: Sequence[Target], chromosomes: np.ndarr
 
 
 def releases(
-    space: Space, target: Target, chromosomes: Sequence[np.ndarray], step: float = STEP, workers: int | None = 1
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return `records` of chromosomes (B, G), released as the target was.
+    space: Space,
+    targets: Sequence[Target],
+    chromosomes: Sequence[Sequence[np.ndarray]],
+    step: float = STEP,
+    workers: int | None = 1,
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return `records` of the chromosomes (B, G) of each target, released as it was.
 
     The gene theta_0 says how far the stated tilt is off, the same for every target.
     """
-    models = [model_of(space, u) for u in chromosomes]
-    tilts = [target.tilt + (m.parameters.theta_0 - space.model.parameters.theta_0) for m in models]
-    return records(models, target, tilts, step, workers, [start_of(space, u) for u in chromosomes])
+    asked = []
+    for target, own in zip(targets, chromosomes, strict=True):
+        models = [model_of(space, u) for u in own]
+        tilts = [target.tilt + (m.parameters.theta_0 - space.model.parameters.theta_0) for m in models]
+        asked.append(Releases(target, models, tilts, [start_of(space, u) for u in own]))
+    return records(asked, step, workers)

@@ -67,13 +67,13 @@ def residuals(
     alone are one simulation of this one.
     """
     unknowns, columns = Unknowns(space, targets), []
-    for k, target in enumerate(targets):
-        every = np.array([unknowns.chromosome(z, k) for z in zs])
-        distinct, which = np.unique(every, axis=0, return_inverse=True)
-        t, crv = releases(space, target, list(distinct), step, workers)
+    every = [np.array([unknowns.chromosome(z, k) for z in zs]) for k in range(len(targets))]
+    distinct, which = zip(*(np.unique(u, axis=0, return_inverse=True) for u in every), strict=True)
+    runs = releases(space, targets, [list(u) for u in distinct], step, workers)
+    for target, (t, crv), rows in zip(targets, runs, which, strict=True):
         n = int(np.searchsorted(target.t, target.until))
         seen = np.stack([[np.interp(target.t[:n], t, run[:, j]) for j in range(3)] for run in crv])
-        columns.append(((seen - target.crv[:n].T) / target.gyro.noise).reshape(len(distinct), -1)[which.ravel()])
+        columns.append(((seen - target.crv[:n].T) / target.gyro.noise).reshape(len(crv), -1)[rows.ravel()])
     return np.concatenate(columns, axis=-1)
 
 

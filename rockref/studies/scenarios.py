@@ -61,7 +61,7 @@ def try_scenario(target: Target, settings: Settings, defects: tuple[str, ...]) -
     with campaign(1) as here:
         found = search(feature_costs, (space, [target]), len(space.genes), settings, here)
     terms = evaluate(space, [target], found.u[None])[0][1][0]
-    t, crv = releases(space, target, [found.u])
+    [(t, crv)] = releases(space, [target], [[found.u]])
     n = int(np.searchsorted(target.t, target.until))
     seen = np.stack([np.interp(target.t[:n], t, crv[0, :, j]) for j in range(3)], axis=-1)
     late = returns_to_plane(model_of(space, found.u), **start_of(space, found.u))

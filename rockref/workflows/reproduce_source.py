@@ -227,7 +227,7 @@ def _scenarios(model: Model, budget: Budget, work: Campaign, kept: Pieces, art: 
     for row in [rows[0], *best]:
         defects = tuple(row["defects"])
         space = space_12(model, target.tilt) if defects == REFERENCE else scenario_space(defects, target.tilt)
-        t, crv = releases(space, target, [np.array(row["u"])])
+        [(t, crv)] = releases(space, [target], [[np.array(row["u"])]])
         drawn.append((f"{row['name']} (cost {row['cost']:.2f})", t, crv[0]))
     art.keep({"scenarios": source_figures.scenarios_figure(target.t, target.crv, drawn)})
     return rows

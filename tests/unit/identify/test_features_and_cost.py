@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rockref.identify.candidates import evaluate, feature_costs, records
+from rockref.identify.candidates import Releases, evaluate, feature_costs, records
 from rockref.identify.cost import MISSING, WEIGHTS, Terms, cost_terms, total
 from rockref.identify.features import Features, features, spectrum
 from rockref.identify.genes import chromosome, space_12
@@ -71,7 +71,7 @@ def test_the_cost_is_the_chromosome_s_own(twin, table_3_1):
 
 
 def test_a_block_that_cannot_be_released_is_only_a_bad_one(twin, table_3_1):
-    t, crv = records([table_3_1, table_3_1], twin, [0.117, 0.2])
+    [(t, crv)] = records([Releases(twin, [table_3_1, table_3_1], [0.117, 0.2], [{}, {}])])
     assert np.isfinite(crv[0]).all() and np.isnan(crv[1]).all()
     space = space_12(table_3_1, 0.117)
     assert np.isfinite(feature_costs(space, [twin], np.full((1, 12), 0.5)))

@@ -126,9 +126,9 @@ def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monke
     asked = []
     whole = unknowns.releases
 
-    def counted(space, target, chromosomes, *more):
-        asked.append(len(chromosomes))
-        return whole(space, target, chromosomes, *more)
+    def counted(space, targets, chromosomes, *more):
+        asked.extend(len(own) for own in chromosomes)
+        return whole(space, targets, chromosomes, *more)
 
     seen = seen_until(noisy_twin, 0.0)
     z = Unknowns(space, [seen] * 2).z(truth)
