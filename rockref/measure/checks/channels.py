@@ -10,6 +10,7 @@ from rockref.measure.reading.columns import DEGREE
 from rockref.measure.records.notice import Notice
 from rockref.measure.signals.noise import noise_floor
 from rockref.measure.signals.signal import Signal, stretches
+from rockref.model.errors import InputError
 
 # decided: a cusp of the block of Table 3.1 stays within four noise widths of its top for about 4 ms; a flat top of
 # 10 ms is no cusp. Fewer than four samples are no top: a cusp between two of them leaves both there.
@@ -27,6 +28,10 @@ NOISE_MARGIN = 3.0
 UNIT_MARGIN = 10.0
 # decided: what neighbouring residuals have in common by half is motion that the cubic does not follow, or a hum.
 WHITE = 0.5
+# decided: a column in rad/s among others in deg/s has 57 times less noise; one gyroscope's axes are alike to a third.
+ONE_GYRO = 1.35
+# decided: a low-pass of a fifth of the sample rate leaves noise of which neighbours have little in common.
+WIDE_BAND = 0.2
 
 
 def check_axes(signal: Signal) -> list[Notice]:
@@ -121,3 +126,37 @@ def check_noise(signal: Signal) -> list[Notice]:
             cure = f"The other columns have {others / DEGREE:.3g} deg/s: check the unit of this one."
         notices.append(Notice("W-NOISE", signal.column(axis), what, cure))
     return notices
+
+
+def check_smooth(signal: Signal) -> list[Notice]:
+    """Remark on rows that were averaged or drawn between samples (W-SMOOTH): noise that neighbouring rows share."""
+    if signal.gyro.bandwidth * signal.step < WIDE_BAND:
+        return []  # the gyroscope's own low-pass may do so
+    floor = noise_floor(signal.t, signal.crv, window=0.04 * min(1.0, signal.scale))
+    # Motion that the cubic does not follow is alike in neighbours, too; it only adds to the noise.
+    if not (floor.whiteness > WHITE).all() or not (floor.sigma < signal.grain).all():
+        return []
+    share = 100.0 * float(floor.whiteness.min())
+    what = (
+        f"neighbouring rows have {share:.0f} % of their noise in common; a gyroscope of {signal.gyro.bandwidth:.4g} Hz"
+    )
+    what += " has little"
+    cure = "The rows seem to be averaged, or drawn between samples: give what was measured, and its rate."
+    return [Notice("W-SMOOTH", signal.path, what, cure)]
+
+
+def check_one_unit(signal: Signal) -> list[Notice]:
+    """Refuse a column whose noise says that its unit is not that of the other two (E-RADIANS, E-DEGREES)."""
+    sigma = noise_floor(signal.t, signal.crv, window=0.04 * min(1.0, signal.scale)).sigma
+    for axis in range(3):
+        others = np.delete(sigma, axis)
+        if not others.min() > 0.0 or others.max() > ONE_GYRO * others.min() or not sigma[axis] > 0.0:
+            continue
+        ratio = float(others.mean() / sigma[axis])
+        for code, times, other in (("E-RADIANS", ratio, "rad_s"), ("E-DEGREES", 1.0 / ratio, "deg_s")):
+            if 1.0 / ONE_GYRO < times * DEGREE < ONE_GYRO and not signal.names[axis].endswith(other):
+                what = f"its noise is {sigma[axis] / DEGREE:.2g} deg/s, and that of the other two"
+                what += f" {others.mean() / DEGREE:.2g} deg/s, {max(ratio, 1.0 / ratio):.0f} times apart"
+                cure = f"It seems to be in {other.replace('_', '/')}: name it {signal.names[axis][:2]}_{other}."
+                raise InputError(code, signal.column(axis), what, cure)
+    return []

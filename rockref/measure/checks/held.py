@@ -22,8 +22,10 @@ LEAST_DROPOUT, LONG_DROPOUT = 0.010, 0.050
 CHANCE = 1e-10
 # decided: a twentieth of the first swing's rate is motion; a leap of three times that is none of an impact.
 MOVES, LEAP = 0.05, 0.15
-# decided: nine samples of one value are a value held from sample to sample; more are a dropout.
-LONGEST_HOLD = 9
+# decided: nine samples of one value are a value held from sample to sample; more are a dropout, unless the record is
+# held throughout: twenty holds, nine changes in ten after one of them, and two channels or more that change at once (a
+# coarse step changes one), or of one channel all as long.
+LONGEST_HOLD, LEAST_HOLDS, THROUGHOUT = 9, 20, 0.9
 # decided: within forty samples motion and rest hardly change; of fewer than four such blocks no median is taken.
 BLOCK, LEAST_BLOCKS = 40, 4
 # decided: three samples in a hundred that stand still at once on all channels are no chance; of one channel a quarter.
@@ -146,17 +148,17 @@ def _said(signal: Signal, axes: tuple[int, ...], places: list[tuple[int, int]]) 
 
 
 def check_hold(signal: Signal) -> list[Notice]:
-    """Refuse records whose values are held for two to nine samples (E-HOLD); remark where that is rare (W-HOLD)."""
+    """Refuse records whose values are held from sample to sample (E-HOLD); remark where that is rare (W-HOLD)."""
     held = _held_channels(signal)
     if not held:
         return []
     changes = np.flatnonzero(np.any([~repeats(signal.crv[:, axis]) for axis in held], axis=0))
     lengths = np.diff(changes)
-    lengths = lengths[lengths <= LONGEST_HOLD]
+    lengths = lengths[lengths <= max(LONGEST_HOLD, 2.0 * float(np.median(lengths)))]
     share = 1.0 - len(changes) / len(signal.t)
     usual = int(np.median(lengths[lengths > 1]))
     even = float(np.mean(lengths == usual)) > EVEN_SHARE
-    rate = len(changes) / len(signal.t) / signal.step
+    rate = 1.0 / (usual * signal.step) if even else len(changes) / len(signal.t) / signal.step
     count = f"{usual}" if even else f"{int(np.percentile(lengths, 2.0))} to {int(np.percentile(lengths, 98.0))}"
     what = f"values are held for {count} samples: {rate:.4g} a second are measured, and {1.0 / signal.step:.4g} written"
     which = {2: "second", 3: "third"}.get(usual, f"{usual}th")
@@ -175,6 +177,9 @@ def _held_channels(signal: Signal) -> list[int]:
     Channels of a coarse step or of less noise than stated repeat one by one; those of a held record repeat together.
     """
     same = np.stack([repeats(signal.crv[:, axis]) for axis in range(3)])
+    held = _held_throughout(same)
+    if held:
+        return held
     for axis in range(3):
         for first, last in stretches(same[axis]):
             if last - first >= LONGEST_HOLD:  # a dropout, or a step of the resolution
@@ -192,3 +197,24 @@ def _held_channels(signal: Signal) -> list[int]:
     held = [axis for axis in range(3) if more[axis] > ALONE]
     others = [more[axis] for axis in range(3) if axis not in held]
     return held if held and others and max(others) < 0.5 * ALONE else []
+
+
+def _held_throughout(same: np.ndarray) -> list[int]:
+    """Return the axes whose values are all held for longer than nine samples; same (3, N) bool, equal to the last one.
+
+    A gyroscope of 50 samples a second behind a logger of 1000 writes each of its values twenty times.
+    """
+    alive = [axis for axis in range(3) if not same[axis, 1:].all()]
+    changes = np.flatnonzero(~same[alive].all(axis=0)) if alive else np.zeros(0, dtype=int)
+    after = changes[1:][np.diff(changes) > LONGEST_HOLD]
+    if len(after) >= max(LEAST_HOLDS, THROUGHOUT * len(changes)):
+        together = float(np.mean((~same[:, after]).sum(axis=0) > 1))
+        if together > 0.5:
+            return alive
+    held = []
+    for axis in alive:
+        lengths = np.diff(np.flatnonzero(~same[axis]))
+        usual = float(np.median(lengths)) if len(lengths) >= LEAST_HOLDS else 0.0
+        if usual > LONGEST_HOLD and float(np.mean(np.abs(lengths - usual) <= 1.0)) > THROUGHOUT:
+            held.append(axis)
+    return held

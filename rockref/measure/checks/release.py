@@ -8,6 +8,7 @@ import numpy as np
 
 from rockref.measure.reading.columns import DEGREE
 from rockref.measure.records.notice import Notice
+from rockref.measure.signals.arcs import turned_angle
 from rockref.measure.signals.impacts import main_impacts
 from rockref.measure.signals.noise import LEAST_WINDOWS, window_samples
 from rockref.measure.signals.running import half_width, running_mean
@@ -26,6 +27,9 @@ RESTING, CREEPING = 0.01, 0.1
 # decided: 2 deg/s; a hand that lets go gives the block 1 deg/s, and the zero of a gyroscope is off by less. In the
 # first twentieth of its swing the block itself comes to a fiftieth of the rate.
 MOVING, BEGINNING = 0.05, 0.05
+# In simulated records the rates add up to the stated tilt to 0.02 of it. decided: a gyroscope's scale or a tilt that is
+# off by a tenth is told; by 0.4, it is another range of the gyroscope.
+TURNED_OFF, TURNED_WRONG = 0.1, 0.4
 # decided: rates about Y and Z may stay below a fiftieth of the first swing's rate.
 HIDDEN = 0.02
 # decided: a gyroscope's scale and drift are off by a tenth of the tipping angle at most; beyond 1.3 of it there is no
@@ -53,10 +57,15 @@ def samples_before_a_fall(signal: Signal) -> int:
     return last if signal.t[last] > signal.duration * (1.0 + TIME_MARGIN) else len(tilt)
 
 
+def length_needed(signal: Signal) -> float:
+    """Return how long a record has to be, s: its first impact is in it, and can be seen."""
+    # decided: a twentieth of a second after the impact its drop can be seen.
+    return signal.duration * (1.0 + TIME_MARGIN) + 0.05
+
+
 def check_length(signal: Signal) -> list[Notice]:
     """Refuse a record that ends before its first impact, or has too few samples (E-SHORT)."""
-    # decided: a twentieth of a second after the impact its drop can be seen.
-    needed = signal.duration * (1.0 + TIME_MARGIN) + 0.05
+    needed = length_needed(signal)
     if signal.t[-1] < needed:
         what = f"the record ends at {signal.t[-1]:.3g} s; the first impact is expected at {signal.duration:.3g} s"
         cure = f"Record for at least {needed:.2g} s, or check width and height."
@@ -193,3 +202,24 @@ def check_first_impact(signal: Signal) -> list[Notice]:
     what = f"{found}; {duration:.3f} s is expected of a block of this size from this tilt"
     cure = "Check release tilt, width and height, and the start of time."
     return [Notice("W-FIRST-IMPACT", signal.path, what, cure)]
+
+
+def check_turned(signal: Signal) -> list[Notice]:
+    """Remark where the rates do not add up to the release tilt until the first main impact (W-TILT-OFF).
+
+    Raises InputError E-RATE-SIZE where they are far off it at the expected time: that is a scale.
+    """
+    impacts = main_impacts(signal.t, signal.crv)
+    if not len(impacts) or abs(impacts.times[0] - signal.duration) > TIME_MARGIN * signal.duration + 2.0 * signal.step:
+        return []
+    turned = signal.sign * float(np.interp(impacts.times[0], signal.t, turned_angle(signal.t, signal.crv[:, 0])))
+    off = turned / signal.tilt
+    # An impact is known to two samples, in which the block turns on.
+    if abs(off - 1.0) < TURNED_OFF + 2.0 * signal.step * signal.rate / signal.tilt:
+        return []
+    what = f"until upright the rates add up to {turned:.4g} rad, and the release tilt is {signal.tilt:.4g} rad"
+    if signal.t[0] < signal.step and not 1.0 - TURNED_WRONG < off < 1.0 / (1.0 - TURNED_WRONG):
+        cure = f"The rates are {off:.3g} times those of a block that falls in this time: check the gyroscope's range."
+        raise InputError("E-RATE-SIZE", signal.column(0), what, cure)
+    cure = "One of them is off: check the tilt, and the scale and range of the gyroscope."
+    return [Notice("W-TILT-OFF", signal.column(0), what, cure)]

@@ -58,6 +58,9 @@ def _remark(fault: SensorFault, experiment: Experiment, runs: Sequence[Run]) -> 
     file = next((run.file for run in runs if run.id == fault.run), "")
     where = f"{experiment.path / file}, rate {RATES[fault.axis]}"
     if fault.kind == ZERO:
+        if not fault.place:
+            what = f"the zero is off by {fault.size / DEGREE:.3g} deg/s throughout: arcs between uprights add up to it"
+            return Notice("W-ZERO", where, what, "Subtract what the gyroscope shows while the block stands.")
         what = f"the zero changes by {fault.size / DEGREE:.3g} deg/s at {fault.place:.3g} s"
         return Notice("W-ZERO", where, what, "The block stands upright there as before: it is the sensor that shifted.")
     if fault.kind == LAG:
@@ -80,27 +83,48 @@ def _zeros(run: Run, experiment: Experiment) -> list[SensorFault]:
     rate = rocking_rate(run.release_tilt, experiment.width, experiment.height)
     before = _zeros_before(run, experiment, impacts)
     spans = np.diff(impacts.times)
+    # An impact is known to a sample or two, in which the block turns on.
+    slack = 2.0 * sample_step(t) * rate / float(np.median(spans)) + gyro.noise + gyro.resolution
     end = crv[t > t[-1] - AT_END]
-    at_end, calm = end.mean(axis=0), end.std(axis=0) < CALM * math.hypot(gyro.noise, gyro.resolution)
+    calm = end.std(axis=0) < CALM * math.hypot(gyro.noise, gyro.resolution)
     found = []
     for axis in range(3):
         means = np.diff(np.interp(impacts.times, t, turned_angle(t, crv[:, axis]))) / spans
-        last = means[len(means) // 2 :] - before[axis]
-        change = float(np.median(last))
-        # Clatter about an apex may pass for an impact: two such arcs turn the block away and back.
-        if np.abs(last - change).max() > STEADY[axis] * abs(change):
-            continue
-        # A zero that has shifted stays so in a block that has come to rest.
-        if calm[axis] and abs(at_end[axis] - before[axis] - change) > 0.5 * abs(change):
-            continue
-        # An impact is known to a sample or two, in which the block turns on.
-        slack = 2.0 * sample_step(t) * rate / float(np.median(spans)) + gyro.noise + gyro.resolution
-        if abs(change) <= ZERO_SHARES[axis] * rate + ZERO_LEAST + slack:
-            continue
-        after = np.abs(means - before[axis]) > 0.5 * abs(change)
-        first = int(np.argmax(after)) if after.any() else 0
-        found.append(SensorFault(ZERO, run.id, axis, change, float(impacts.times[first])))
+        at_end = float(end[:, axis].mean()) if calm[axis] else None
+        least = ZERO_SHARES[axis] * rate + ZERO_LEAST + slack
+        fault = _zero(means, before[axis], at_end, least, axis)
+        if fault is not None:
+            size, arc = fault
+            found.append(SensorFault(ZERO, run.id, axis, size, float(impacts.times[arc]) if arc is not None else 0.0))
     return found
+
+
+def _zero(
+    means: np.ndarray, before: float, at_end: float | None, least: float, axis: int
+) -> tuple[float, int | None] | None:
+    """Return by how much a zero is off, rad/s, and the arc from which on, None for all; None where it is in order.
+
+    means (K,) rad/s of the arcs, before them, and at the end where that is rest; `least` rad/s is seen.
+    """
+    level = float(np.median(means))
+    # Arcs that add up to nothing after a start that moves: it was the block that moved.
+    if axis != 2 and abs(level) <= 0.5 * least:
+        return None
+    last = means[len(means) // 2 :] - before
+    change = float(np.median(last))
+    if abs(change) <= least:
+        # About its height a block turns on from arc to arc; upright it stands after each.
+        alike = np.abs(means - level).max() <= STEADY[axis] * abs(level)
+        stays = at_end is None or abs(at_end - level) <= 0.5 * abs(level)
+        return (level, None) if axis != 2 and abs(level) > least and alike and stays else None
+    # Clatter about an apex may pass for an impact: two such arcs turn the block away and back.
+    if np.abs(last - change).max() > STEADY[axis] * abs(change):
+        return None
+    # A zero that has shifted stays so in a block that has come to rest.
+    if at_end is not None and abs(at_end - before - change) > 0.5 * abs(change):
+        return None
+    after = np.abs(means - before) > 0.5 * abs(change)
+    return change, int(np.argmax(after)) if after.any() else 0
 
 
 def _zeros_before(run: Run, experiment: Experiment, impacts: Impacts) -> tuple[float, float, float]:

@@ -185,8 +185,13 @@ ODD = {
     "noisy": (noisy, {"W-NOISE"}, "column wy_deg_s", "0.05"),
     "spike": (spiked, {"W-SPIKE"}, "column wz_deg_s", "80 deg/s at 1.2 s (row 601)"),
     # (alpha - tilt) p sinh(p t) at 80 ms and the 26 ms after it
-    "begun late": (lambda t, w: (t[:-40], w[40:]), {"W-MOVING"}, "column wx_deg_s", "3.13 deg/s at the release"),
-    "zero off": (lambda t, w: (t, w + [2.5, 0.0, 0.0]), {"W-MOVING"}, "column wx_deg_s", "subtract it"),
+    "begun late": (
+        lambda t, w: (t[:-40], w[40:]),
+        {"W-MOVING", "W-RELEASE"},
+        "column wx_deg_s",
+        "3.13 deg/s at the release",
+    ),
+    "zero off": (lambda t, w: (t, w + [2.5, 0.0, 0.0]), {"W-MOVING", "W-TILT-OFF"}, "column wx_deg_s", "subtract it"),
     "sampled at 510": (lambda t, w: (t / 1.005, w), {"W-RATE"}, "column t_s", "502.5"),
 }
 

@@ -1,0 +1,111 @@
+"""Rows that are lost, or out of order, while the stamps go on: the rates no longer add up, or leap within an arc.
+
+At every main impact the block stands upright: from one to the next its rate about X adds up to no angle. Between them
+it is borne by one edge, and gravity alone changes that rate.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rockref.measure.reading.columns import DEGREE
+from rockref.measure.records.notice import Notice
+from rockref.measure.signals.arcs import turned_angle
+from rockref.measure.signals.impacts import Impacts, main_impacts
+from rockref.measure.signals.running import half_width, running_mean
+from rockref.measure.signals.signal import REFERENCE_SCALE, Signal
+from rockref.model.errors import InputError
+
+# In simulated records of 60 blocks of 2 cm to 2 m an arc's angle is off by at most 0.009 of first swing's rate times
+# its duration. decided: three times that is no arc, beside the others of the record; an impact is known to two samples.
+ODD_ARC, IMPACT_SAMPLES = 0.027, 2.0
+# decided: an arc that reaches three tenths of the first swing's rate is long enough to be judged, and late rocking not.
+LARGE_ARC = 0.3
+# decided: away from upright, where three tenths of the release's tilt are left, all feet of one side stand.
+AWAY = 0.3
+# In the same records the rate about X leaps there by at most 0.05 of the first swing's from one sample to the next,
+# the slope of the motion and the noise taken off. decided: a little more.
+LEAP, NOISE_SIGMAS = 0.06, 6.0
+# decided: where sqrt(R/g) has fewer than forty samples, impacts are not known well enough.
+LEAST_SAMPLES = 40.0
+# decided: the slope of an arc is that of 10 ms around a sample.
+AROUND = 0.010
+
+
+def check_uprights(signal: Signal) -> list[Notice]:
+    """Refuse an arc whose rates add up to an angle (E-ROWS-LOST); remark on a leap within an arc (W-LEAP).
+
+    An arc is judged beside the others of its record: a zero that is off, or a range that cuts, is off in all of them.
+    """
+    impacts = main_impacts(signal.t, signal.crv)
+    if len(impacts) < 3 or signal.scale * REFERENCE_SCALE < LEAST_SAMPLES * signal.step:
+        return []
+    turned = turned_angle(signal.t, signal.crv[:, 0])
+    leaps = leaps_in_arcs(signal, turned, impacts)
+    arc = odd_arc(signal, turned, impacts)
+    if arc is not None:
+        raise _refusal(signal, impacts, arc, leaps)
+    if not len(leaps):
+        return []
+    return [Notice("W-LEAP", signal.column(0), _leap(signal, leaps), _CURE_OF_LEAP)]
+
+
+_CURE_OF_LEAP = (
+    "Rows are missing or out of order there, or something struck the block: look at the run, or leave it out."
+)
+
+
+def odd_arc(signal: Signal, turned: np.ndarray, impacts: Impacts) -> tuple[int, float] | None:
+    """Return the arc, by the impact that begins it, whose rates add up to an angle rad where the others' do not.
+
+    turned : (N,) rad, integral of the rate about X. None where all are alike.
+    """
+    angles = np.diff(np.interp(impacts.times, signal.t, turned))
+    spans = np.diff(impacts.times)
+    judged = (impacts.peaks[:-1] > LARGE_ARC * signal.rate) & (impacts.peaks[1:] > LARGE_ARC * signal.rate)
+    if judged.sum() < 2:
+        return None
+    # A zero that is off adds the same rate to all; a cut top takes as much from every other arc.
+    zero = float(np.median((angles / spans)[judged]))
+    off = np.abs(angles - zero * spans)
+    slack = IMPACT_SAMPLES * signal.step * signal.rate + signal.grain * signal.scale
+    odd = judged & (off > ODD_ARC * signal.rate * spans + slack)
+    if not odd.any() or odd.sum() > max(1, len(spans) // 3):
+        return None
+    arc = int(np.argmax(np.where(odd, off, 0.0)))
+    return arc, float(angles[arc])
+
+
+def leaps_in_arcs(signal: Signal, turned: np.ndarray, impacts: Impacts) -> np.ndarray:
+    """Return the rows (K,) after which the rate about X leaps while the block is away from upright."""
+    t, wx = signal.t, signal.crv[:, 0]
+    upright = np.interp(t, impacts.times, np.interp(impacts.times, t, turned))
+    away = (np.abs(turned - upright) > AWAY * signal.tilt) & (t > impacts.times[0]) & (t < impacts.times[-1])
+    steps = np.diff(wx)
+    half = half_width(t, AROUND)
+    # The slope around a step, without the step itself.
+    mean, width = running_mean(steps, half), 2 * half + 1
+    off = np.abs(steps - (mean * width - steps) / max(1, width - 1))
+    noise = NOISE_SIGMAS * math.sqrt(2.0) * signal.gyro.noise + 2.0 * signal.gyro.resolution
+    return np.flatnonzero((off > LEAP * signal.rate + noise) & away[1:] & away[:-1])
+
+
+def _leap(signal: Signal, leaps: np.ndarray) -> str:
+    row = int(leaps[0])
+    size = (signal.crv[row + 1, 0] - signal.crv[row, 0]) / DEGREE
+    what = f"leaps by {size:.3g} deg/s from row {row + 1} to the next, at {signal.t[row + 1]:.4g} s, far from upright"
+    return what + (f", and at {len(leaps) - 1} other rows" if len(leaps) > 1 else "")
+
+
+def _refusal(signal: Signal, impacts: Impacts, arc: tuple[int, float], leaps: np.ndarray) -> InputError:
+    first, angle = arc
+    begin, end = impacts.times[first : first + 2]
+    what = f"the block stands upright at {begin:.4g} and at {end:.4g} s, and between them the rates add up to"
+    what += f" {angle / DEGREE:.3g} degrees"
+    inside = leaps[(signal.t[leaps] > begin) & (signal.t[leaps] < end)]
+    if len(inside):
+        what += f"; the rate {_leap(signal, inside)}"
+    cure = "Rows were lost or put out of order while the time went on: use another run, or cut the record before it."
+    return InputError("E-ROWS-LOST", signal.column(0), what, cure)

@@ -1,0 +1,90 @@
+"""Rows that are lost or put out of order while the stamps go on, units of one column, and scales."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rockref.measure.experiment import load_experiment
+from rockref.measure.signals.arcs import turned_angle
+from rockref.measure.signals.impacts import main_impacts
+from rockref.model.errors import InputError
+from tests.records import DEGREE, Gyro, motion_of, sensed, some_block, written
+
+RATE = 1000
+
+
+@pytest.fixture(scope="module")
+def made():
+    block = some_block(np.random.default_rng(4), 0.1)
+    gyro = Gyro(float(RATE), 0.05 * DEGREE, 300.0, 0.01 * DEGREE)
+    return sensed(block, gyro, np.random.default_rng(4), motion_of(block, swings=12.0))
+
+
+def told(tmp_path, made, degrees):
+    """The refusal, or the codes of the remarks."""
+    folder = written(tmp_path, made, np.arange(len(degrees)) / RATE, degrees)
+    try:
+        return {n.code for n in load_experiment(folder).notices} - {"W-NO-HOLDOUT"}
+    except InputError as error:
+        return error
+
+
+def test_rows_that_are_lost_before_an_impact_leave_an_arc_that_does_not_add_up(tmp_path, made):
+    impacts = main_impacts(made.t, made.crv)
+    last = int(impacts.times[1] * RATE) - 15
+    error = told(tmp_path, made, np.delete(made.degrees, np.arange(last - 40, last), axis=0))
+    assert error.code == "E-ROWS-LOST"
+    lost = turned_angle(made.t, made.crv[:, 0])
+    angle = float(error.what.split("add up to ")[1].split(" degrees")[0])
+    # What the block turned in the lost rows, with the other sign, but for the impact's own 1 ms.
+    assert angle == pytest.approx(-(lost[last] - lost[last - 40]) / DEGREE, abs=0.06)
+
+
+def test_rows_out_of_order_far_from_upright_are_leaps(tmp_path, made):
+    """Two blocks of a tenth of a second, each with its own stamps, about the apex of an arc."""
+    impacts = main_impacts(made.t, made.crv)
+    middle = int(0.5 * (impacts.times[0] + impacts.times[1]) * RATE)
+    order = np.arange(len(made.t))
+    order[middle - 40 : middle + 40] = np.roll(order[middle - 40 : middle + 40], 40)
+    assert told(tmp_path, made, made.degrees[order]) == {"W-LEAP"}
+
+
+@pytest.mark.parametrize("axis", [1, 2])
+def test_one_column_in_another_unit_is_refused(tmp_path, made, axis):
+    folder = written(tmp_path, made)
+    rows = np.column_stack((made.t, made.degrees))
+    rows[:, 1 + axis] *= DEGREE
+    text = "t_s,wx_deg_s,wy_deg_s,wz_deg_s\n" + "\n".join("{:.6f},{:.6f},{:.6f},{:.6f}".format(*row) for row in rows)
+    (folder / "run01.csv").write_text(text + "\n", encoding="utf-8")
+    with pytest.raises(InputError, match=rf"name it w{'xyz'[axis]}_rad_s") as refused:
+        load_experiment(folder)
+    assert refused.value.code == "E-RADIANS"
+
+
+@pytest.mark.parametrize(("scale", "code"), [(0.5, "E-RATE-SIZE"), (2.0, "E-RATE-SIZE"), (1.2, "W-TILT-OFF")])
+def test_rates_that_do_not_add_up_to_the_tilt_are_told(tmp_path, made, scale, code):
+    found = told(tmp_path, made, scale * made.degrees)
+    assert (found.code if isinstance(found, InputError) else code in found and code) == code
+
+
+def test_rows_that_are_averaged_are_told(tmp_path, made):
+    window = np.ones(7) / 7.0
+    padded = np.pad(made.degrees, ((3, 3), (0, 0)), mode="edge")
+    smooth = np.stack([np.convolve(padded[:, axis], window, mode="valid") for axis in range(3)], axis=-1)
+    assert "W-SMOOTH" in told(tmp_path, made, smooth)
+
+
+def test_a_block_that_moves_when_it_is_let_go_is_no_shift_of_a_zero(tmp_path, made):
+    """What stays upright after every arc is a sensor in order, whatever the block did before the first impact."""
+    spoiled = made.degrees.copy()
+    first = int(main_impacts(made.t, made.crv).times[0] * RATE)
+    spoiled[:first, 0] += np.linspace(2.0, 0.0, first)
+    assert "W-ZERO" not in told(tmp_path, made, spoiled)
+
+
+@pytest.mark.parametrize(("axis", "zero"), [(0, 1.0), (1, 2.0)])
+def test_a_zero_that_is_off_throughout_is_told(tmp_path, made, axis, zero):
+    spoiled = made.degrees.copy()
+    spoiled[:, axis] += zero
+    assert "W-ZERO" in told(tmp_path, made, spoiled)
