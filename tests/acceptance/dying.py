@@ -67,7 +67,7 @@ def golden(experiment: Path, folder: Path) -> None:
         for path in make.FOLDER.glob("*.*"):
             write_text(folder / path.name, path.read_text()) if path.suffix == ".json" else None
     make.FOLDER = folder
-    make.small.LAYERS = make.small.LAYERS[:1]
+    make.small_layers.LAYERS = make.small_layers.LAYERS[:1]
     make.make(("small",))
 
 
