@@ -36,10 +36,10 @@ def rates(problems: Sequence[Problem], workers: int | None = 1) -> np.ndarray:
         from rockref.engines.compiled.batch import batch_of, run_batch
         from rockref.engines.compiled.pack import with_memory
 
-        wanted = [output_steps(p) for p in problems]
-        rows = np.full((len(problems), max(map(len, wanted))), -1)
-        for row, own in zip(rows, wanted, strict=True):
-            row[: len(own)] = own
+        wanted = {end: output_steps(p) for end, p in {p.duration: p for p in problems}.items()}
+        rows = np.full((len(problems), max(map(len, wanted.values()))), -1)
+        for row, p in zip(rows, problems, strict=True):
+            row[: len(wanted[p.duration])] = wanted[p.duration]
         batch = batch_of([with_memory(p) for p in problems], rows)
         return run_batch(batch, workers=workers)[:, :, col.W_ : col.W_ + 3]
     alike: dict[float, list[int]] = {}
