@@ -6,7 +6,7 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | eighth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | ninth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
@@ -33,6 +33,7 @@ import strangers_eighth
 import strangers_fifth
 import strangers_fourth
 import strangers_list
+import strangers_ninth
 import strangers_schemes
 import strangers_second
 import strangers_seventh
@@ -58,6 +59,7 @@ LISTS = {
     "sixth": strangers_sixth.MISTAKES,
     "seventh": strangers_seventh.MISTAKES,
     "eighth": strangers_eighth.MISTAKES,
+    "ninth": strangers_ninth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -195,6 +197,7 @@ IN_PYTHON = (
     *strangers_sixth.IN_PYTHON,
     *strangers_seventh.IN_PYTHON,
     *strangers_eighth.IN_PYTHON,
+    *strangers_ninth.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
