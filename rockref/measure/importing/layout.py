@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 
+from rockref.measure.reading.dialect import are_units
 from rockref.measure.reading.rawfile import MAX_TEXT_BYTES, RawText, read_text
 from rockref.measure.records.notice import Notice, shown
 from rockref.model.errors import InputError
@@ -61,8 +62,16 @@ def read_log(path: Path) -> Log:
     first = next(i for i, line in enumerate(lines) if _is_row(line, delimiter, decimal, width))
     header = next((i for i in range(first - 1, -1, -1) if lines[i].strip()), None)
     names = _names(lines[header], delimiter, decimal) if header is not None else ()
+    units: tuple[str, ...] = ()
+    above = next((i for i in range((header or 0) - 1, -1, -1) if lines[i].strip()), None)
+    if above is not None and len(names) == width and are_units(list(names)):
+        units, names, header = names, _names(lines[above], delimiter, decimal), above
     if names and len(names) != width:
         names = _fitted(names, width)
+    if units and names:
+        names = tuple(
+            f"{name} [{unit.strip('[]()')}]" if unit else name for name, unit in zip(names, units, strict=True)
+        )
     values, words = _parse(lines[first:], delimiter, decimal, width, path)
     end = (header if names else first) or 0
     spoken = f"{SPOKEN[delimiter]}, decimal {'comma' if decimal == ',' else 'point'}"

@@ -13,8 +13,10 @@ from rockref.measure.importing.units import time_tick
 from rockref.measure.records.notice import Notice
 from rockref.model.errors import InputError
 
-# A counter of 32 bits that starts anew.
-_WRAP = 2.0**32
+# A counter of 32 bits that starts anew, and a count of sixteen.
+_WRAP, _SIGN = 2.0**32, 2.0**16
+# decided: one row in five without any rate is no loss: two sensors write into one table.
+_OTHER_SENSOR = 0.2
 _UPDATE_RATE = re.compile(r"(?:update|output) ?rate[^\d]*([\d.]+)", re.IGNORECASE)
 
 
@@ -46,10 +48,16 @@ def recording(log: Log, channels: Channels, rate: float | None = None) -> Record
 
     Raises InputError: E-ROWS-LOST, E-RATE, E-TIME, E-SHORT.
     """
-    chip = log.values[:, channels.rates]
+    chip, notices = _signed(log, log.values[:, channels.rates])
     counts = _time_counts(log, channels)
     good = np.isfinite(chip).all(axis=1) & (np.isfinite(counts) if counts is not None else True)
-    notices = [*log.notices, *_lost(log, int((~good).sum()))]
+    others = np.isnan(chip).all(axis=1)
+    if _OTHER_SENSOR < others.mean() < 1.0:
+        what = f"{int(others.sum())} of {len(chip)} rows hold no rate: those of another sensor"
+        notices.append(Notice("W-ROWS-LOST", log.source, what, "They were left out."))
+    else:
+        others[:] = False
+    notices += _lost(log, ~good & ~others)
     chip = chip[good]
     if len(chip) < 8:
         raise InputError("E-SHORT", log.source, f"{len(chip)} rows hold no motion", "Export the run again.")
@@ -60,9 +68,17 @@ def recording(log: Log, channels: Channels, rate: float | None = None) -> Record
             raise InputError("E-RATE", log.source, "has no time column that can be read", cure)
         t = np.arange(len(chip)) / rate
     else:
-        t, found = _seconds(counts[good], channels, log.source)
-        rate = rate or found
+        # Rows without a rate have a time as well, and without them the mean interval would be too long.
+        timed = np.isfinite(counts) & ~others
+        t, found = _seconds(counts[timed], channels, log.source)
+        t = t[good[timed]] - t[good[timed]][0]
         keep = np.concatenate(([True], np.diff(t) > 0.0))
+        if rate is not None and (~keep).mean() > MAX_LOST_SHARE:
+            what = f"time stands still or runs back in {int((~keep).sum())} of {len(t)} rows"
+            notices.append(Notice("W-TIME", log.source, what, f"Rows were counted, {rate:g} a second, as stated."))
+            t, keep = np.arange(len(t)) / rate, np.ones(len(t), dtype=bool)
+        rate = rate or found
+        _refuse_clock_set_back(t, 1.0 / rate, log)
         if not keep.all():
             if (~keep).sum() > max(1.0, MAX_LOST_SHARE * len(t)):
                 what = f"time stands still or runs back in {int((~keep).sum())} of {len(t)} rows"
@@ -75,10 +91,36 @@ def recording(log: Log, channels: Channels, rate: float | None = None) -> Record
     return Recording(log.source, t, chip, accelerations, rate, log, channels, tuple(notices))
 
 
-def _lost(log: Log, lost: int) -> list[Notice]:
+def _signed(log: Log, chip: np.ndarray) -> tuple[np.ndarray, list[Notice]]:
+    """Return counts (N, 3) of sixteen bits that were written without their sign as they were meant, and the remark."""
+    some = chip[np.isfinite(chip).all(axis=1)]
+    whole = len(some) > 0 and bool((some == np.rint(some)).all()) and some.min() >= 0.0
+    # Small rates of both signs lie at both ends of the range, and none in its middle.
+    if not whole or not 0.9 * _SIGN < some.max() < _SIGN or np.mean(np.abs(some - 0.5 * _SIGN) < 0.2 * _SIGN) > 0.2:
+        return chip, list(log.notices)
+    cure = "Counts of the upper half of sixteen bits were taken as negative."
+    notice = Notice(
+        "W-SIGN-LOST", log.source, f"the rates are whole numbers up to {some.max():.0f}, none negative", cure
+    )
+    return np.where(chip >= 0.5 * _SIGN, chip - _SIGN, chip), [*log.notices, notice]
+
+
+def _refuse_clock_set_back(t: np.ndarray, step: float, log: Log) -> None:
+    """Refuse times (N,) s that run back by more than two samples and go on from there (E-TIME)."""
+    back = np.flatnonzero(np.diff(t) < -2.0 * step)
+    for row in back:
+        if row + 1 < len(t) and t[row + 1 :].min(initial=np.inf) < t[row] and (t[row + 1 : row + 4] < t[row]).all():
+            what = f"time runs back by {1e3 * (t[row] - t[row + 1]):.4g} ms at row {row + 2} of {len(t)}, and goes on"
+            cure = "The clock was set there: cut the file before it, or leave it out: --rate 1000 --columns gx,gy,gz."
+            raise InputError("E-TIME", log.source, what, cure)
+
+
+def _lost(log: Log, gone: np.ndarray) -> list[Notice]:
+    lost = int(gone.sum())
     if not lost:
         return []
     what = f"{lost} of {len(log.values)} rows hold no number where a time or a rate should be"
+    what += f", the first is row {int(gone.argmax()) + 1}"
     if lost > max(2.0, MAX_LOST_SHARE * len(log.values)):
         raise InputError(
             "E-ROWS-LOST", log.source, what, "Export the run again, or name the columns: --columns t,gx,gy,gz."
@@ -93,7 +135,10 @@ def _time_counts(log: Log, channels: Channels) -> np.ndarray | None:
     if channels.time in log.words:
         import pandas as pd
 
-        stamps = pd.to_datetime(pd.Series(log.words[channels.time]), errors="coerce", format="mixed")
+        words = pd.Series(log.words[channels.time])
+        # Dates with points between their parts begin with the day.
+        days_first = bool(words.str.match(r"\d{1,2}\.\d{1,2}\.\d{4}").mean() > 0.5)
+        stamps = pd.to_datetime(words, errors="coerce", format="mixed", dayfirst=days_first)
         if stamps.isna().mean() > MAX_LOST_SHARE:
             return None
         return (stamps - stamps.iloc[0]).dt.total_seconds().to_numpy(np.float64)

@@ -99,7 +99,10 @@ def rate_unit(stated: str | None, gauge: Sequence[float], whole: bool, where: st
         return name
     what = f"the first swing asks for {worth / DEGREE:.4g} deg/s for one unit of the rates, which is no common scale"
     raise InputError(
-        "E-UNIT", where, what, f"Check width and height, or state it: --unit {' or '.join(RATE_NAMES.units)}."
+        "E-UNIT",
+        where,
+        what,
+        f"Check width and height; state it (--unit {' or '.join(RATE_NAMES.units)}), or write it in one of these.",
     )
 
 

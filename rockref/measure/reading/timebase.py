@@ -29,6 +29,8 @@ MAX_FILLED_SHARE = 0.01
 RATE_ERROR, RATE_WARNING = 1e-2, 2e-4
 # decided: a logger writes a row within 50 ms; what is later is another clock.
 LATEST_STAMP = 0.05
+# decided: stamps that are late catch up within fifty rows; a sample and a half is no rounding of a clock.
+SET_ROWS, SET_SAMPLES = 50, 1.5
 # decided: the record starts at the release; a tenth of a second later the first swing can still be recognised.
 LATEST_START = 0.1
 
@@ -103,10 +105,20 @@ def check_order(table: Table, rate: float) -> None:
     """
     t = table.columns["t"]
     back = np.flatnonzero(np.diff(t) < 0)
-    if len(back) and not _overtake(t, rate):
+    if len(back) and (_set_back(t, back, rate) or not _overtake(t, rate)):
         raise _backwards(table, int(back[0]), _advice(t, int(back[0])))
     equal = np.flatnonzero(np.diff(t) == 0)
     _check_equal(table, equal, rate)
+
+
+def _set_back(t: np.ndarray, back: np.ndarray, rate: float) -> bool:
+    """Return whether stamps t (N,) s that run back after a row of `back` go on from there: late ones catch up again."""
+    off = t - np.arange(len(t)) / rate
+    for row in back:
+        before, after = off[max(0, row + 1 - SET_ROWS) : row + 1], off[row + 1 : row + 1 + SET_ROWS]
+        if len(after) >= SET_ROWS and float(np.median(before) - np.median(after)) * rate > SET_SAMPLES:
+            return True
+    return False
 
 
 def _overtake(t: np.ndarray, rate: float) -> bool:

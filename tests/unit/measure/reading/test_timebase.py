@@ -39,6 +39,8 @@ def changed(row, value):
     [
         (changed(500, 0.499), 1000.0, "E-TIME", "line 502", "from 0.499 to 0.499"),
         (CLEAN[::-1], 1000.0, "E-TIME", "line 3", "from 0.999"),
+        # Stamps that are late catch up again; a clock that was set back goes on from there.
+        (CLEAN - 0.02 * (CLEAN > 0.4995), 1000.0, "E-TIME", "line 502", "from 0.499 to 0.48"),
         (CLEAN * 2.0, 1000.0, "E-RATE", "t_s", "500 Hz"),
         (CLEAN / 2.0, 1000.0, "E-RATE", "t_s", "2000 Hz"),
         (CLEAN * 1000.0, 1000.0, "E-RATE", "t_s", "1 Hz"),
