@@ -61,7 +61,7 @@ BYTES = {
     "empty": (b"", "E-EMPTY"),
     "gzip cut off": (gzip.compress(RUN_1.encode(), mtime=0)[:-20], "E-GZIP"),
     "gzip damaged": (gzip.compress(RUN_1.encode(), mtime=0)[:-8] + bytes(8), "E-GZIP"),
-    "a bomb": (gzip.compress(bytes(300_000_000), 9, mtime=0), "E-SIZE"),
+    "a bomb": (100 * gzip.compress(bytes(1_000_000), mtime=0), "E-SIZE"),
     "time runs back": (table(swapped_rows).encode(), "E-TIME"),
     "a gap": (table(lambda t, w: (np.where(t > 0.5, t + 0.2, t), w)).encode(), "E-GAP"),
     "another rate": (table(lambda t, w: (t * 0.5, w)).encode(), "E-RATE"),
