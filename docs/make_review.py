@@ -76,20 +76,36 @@ SOURCES = {
 }
 SOURCES |= dict.fromkeys(("I2", "I3", "I4", "I5"), SOURCES["I1"]) | dict.fromkeys(("A2", "A3"), SOURCES["A1"])
 
-HEAD = """# The physics on one page
+HEAD = r"""# The physics on one page
 
-This page is made from the code by `docs/make_review.py`; it is not edited by hand, and a test compares the two.
-It is what a physicist has to read: for each rule of the law, in the order in which data flows through a step, the
-equation, the code that is it, what had to be decided because the source is silent, and what holds the code to the
-equation. Symbols are those of [the nomenclature](reference/nomenclature.md). Layers of vectors: L0 parameters and
-geometry, L1 one contact point, L2 sums and moments, L3 rotations, L4 single steps, L5s and L5 runs, L7 the measured
-channel. The source is chapter 3 of a thesis, known here as an excerpt (`CITATION.cff`). Numbers like (3.5a) are its
-own; names like K1 and T5 are those of this project, also for what the source says in words or not at all.
+A rigid block with mass $m$ and inertia $J$ stands on a few points $P_i$ of its base. The state is its place $x$, its
+rotation $\Lambda$, the rates $v$ and $W$ (in body axes), and for each touching point an anchor $s_i$ on the plate.
 
-Every rule is one undecorated function of the folder `rockref/model`. Tests that run whole trajectories hold all of them
-together and stand at the end.
+![The block on corners 1 and 2 with its axes; turned, on corners 3 and 4; its feet](figures/block.svg)
 
-![The block on corners 1 and 2 with its axes; turned, on corners 3 and 4; its feet](figures/block.svg)"""
+Each point $u = x + \Lambda P$ that is below the plate by $\xi = -u_z > 0$ pushes like a spring beside a damper, and
+never pulls. Sideways a spring and a damper hold the point to its anchor; friction bounds that force (here with
+$\mu_0 = \mu$), and a sliding point drags its anchor along:
+
+$$
+F^{(N)} = \max(K^{(N)} \xi + C^{(N)} \dot\xi,\ 0), \quad F^* = -K^{(T)} (u_t - s) - C^{(T)} v_s, \quad
+F^{(T)} = F^* \min\bigl(1,\ \mu F^{(N)} / \|F^*\|\bigr)
+$$
+
+The forces of all points and the weight move the block, by the explicit scheme of Simo and Wong with a fixed step:
+
+$$
+m\,a = \sum_i F_i - m g\,e_z, \qquad J \dot W + W \times J W = \Lambda^{\mathsf T} \sum_i (u_i - x) \times F_i
+$$
+
+Below stands each rule of the law, in the order in which data flows through a step: the equation, the code that is it,
+what had to be decided because the source is silent, and what holds the code to the equation. Every rule is one
+undecorated function of the folder `rockref/model`. Symbols are those of [the nomenclature](reference/nomenclature.md).
+The source is chapter 3 of a thesis, known here as an excerpt (`CITATION.cff`). Numbers like (3.5a) are its own; names
+like K1 and T5 are those of this project. Layers of vectors: L0 parameters and geometry, L1 one contact point, L2 sums
+and moments, L3 rotations, L4 single steps, L5s and L5 runs, L7 the measured channel.
+
+This page is made from the code by `docs/make_review.py`; a test compares the two."""
 
 
 def source_of(rule: Rule) -> tuple[str, str, str]:
@@ -211,7 +227,7 @@ def together() -> str:
 
 def page() -> str:
     """The whole page."""
-    return "\n\n".join([HEAD, decided_constants(), *map(section, RULES), together()]) + "\n"
+    return "\n\n".join([HEAD, *map(section, RULES), decided_constants(), together()]) + "\n"
 
 
 if __name__ == "__main__":
