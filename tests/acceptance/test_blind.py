@@ -14,17 +14,15 @@ from rockref.discover.diagnose import diagnose
 
 RUNS = (("01", "fit", 0.117, False), ("02", "fit", 0.098, True), ("03", "holdout", 0.108, False))
 SECONDS, SEED = 1.2, 11
-#: A control is white from the first impact on: one run to fit and one held out, to just behind it.
-SHORT, ENOUGH = (RUNS[0], RUNS[2]), 0.8
 
 
-def verdict(tmp_path, *effects, runs=RUNS, seconds=SECONDS):
-    make_case(tmp_path / "case", effects, SEED, runs=runs, seconds=seconds, other_form=False)
+def verdict(tmp_path, *effects):
+    make_case(tmp_path / "case", effects, SEED, runs=RUNS, seconds=SECONDS, other_form=False)
     return diagnose(tmp_path / "case", workers=1).to_dict()
 
 
 def test_nothing_hidden_nothing_found(tmp_path):
-    found = verdict(tmp_path, runs=SHORT, seconds=ENOUGH)
+    found = verdict(tmp_path)
     assert (found["verdict"], found["effects"]) == ("none", [])
     # What could have hidden all the same is said for every number of every effect.
     assert found["detection_limits"]["quadratic_drag.c"]["value"] > 0
