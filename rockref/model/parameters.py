@@ -161,20 +161,6 @@ def split_54(genes: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray, floa
     return {k: per_point[:, i] for i, k in enumerate(PROPERTIES)}, g[48:52], float(g[52]), float(g[53])
 
 
-def reduce_54(genes: np.ndarray, mass: float) -> Parameters:
-    """Return the twelve parameters nearest to 54 genes: (3.7) to (3.9) read backwards, with means over the points.
-
-    Stiffness: mean over the eight points; damping ratio: mean of the normal and tangential ratios of the four points;
-    friction: mean of the static and dynamic coefficients of the four points.
-    """
-    q, delta_long, delta_diag, theta_0 = split_54(genes)
-    beta = (q["C_N"] / (2 * np.sqrt(q["K_N"] * mass)) + q["C_T"] / (2 * np.sqrt(q["K_T"] * mass))) / 2
-    mu = (q["mu_0"] + q["mu"]) / 2
-    external, internal = slice(4), slice(4, None)
-    means = [q["K_N"], q["K_T"], beta[internal], beta[external], mu[internal], mu[external]]
-    return from_chromosome_12(np.array([*(np.mean(a) for a in means), *delta_long, delta_diag, theta_0]))
-
-
 def _genes(genes: np.ndarray, n: int) -> list[float]:
     genes = np.asarray(genes)
     if genes.shape != (n,):

@@ -66,7 +66,7 @@ def test_twelve_genes_there_and_back():
     assert np.array_equal(p.chromosome_12(p.from_chromosome_12(genes)), genes)
 
 
-def test_fifty_four_genes_split_and_reduce():
+def test_fifty_four_genes_split():
     table = p.Parameters()
     genes = p.chromosome_54(table, 54.0)
     assert genes.shape == (54,)
@@ -75,23 +75,9 @@ def test_fifty_four_genes_split_and_reduce():
     assert all(np.array_equal(q[k], expected[k]) for k in p.PROPERTIES)
     assert np.array_equal(delta_long, table.delta_long)
     assert (delta_diag, theta_0) == (table.delta_diag, table.theta_0)
-    # 2 beta sqrt(K m) / (2 sqrt(K m)) rounds twice, the means once more
-    assert p.chromosome_12(p.reduce_54(genes, 54.0)) == pytest.approx(p.chromosome_12(table), rel=1e-15)
 
 
-def test_reduction_takes_the_means_of_the_right_points():
-    genes = p.chromosome_54(p.Parameters(), 54.0)
-    mu = genes[5:48:6]
-    mu[:4] = 0.1, 0.2, 0.3, 0.4
-    genes[5:48:6] = mu
-    reduced = p.reduce_54(genes, 54.0)
-    # external: mean of mu_0 = 0.25 and of mu = 0.25; internal untouched
-    assert (reduced.mu_ext, reduced.mu_int) == pytest.approx((0.25, 0.30), rel=1e-15)
-    genes[0] = 14e7
-    assert p.reduce_54(genes, 54.0).K_N == pytest.approx(7e7, rel=1e-15)
-
-
-@pytest.mark.parametrize("call", [p.from_chromosome_12, p.split_54, lambda g: p.reduce_54(g, 54.0)])
+@pytest.mark.parametrize("call", [p.from_chromosome_12, p.split_54])
 def test_wrong_number_of_genes(call):
     with pytest.raises(InputError) as refused:
         call(np.ones(13))
@@ -110,16 +96,3 @@ def test_block_of_54_kg_is_of_steel():
     """The decided size: 0.1 x 0.1 x 0.688 m at the density of steel, 7850 kg/m3, to the precision of the mass."""
     b = {k: given.value for k, given in p.BLOCK.items()}
     assert b["width"] * b["depth"] * b["height"] * 7850 == pytest.approx(b["mass"], abs=0.5)
-
-
-@pytest.mark.parametrize("point", range(8))
-def test_every_point_counts_in_the_mean(point):
-    """One point changed by a tenth changes the mean over its four by a fortieth, and that of the others not at all."""
-    table = p.Parameters()
-    genes = p.chromosome_54(table, 54.0)
-    mu = slice(6 * point + 4, 6 * point + 6)
-    genes[mu] *= 1.1
-    reduced = p.reduce_54(genes, 54.0)
-    external = point < 4
-    assert reduced.mu_ext / table.mu_ext == pytest.approx(1.025 if external else 1, rel=1e-14)
-    assert reduced.mu_int / table.mu_int == pytest.approx(1 if external else 1.025, rel=1e-14)
