@@ -155,7 +155,7 @@ def all_asked(findings: Findings) -> bool:
 
 def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
     """Return the first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
-    checks, pieces = findings.checks, findings.pieces
+    checks, pieces = without_late_flags(findings.checks), findings.pieces
     good = {r for r, s in status_of_rules([c for c in checks if c.layer in SMALL]).items() if s in ("pass", "look")}
     if findings.profile == "scheme":
         good -= NOT_BY_PIECES
@@ -182,6 +182,13 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
             return unproved.rule, unproved, ""
         return ("S2", check, LOOP) if all_asked(findings) else (None, check, UNASKED)
     return None, None, ""
+
+
+def without_late_flags(checks: list[Check]) -> list[Check]:
+    """Return the checks without flags of later rows (S2) where normal forces of later rows are wrong, too: flags that
+    are handed out late leave the forces as they are."""
+    late = [c for c in checks if c.failed and c.layer in SHORT and c.name.startswith("F_N@") and c.name[-2:] != "@0"]
+    return [c for c in checks if not (late and c.rule == "S2" and c.name.startswith("anchored@"))]
 
 
 def in_company(checks: Sequence[Check]) -> tuple[str, Check, str] | None:

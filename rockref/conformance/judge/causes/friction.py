@@ -21,6 +21,7 @@ HELD = "Feet that should slide show their trial force: they are held to stick."
 LOOSE = "Feet that should stick show the sliding force: they are made to slide."
 DAMPER = "The spring's part of the friction force is right, the damper's is not."
 OTHER_TRIAL = "The foot is held to stick, and shows another force than the trial force."
+STALE = "The friction forces are those of the row before."
 MOVES_ALONE = "Friction turns the block as it should, and moves it otherwise."
 #: Rules whose vectors show the friction of the start. A wrong sliding velocity (K1) has vectors of its own.
 OF_FRICTION = ("T5", "T1", "T2", "T6", "T3")
@@ -42,6 +43,8 @@ def rule_of_friction(
         return check.rule, ""
     if check.name == "F_T@0" and vector.inputs.get("F") is None:
         return rule_of_the_start(vector, out, check)
+    if check.name.startswith("F_T@"):
+        return ("S1", STALE) if of_the_row_before(vector, out, check) else (check.rule, "")
     return ("A1", MOVES_ALONE) if moves_alone(answers, checks, check) else (check.rule, "")
 
 
@@ -90,6 +93,16 @@ def sliding_force(q: dict[str, Any], k: Kinematics, F_trial: np.ndarray) -> np.n
     F_N = open_gap(k.xi, kelvin_voigt(k.xi, k.xi_rate, q["K_N"], q["C_N"]))
     length = np.maximum(norm(F_trial), np.finfo(float).tiny)
     return (q["mu"] * F_N / length)[:, None] * F_trial
+
+
+def of_the_row_before(vector: Vector, out: dict[str, Any], check: Check) -> bool:
+    """Return whether the friction forces of a later row that are off are those of the row before it."""
+    row = int(check.name.partition("@")[2])
+    if row == 0:
+        return False
+    before, got = (np.asarray(out["F"], float)[i][:, :2] for i in (row - 1, row))
+    off = np.any(np.abs(got - vector.expect[check.name].value) > SAME * np.max(np.abs(got)), axis=-1)
+    return bool(np.any(off) and np.array_equal(got[off], before[off]))
 
 
 def moves_alone(answers: Sequence[tuple[Vector, dict[str, Any]]], checks: Sequence[Check], check: Check) -> bool:
