@@ -18,7 +18,7 @@ GYRATION = 0.6 / math.sqrt(12)
 LEAST_PITCH = 0.01
 #: Frequencies [Hz] and masses [kg] of the plate from which fits start, since what rings shows nothing in a small step
 #: from zero. Decided: steps of 12 % over the range of tones that rocking excites; the typical mass and three times it.
-TONES, MASSES = tuple(100.0 / 1.12**k for k in range(15)), (100.0, 300.0)
+TONES, MASSES = tuple(100.0 / 1.12**k for k in range(18)), (100.0, 300.0)
 #: Spread of the logarithms of mass and damping ratio (decided: a factor of two).
 SPREAD = 0.7
 
@@ -42,7 +42,7 @@ class CompliantSupport(Effect):
     question = "support"
     quantities = {
         "mass": Quantity("kg", 100.0, 20.0, 2000.0, 100.0, "+", "of the plate that moves along", POSITIVE),
-        "frequency": Quantity("Hz", 0.0, 20.0, 300.0, 60.0, "+", "of the plate alone; 0: rigid", 0.0),
+        "frequency": Quantity("Hz", 0.0, 14.0, 300.0, 60.0, "+", "of the plate alone; 0: rigid", 0.0),
         "ratio": Quantity("1", 0.03, 0.0, 0.2, 0.03, "+", "damping ratio of the plate alone", 0.0),
         "pitch": Quantity("1", 0.0, 0.0, 4.0, 0.0, "+", "(frequency / that of its pitching)^2; 0: none", 0.0),
     }

@@ -96,10 +96,10 @@ def test_what_an_effect_declares_is_about_its_own_quantities(kind):
 
 def test_a_plate_starts_at_several_tones_and_masses_and_a_pull_at_several_sizes():
     seeds = EFFECTS["compliant_support"].seeds
-    assert len({(seed["mass"], seed["frequency"]) for seed in seeds}) == len(seeds) == 30
+    assert len({(seed["mass"], seed["frequency"]) for seed in seeds}) == len(seeds)
     tones = sorted({seed["frequency"] for seed in seeds})
     # No tone is farther than half of a step of 13 % from a seed.
-    assert max(np.diff(np.log(tones))) < 0.13 and tones[0] < 21 and tones[-1] == 100
+    assert max(np.diff(np.log(tones))) < 0.13 and tones[0] < 15 and tones[-1] == 100
     assert [seed["force"] for seed in EFFECTS["adhesion"].seeds] == [15.0, 35.0, 70.0]
 
 
