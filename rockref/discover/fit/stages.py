@@ -50,7 +50,7 @@ class Stage:
 #: Decided: gains of an effect grow by five from 10 to 80 ms, and the roughness of the objective, 30 to 100 nats at
 #: 40 ms, does so too. The attitude is remembered for half a second at least: its target is the integral of a noisy
 #: rate, which wanders by 50 urad in three seconds; pulled after it faster, the right model leaves more than its noise.
-S1 = Stage("S1", 0.005, 0.5, smoothing=8e-3, steps=8)
+S1 = Stage("S1", 0.005, 0.5, smoothing=8e-3, steps=6)
 S2 = Stage("S2", 0.010, 0.5, smoothing=2e-3, steps=12)
 S3 = Stage("S3", 0.020, 0.5, jitter=0.05e-3)
 F = Stage("F", 0.040, 1.0, jitter=0.05e-3)

@@ -28,6 +28,11 @@ ROLL_UNCERTAINTY = 1e-4
 UNITS = {"K_N": "N/m", "delta_diag": "m", **{f"delta_long_{k}": "m" for k in (1, 2, 3, 4)}}
 
 
+def is_height(p: Parameter) -> bool:
+    """Return whether a number is the height of an outer point."""
+    return p.name.startswith("delta_long_")
+
+
 def set_parameter(name: str):
     """Return a setter for one of the twelve."""
     if name.startswith("delta_long_"):

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import inflation_for
-from rockref.discover.fit.stages import S1, S2, F, Stage
-from rockref.discover.fit.starts import first_impact
+from rockref.discover.fit.stages import S1, S2, Stage
+from rockref.discover.fit.starts import first_swing
 from rockref.discover.hypotheses.effects import seeds_of
 from rockref.discover.selection.score_test import best_of_each, proposals
 
@@ -20,8 +20,6 @@ ENTRANTS, FIRST, SECOND = 9, 5, 3
 ROUNDS = ((10, 4.0), (7, 2.5))
 #: Share of the objective by which one may lie above the best and go on: a margin, never a rank.
 MARGIN = 1.15
-#: Part of the first swing over which the sensor is sized: before the first impact nothing is chaotic.
-FIRST_SWING = 0.85
 #: Steps that size a sensor's error from the release.
 SIZED = 3
 #: Nats that an effect has to gain (decided: what the temperature of the evidence and odds of one in twenty ask for).
@@ -75,7 +73,7 @@ def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
     What has finite starts is not among them: small, it shows nothing.
     """
     found = []
-    stage = F.upto(FIRST_SWING * first_impact(fitter))
+    stage = first_swing(fitter)
     for e in fitter.problem.candidates:
         numbers = fitter.problem.parameters((e,))[len(fitter.problem.parameters()) :]
         has_finite_starts = seeds_of(numbers, e, fitter.problem.records, fitter.problem.units)

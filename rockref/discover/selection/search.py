@@ -18,8 +18,9 @@ import numpy as np
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.floor import floor
 from rockref.discover.fit.objective import WHITE
+from rockref.discover.fit.ridges import kicked
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
-from rockref.discover.fit.starts import global_fit, kicked
+from rockref.discover.fit.starts import global_fit, released
 from rockref.discover.selection.halving import WORTH, halving, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.together import from_anywhere, from_statement
@@ -178,7 +179,7 @@ class Search:
         if self.is_explained(best := self.best(beam)) and self.moved(best) < STAYED:
             return
         progress.begin("starts", "fitting the baseline from other starts", best.name)
-        nominal = self.nominal()
+        nominal = released(self.fitter, self.nominal())
         found = global_fit(self.fitter, nominal.effects, nominal.z)
         beam.append(self.settled(found.best))
         self.problem.say(f"the law from anywhere: mean loss {found.best.loss:.2f}")

@@ -19,7 +19,7 @@ from rockref.discover.fit.starts import GlobalFit, stages
 from rockref.discover.selection.halving import MARGIN, SECOND, proposed, say, sized_at_release, within
 
 #: Mean loss of the law alone from which a horizon tells effects apart, and the starts that are tried there (decided).
-TELLING, STARTS = 1.5, 4
+TELLING, STARTS = 1.5, 6
 #: Part of the misfit of the law alone that an effect may leave and lead by far (decided: it is there, whatever the
 #: feet).
 LEADS = 0.1
