@@ -69,7 +69,7 @@ def children(fitter: Fitter, members: Sequence[FittedModel], rng: np.random.Gene
     parents = min(len(members), max(2, round(PARENTS * len(members))))
     found = []
     for _ in members:
-        parent = members[rng.integers(parents)]
+        parent = members[int(rng.integers(parents))]
         a, b = rng.choice(len(members), 2, replace=len(members) < 2)
         z = parent.z + rng.choice(LEAPS) * (members[a].z - members[b].z)
         found.append(FittedModel(parent.effects, np.clip(z, least, most)))
