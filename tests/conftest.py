@@ -10,7 +10,7 @@ from hypothesis.database import DirectoryBasedExampleDatabase
 
 # No deadline in any: a first call that compiles or a busy machine is not a failure of the law.
 # The same examples every time: more of them would only be looked at again. New ones are tried by `nightly`.
-settings.register_profile("ci", max_examples=60, derandomize=True, database=None, deadline=None, print_blob=True)
+settings.register_profile("ci", max_examples=50, derandomize=True, database=None, deadline=None, print_blob=True)
 settings.register_profile("dev", max_examples=50, deadline=None)
 settings.register_profile(
     "nightly",

@@ -13,8 +13,8 @@ from tests.shipped import shortened
 from tests.unit.report.page_checks import faults_of
 
 ROOT = Path(__file__).resolve().parents[2]
-# Half a second behind the first main impact, by which the model has failed and the effect shows.
-SECONDS = 1.0
+# Up to just behind the second main impact, between which and the first the model fails.
+SECONDS = 1.5
 
 
 @pytest.fixture(scope="module", params=["short", pytest.param("whole", marks=pytest.mark.slow)])
@@ -68,12 +68,8 @@ def test_page_is_whole_small_and_asks_for_nothing(demo):
     assert faults_of(data.decode("utf-8")) == []
 
 
-def test_figures_lie_beside_the_page(demo, request):
-    """The curves of each experiment, and where a run reaches its second main impact the zooms about both."""
-    drawn = {path.stem for path in demo[0].glob("*.png")}
-    assert drawn == {path.stem for path in demo[0].glob("*.svg")}
-    each = {"short": 1, "whole": 2}[request.node.callspec.params["demo"]]
-    assert len(drawn) == each * len(EXPERIMENTS)
+def test_figures_lie_beside_the_page(demo):
+    assert len(list(demo[0].glob("*.png"))) == len(list(demo[0].glob("*.svg"))) == 2 * len(EXPERIMENTS)
 
 
 needs_browser = pytest.mark.skipif(find_browser() is None, reason="no Chromium on this machine: apt install chromium")
