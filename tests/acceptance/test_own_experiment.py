@@ -9,6 +9,7 @@ import pytest
 
 from rockref import InputError
 from rockref.measure import load_experiment
+from rockref.measure.signals.impacts import main_impacts
 from tests.shipped import program
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -88,6 +89,38 @@ def before_the_release(rows):
     return np.vstack([rest, rows + [0.5, 0, 0, 0]])
 
 
+def lost_before_an_impact(rows):
+    """The logger loses 60 ms just before the second main impact, and numbers its rows on."""
+    second = main_impacts(rows[:, 0], np.radians(rows[:, 1:])).times[1]
+    last = int(second * 500) - 10
+    left = np.delete(rows, range(last - 30, last), axis=0)
+    return np.column_stack([rows[: len(left), 0], left[:, 1:]])
+
+
+def rows_exchanged(rows, at, count):
+    """Two blocks of so many rows in each other's place."""
+    first = int(at * 500)
+    order = np.arange(len(rows))
+    order[first - count : first + count] = np.roll(order[first - count : first + count], count)
+    return np.column_stack([rows[:, 0], rows[order, 1:]])
+
+
+def set_up_again(rows):
+    """Rest against the wire, after a hand turned the block back from where it was."""
+    hand = np.zeros((600, 4))
+    turned = rows[:700, 1].sum() / 500
+    hand[:300, 1] = -turned * 2.0 / 0.6 * np.sin(np.pi * np.arange(300) / 300) ** 2
+    hand[:, 1:] += 0.05 * np.random.default_rng(0).standard_normal((600, 3))
+    both = np.vstack([rows[:700], hand])
+    return np.column_stack([np.arange(len(both)) / 500, both[:, 1:]])
+
+
+def averaged(rows):
+    """Means over seven rows."""
+    means = [np.convolve(np.pad(rows[:, k], 3, mode="edge"), np.ones(7) / 7, mode="valid") for k in (1, 2, 3)]
+    return np.column_stack([rows[:, 0], *means])
+
+
 RADIANS = np.array([1, np.pi / 180, np.pi / 180, np.pi / 180])
 MISTAKES = [
     ("E-DELIMITER", text(",", ";")),
@@ -114,6 +147,9 @@ MISTAKES = [
     ("E-SHORT", table(lambda rows: rows[:200])),
     ("E-SPIKE", table(lambda rows: cells(rows, (200, 1), 5000.0))),
     ("E-DROPOUT", table(lambda rows: cells(rows, (slice(300, 340), slice(1, 4)), rows[300, 1:4]))),
+    ("E-HOLD", table(lambda rows: cells(rows, np.s_[:, 1:], rows[np.arange(len(rows)) // 20 * 20, 1:]))),
+    ("E-REPEAT", table(lambda rows: cells(rows, np.s_[500:540, 1:], rows[460:500, 1:]))),
+    ("E-ROWS-LOST", table(lost_before_an_impact)),
     ("E-NOT-FINITE", text(r"^(0\.10\d+),[^,]*", r"\1,nan", count=1)),
     ("E-FIELDS", text(r",[^,]*\n\Z", "")),
     ("E-PATH", toml('file = "run01.csv"', 'file = "../run01.csv"')),
@@ -125,6 +161,11 @@ MISTAKES = [
     ("W-START", table(lambda rows: rows[20:])),
     ("W-AXES", text("wy_deg_s,wz_deg_s", "wz_deg_s,wy_deg_s", count=1)),
     ("W-MOVING", table(lambda rows: rows + [0, 3, 0, 0])),
+    ("W-RELEASE", table(lambda rows: cells(rows, np.s_[:-30, 1:], rows[30:, 1:])[:-30])),
+    ("W-TILT-OFF", toml("release_tilt_rad = 0.105", "release_tilt_rad = 0.088")),
+    ("W-LEAP", table(lambda rows: rows_exchanged(rows, 0.95, 20))),
+    ("W-SET-UP", table(set_up_again)),
+    ("W-SMOOTH", table(averaged)),
     ("W-FIRST-IMPACT", toml("height_m = 0.6", "height_m = 0.5")),
     ("W-NOISE", toml("noise_deg_s = .*", "noise_deg_s = 0.005")),
     ("W-FLAT-TOP", table(lambda rows: np.column_stack([rows[:, 0], np.clip(rows[:, 1:], -20, 20)]))),

@@ -30,8 +30,10 @@ UNIT_MARGIN = 10.0
 WHITE = 0.5
 # decided: a column in rad/s among others in deg/s has 57 times less noise; one gyroscope's axes are alike to a third.
 ONE_GYRO = 1.35
-# decided: a low-pass of a fifth of the sample rate leaves noise of which neighbours have little in common.
-WIDE_BAND = 0.2
+# decided: a low-pass of a fifth of the sample rate leaves noise of which neighbours have little in common. A cubic
+# leaves white noise of neighbours that have a fifth in common with the other sign; means of three rows have 0.3, and
+# less than half of the noise.
+WIDE_BAND, SHARED, LESS = 0.2, 0.1, 0.5
 
 
 def check_axes(signal: Signal) -> list[Notice]:
@@ -134,13 +136,10 @@ def check_smooth(signal: Signal) -> list[Notice]:
         return []  # the gyroscope's own low-pass may do so
     floor = noise_floor(signal.t, signal.crv, window=0.04 * min(1.0, signal.scale))
     # Motion that the cubic does not follow is alike in neighbours, too; it only adds to the noise.
-    if not (floor.whiteness > WHITE).all() or not (floor.sigma < signal.grain).all():
+    if not (floor.whiteness > SHARED).all() or not (floor.sigma < LESS * signal.gyro.noise).all():
         return []
-    share = 100.0 * float(floor.whiteness.min())
-    what = (
-        f"neighbouring rows have {share:.0f} % of their noise in common; a gyroscope of {signal.gyro.bandwidth:.4g} Hz"
-    )
-    what += " has little"
+    what = f"neighbouring rows are alike, and scatter by {float(floor.sigma.mean()) / DEGREE:.2g} deg/s where"
+    what += f" {signal.gyro.noise / DEGREE:.2g} deg/s are stated"
     cure = "The rows seem to be averaged, or drawn between samples: give what was measured, and its rate."
     return [Notice("W-SMOOTH", signal.path, what, cure)]
 

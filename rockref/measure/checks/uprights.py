@@ -68,7 +68,8 @@ def odd_arc(signal: Signal, turned: np.ndarray, impacts: Impacts) -> tuple[int, 
     if judged.sum() < 2:
         return None
     # A zero that is off adds the same rate to all; a cut top takes as much from every other arc.
-    zero = float(np.median((angles / spans)[judged]))
+    # Of two arcs one is not more usual than the other.
+    zero = float(np.median((angles / spans)[judged])) if judged.sum() > 2 else 0.0
     off = np.abs(angles - zero * spans)
     slack = IMPACT_SAMPLES * signal.step * signal.rate + signal.grain * signal.scale
     odd = judged & (off > ODD_ARC * signal.rate * spans + slack)
