@@ -50,9 +50,6 @@ EQUALS = 2
 #: Finalists, the factor on the best objective up to which one is, and the steps that one may take (decided: what is
 #: further above has no probability; fits end by gaining nothing long before that).
 FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
-#: Part of what an effect has to gain that a hypothesis with one more than the best has gained, or it is no finalist
-#: (decided: such a one could not become the best, and none is certain beside it).
-IDLE = 0.5
 #: Times that they are compared from the law of the best (decided: twice, should the best change).
 EXCHANGES = 2
 #: Steps at the later stages.
@@ -306,9 +303,8 @@ class Search:
 
         A fit that stops early, or in a local minimum, lies hundreds of nats too high; a common start compares effects.
         """
-        best, bar = min(beam, key=penalised), CLOSE * self.best(beam).objective
-        finalists = [h for h in beam if h.objective <= bar and not self.adds_nothing(h, best)]
-        finalists = sorted(finalists, key=penalised)[:FINALISTS]
+        finalists = sorted((h for h in beam if h.objective <= CLOSE * self.best(beam).objective), key=penalised)
+        finalists = finalists[:FINALISTS]
         for h in finalists:
             self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
             self.problem.say(f"finalist {h.name}")
@@ -320,10 +316,6 @@ class Search:
             if set(min(beam, key=penalised).effects) == set(best.effects):
                 break
         return sorted(best_of_each(beam), key=lambda h: h.objective)
-
-    def adds_nothing(self, h: FittedModel, best: FittedModel) -> bool:
-        """Return whether h has an effect more than the best, and from its law a few steps gained too little for it."""
-        return set(best.effects) < set(h.effects) and best.objective - h.objective < IDLE * WORTH
 
     def holds(self, h: FittedModel, best: FittedModel) -> bool:
         """Return whether h has all effects of the best, and is as low: from the same law it ends where it is."""
