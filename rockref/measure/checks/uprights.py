@@ -30,12 +30,16 @@ AWAY = 0.3
 LEAP, NOISE_SIGMAS = 0.06, 6.0
 # decided: where sqrt(R/g) has fewer than forty samples, impacts are not known well enough.
 LEAST_SAMPLES = 40.0
+# Fits follow the source's block so long [s]. decided: a later arc is told and not refused, since late rocking is
+# irregular.
+FOLLOWED = 3.0
 # decided: the slope of an arc is that of 10 ms around a sample.
 AROUND = 0.010
 
 
 def check_uprights(signal: Signal) -> list[Notice]:
-    """Refuse an arc whose rates add up to an angle (E-ROWS-LOST); remark on a leap within an arc (W-LEAP).
+    """Refuse an arc whose rates add up to an angle (E-ROWS-LOST); remark on a late one, and on a leap within an arc
+    (W-LEAP).
 
     An arc is judged beside the others of its record: a zero that is off, or a range that cuts, is off in all of them.
     """
@@ -46,12 +50,16 @@ def check_uprights(signal: Signal) -> list[Notice]:
     leaps = leaps_in_arcs(signal, turned, impacts)
     arc = odd_arc(signal, turned, impacts)
     if arc is not None:
-        raise _refusal(signal, impacts, arc, leaps)
+        begin, end = impacts.times[arc[0] : arc[0] + 2]
+        if begin < FOLLOWED * signal.scale:
+            raise _refusal(signal, impacts, arc, leaps)
+        return [Notice("W-LEAP", signal.column(0), _adds_up(arc[1], begin, end), _CURE_OF_LEAP)]
     if not len(leaps):
         return []
     return [Notice("W-LEAP", signal.column(0), _leap(signal, leaps), _CURE_OF_LEAP)]
 
 
+_CURE = "Rows were lost or put out of order while the time went on: use another run, or cut the record before it."
 _CURE_OF_LEAP = (
     "Rows are missing or out of order there, or something struck the block: look at the run, or leave it out."
 )
@@ -100,13 +108,15 @@ def _leap(signal: Signal, leaps: np.ndarray) -> str:
     return what + (f", and at {len(leaps) - 1} other rows" if len(leaps) > 1 else "")
 
 
-def _refusal(signal: Signal, impacts: Impacts, arc: tuple[int, float], leaps: np.ndarray) -> InputError:
-    first, angle = arc
-    begin, end = impacts.times[first : first + 2]
+def _adds_up(angle: float, begin: float, end: float) -> str:
     what = f"the block stands upright at {begin:.4g} and at {end:.4g} s, and between them the rates add up to"
-    what += f" {angle / DEGREE:.3g} degrees"
+    return f"{what} {angle / DEGREE:.3g} degrees"
+
+
+def _refusal(signal: Signal, impacts: Impacts, arc: tuple[int, float], leaps: np.ndarray) -> InputError:
+    begin, end = impacts.times[arc[0] : arc[0] + 2]
+    what = _adds_up(arc[1], begin, end)
     inside = leaps[(signal.t[leaps] > begin) & (signal.t[leaps] < end)]
     if len(inside):
         what += f"; the rate {_leap(signal, inside)}"
-    cure = "Rows were lost or put out of order while the time went on: use another run, or cut the record before it."
-    return InputError("E-ROWS-LOST", signal.column(0), what, cure)
+    return InputError("E-ROWS-LOST", signal.column(0), what, _CURE)
