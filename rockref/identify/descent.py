@@ -27,10 +27,6 @@ CHANGES = (3.0, 1.0, 0.3)
 SMALLEST, LARGEST, FIRST = 2e-4, 0.04, 1e-3
 #: Levenberg-Marquardt: first damping, factors that are tried, most steps of one descent, least relative gain (decided).
 DAMPING, FACTORS, STEPS, LEAST_GAIN = 1e-2, (0.04, 0.2, 1.0, 5.0, 25.0), 12, 1e-3
-#: Slopes are carried to the next step, changed by what the step showed (C. G. Broyden, A class of methods for solving
-#: nonlinear simultaneous equations, Mathematics of Computation 19, 577-593, 1965), where it gained more than this.
-#: Decided: far from the end any slopes lead on; near it, where a descent may stop, they are taken anew.
-CARRIED = 0.1
 #: Moves and walks go on while the mean square is above this and each gains. Decided: 1 is the noise, which scatters by
 #: 2 %; what lies twice as far above it is a dent that a move can leave.
 NEARLY = 1.05
@@ -67,8 +63,6 @@ class Descent:
         self.unknowns, self.step, self.workers, self.steps = unknowns, step, workers, steps
         self.report = report or (lambda chi2: None)
         self.ends: list[Place] = []
-        #: Change of the response a unit of z, quadratic mean (Z,), where slopes were taken last.
-        self.sizes: np.ndarray | None = None
         self.defect: np.ndarray | float = 0.0
 
     def residuals(self, zs: np.ndarray) -> np.ndarray:
@@ -97,28 +91,20 @@ class Descent:
         """Return (M, Z) by central differences over h (Z,), one-sided at the end of a range."""
         up, down = np.minimum(z + h, 1.0), np.maximum(z - h, 0.0)
         rs = self.residuals(np.concatenate([z + np.diag(up - z), z - np.diag(z - down)]))
-        J = np.nan_to_num((rs[: len(z)] - rs[len(z) :]) / (up - down)[:, None]).T
-        self.sizes = np.sqrt(np.mean(np.square(J), axis=0))
-        return J
+        return np.nan_to_num((rs[: len(z)] - rs[len(z) :]) / (up - down)[:, None]).T
 
     def slopes(self, z: np.ndarray, change: float, h: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Return Jacobian (M, Z) over steps that change the response by `change`, and those steps (Z,).
-
-        Without steps h (Z,) those that the slopes before tell of.
-        """
+        """Return Jacobian (M, Z) over steps that change the response by `change`, and those steps (Z,)."""
         if h is None:
-            if self.sizes is None:
-                self.jacobian(z, np.full(len(z), FIRST))
-            h = _steps(self.sizes, change)
+            h = np.full(len(z), FIRST)
+            h = _steps(self.jacobian(z, h), change)
         J = self.jacobian(z, h)
-        return J, _steps(self.sizes, change)
+        return J, _steps(J, change)
 
     def descend(self, at: Place, change: float, steps: int | None = None) -> Place:
-        """Return Levenberg-Marquardt from `at`, five dampings a step side by side; at most `steps` times with slopes
-        taken anew or dampings raised."""
-        damping, J, h, carried, left = DAMPING, None, None, False, self.steps if steps is None else steps
-        while carried or left > 0:
-            left -= not carried
+        """Return Levenberg-Marquardt from `at`, five dampings a step side by side."""
+        damping, J, h = DAMPING, None, None
+        for _ in range(self.steps if steps is None else steps):
             if J is None:
                 J, h = self.slopes(at.z, change, h)
             trials = np.array([damped_step(J, at.r, at.z, damping * f) for f in FACTORS])
@@ -126,9 +112,6 @@ class Descent:
             chi2 = mean_squares(rs)
             k = int(np.argmin(chi2))
             if not chi2[k] < at.chi2:
-                if carried:
-                    J, carried = None, False
-                    continue
                 if damping > 1e4:
                     break
                 # The same slopes with dampings that are all larger than those that were tried.
@@ -136,24 +119,16 @@ class Descent:
                 continue
             gain = 1 - chi2[k] / at.chi2
             damping = max(1e-9, 0.3 * damping * FACTORS[k])
-            before, at = at, Place(trials[k], rs[k], float(chi2[k]))
+            at, J = Place(trials[k], rs[k], float(chi2[k])), None
             self.report(at.chi2)
-            if gain < LEAST_GAIN and not carried:
+            if gain < LEAST_GAIN:
                 break
-            carried = bool(gain > CARRIED)
-            J = carried_on(J, before, at) if carried else None
         self.ends.append(at)
         return at
 
 
-def carried_on(J: np.ndarray, before: Place, at: Place) -> np.ndarray:
-    """Return slopes (M, Z) taken before a step, changed so that they tell what it did to the residual (Broyden)."""
-    d = at.z - before.z
-    return J + np.outer(at.r - before.r - J @ d, d / max(d @ d, 1e-300))
-
-
-def _steps(size: np.ndarray | None, change: float) -> np.ndarray:
-    assert size is not None, "slopes were taken"
+def _steps(J: np.ndarray, change: float) -> np.ndarray:
+    size = np.sqrt(np.mean(np.square(J), axis=0))
     return np.clip(change / np.where(size > 0, size, 1e-30), SMALLEST, LARGEST)
 
 

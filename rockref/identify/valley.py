@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rockref.identify.descent import CHANGES, FACTORS, NEARLY, Descent, Place, carried_on, damped_step, ridge
+from rockref.identify.descent import CHANGES, FACTORS, NEARLY, Descent, Place, damped_step, ridge
 from rockref.identify.unknowns import mean_squares
 
 #: The unknown that is moved, and by how much of its range at a time. Decided: a hundredth, 0.11 mm, one last digit of
@@ -80,12 +80,8 @@ def walk(short: Descent, whole: Descent, z: np.ndarray, stride: float, left: flo
         for k in range(MOST_REFITS):
             if k >= REFITS and at.chi2 < limit:
                 break
-            # The places of a profile are reported: each has slopes of its own.
-            if k % 2 == 0 or short is whole:
-                J, h = short.slopes(at.z, CHANGES[1], h)
-            before, at = at, _refitted(short, J, at, i)
-            if at is not before:
-                J = carried_on(J, before, at)
+            J, h = short.slopes(at.z, CHANGES[1], h)
+            at = _refitted(short, J, at, i)
         if not at.chi2 < limit:
             break
         path.append(at if short is whole else whole.place(at.z))
