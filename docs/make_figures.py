@@ -41,17 +41,18 @@ def table(rows: Iterable[dict[str, Any]]) -> list[str]:
 
 
 def readme(text: str) -> str:
-    """The README with the table of the figures that are marked for it between its two markers."""
+    """The README with the table of the figures that have few words for it between its two markers."""
     part = re.compile(rf"(?<={BEGIN}\n).*?(?=\n{END})", re.DOTALL)
     if not part.search(text):
         raise SystemExit(f"{README.name} has no lines {BEGIN} and {END}")
     found = read()
     rows = [row for row in found["row"] if row["readme"]]
-    lines = [
-        f"Each with the command that measures it again; {machines(found, rows)}. "
-        "[All figures](docs/reference/figures.md).",
+    lines = ["| what | figure | measured by |", "| --- | --- | --- |"]
+    lines += [f"| {row['what']} | {row['readme']} | `{row['command']}` |" for row in rows]
+    days = sorted(row["date"] for row in rows)
+    lines += [
         "",
-        *table(rows),
+        f"Measured from {days[0]} to {days[-1]}; [all figures, with day and machine](docs/reference/figures.md).",
     ]
     return part.sub(lambda _: "\n".join(lines), text)
 

@@ -35,7 +35,9 @@ def test_the_reference_is_drawn_beside_the_three_best_of_the_models_that_failed(
     target = SimpleNamespace(t=np.arange(3.0), crv=np.zeros((3, 3)), tilt=0.117)
     drawn = []
     monkeypatch.setattr(reproduce_source, "twin", lambda *a: target)
-    monkeypatch.setattr(reproduce_source, "releases", lambda space, target, u: (target.t, np.array(u)[:, None, :]))
+    monkeypatch.setattr(
+        reproduce_source, "releases", lambda space, targets, u: [(targets[0].t, np.array(u[0])[:, None, :])]
+    )
     monkeypatch.setattr(reproduce_source.source_figures, "scenarios_figure", lambda t, crv, found: drawn.extend(found))
     kept = SimpleNamespace(each=lambda name, items, make, identity: rows)
     found = _scenarios(Model.table_3_1(), QUICK, None, kept, SimpleNamespace(keep=lambda figures: None))
