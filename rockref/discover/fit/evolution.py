@@ -14,7 +14,7 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import Stage
 
 #: Generations at least and at most, the steps of a member in each, and the factors on the difference of two members by
-#: which a child leaps.
+#: which a child leaps (decided on simulated blocks of other feet, as the numbers below).
 GENERATIONS, STEPS, LEAPS = (2, 4), 2, (0.5, 1.0, 1.5)
 #: Part of the members, the best, from which children leap, two at least.
 PARENTS = 1 / 3
@@ -22,8 +22,8 @@ PARENTS = 1 / 3
 GOES_ON = 0.02
 #: Prior deviations beyond which no child is.
 OUTSIDE = 2.5
-#: Prior deviations of some number of the law by which members differ that stand in different valleys (decided: a fit
-#: goes so far in a few steps).
+#: Prior deviations of some number of the law by which members differ that stand in different valleys: a fit goes less
+#: far in a step.
 DISTINCT = 0.5
 
 
