@@ -54,7 +54,7 @@ def first_swing(fitter: Fitter) -> Stage:
 
 
 def released(fitter: Fitter, h: FittedModel) -> FittedModel:
-    """Return a hypothesis with the releases that the first swing shows. With wrong ones even the true law is far off."""
+    """Return a hypothesis with the releases that the first swing shows. Wrong ones hide the true law."""
     sized = fitter.tempered(h.copy(), stage := first_swing(fitter), SIZED[0])
     fitter.refine(sized, stage, SIZED[1])
     z = [at if p.run is not None and not p.effect else own
