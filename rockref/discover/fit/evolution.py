@@ -20,7 +20,7 @@ GENERATIONS, STEPS, LEAPS = (2, 4), 2, (0.5, 1.0, 1.5)
 PARENTS = 1 / 3
 #: Part of its loss that a member has to lose to go on, as have all in a generation for another one.
 GOES_ON = 0.02
-#: Prior deviations beyond which no child is.
+#: Prior deviations beyond which no number is moved.
 OUTSIDE = 2.5
 #: Prior deviations of some number of the law by which members differ that stand in different valleys: a fit goes less
 #: far in a step.

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from rockref.discover.fit.evolution import OUTSIDE
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import Stage
 
 #: Moves along a ridge in prior deviations.
 KICKS = (-1.4, -0.7, -0.35, 0.35, 0.7, 1.4)
-#: Prior deviations beyond which no number is moved.
-OUTSIDE = 2.5
 #: Ridges of the null: numbers of the law that trade with each other, and the signs with which they do. Feet on one
 #: edge, a diagonal or alone; the inner points' distance with the mean height, by the angle at which these take over.
 RIDGES: tuple[dict[str, float], ...] = (

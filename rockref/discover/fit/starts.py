@@ -38,8 +38,8 @@ INSIDE = (0.02, 0.98)
 ALIKE = 0.1
 #: Part of the first swing over which releases and the sensor are sized: before the first impact nothing is chaotic.
 FIRST_SWING = 0.85
-#: Steps that size them: tempered ones, and more at the true noise.
-SIZED = (4, 2)
+#: Steps that size the releases: tempered ones, and more at the true noise.
+RELEASED = (4, 2)
 
 
 def first_impact(fitter: Fitter) -> float:
@@ -55,8 +55,9 @@ def first_swing(fitter: Fitter) -> Stage:
 
 def released(fitter: Fitter, h: FittedModel) -> FittedModel:
     """Return a hypothesis with the releases that the first swing shows. Wrong ones hide the true law."""
-    sized = fitter.tempered(h.copy(), stage := first_swing(fitter), SIZED[0])
-    fitter.refine(sized, stage, SIZED[1])
+    stage = first_swing(fitter)
+    sized = fitter.tempered(h.copy(), stage, RELEASED[0])
+    fitter.refine(sized, stage, RELEASED[1])
     z = [at if p.run is not None and not p.effect else own
          for p, at, own in zip(fitter.parameters(h), sized.z, h.z, strict=True)]  # fmt: skip
     return FittedModel(h.effects, np.array(z))
@@ -94,31 +95,36 @@ def stages(fitter: Fitter) -> list[Stage]:
 
 @dataclass
 class GlobalFit:
-    """A fit from starts over the whole prior: the best, and fits that differ over each horizon on the way."""
+    """A fit from starts over the whole prior: fits that differ over each horizon on the way, best first."""
 
-    best: FittedModel
     fields: list[list[FittedModel]]
 
+    @property
+    def best(self) -> FittedModel:
+        """Return the best over whole records; it alone was fitted to all runs."""
+        return self.fields[-1][0]
 
-def global_fit(fitter: Fitter, effects: Sequence[str], z: np.ndarray, count: int = DRAWS) -> GlobalFit:
+
+def global_fit(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> GlobalFit:
     """Fit a hypothesis at the shortest memory from starts over the whole prior, farther and farther, on few runs.
 
     z : numbers of releases and effects from which all start
     """
     few = FewRuns(fitter.problem)
-    fields = populations(Fitter(few.problem), effects, few.taken(effects, z), count)
+    fields = populations(Fitter(few.problem), effects, few.taken(effects, z))
     fitter.problem.listener.simulated += few.problem.listener.simulated
     for h in (h for field in fields for h in field):
         h.z, h.r, h.objective = few.put(effects, h.z, z), None, np.inf
-    found = fitter.tempered(fields[-1][0], S1, AGAIN)
-    found.start = found.z.copy()
-    return GlobalFit(found, fields)
+    found = GlobalFit(fields)
+    fitter.tempered(found.best, S1, AGAIN)
+    found.best.start = found.best.z.copy()
+    return found
 
 
-def populations(fitter: Fitter, effects: Sequence[str], z: np.ndarray, count: int) -> list[list[FittedModel]]:
+def populations(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> list[list[FittedModel]]:
     """Return fits from starts over the whole prior that differ, over each horizon, best first."""
     rng = np.random.default_rng(fitter.problem.seed)
-    field, fields = draws(fitter, effects, z, count), []
+    field, fields = draws(fitter, effects, z, DRAWS), []
     first = stages(fitter)[0]
     fitter.evaluate_all(field, first)
     for most, steps in ROUNDS:

@@ -59,7 +59,8 @@ def test_who_gains_little_has_arrived():
 
 def test_children_stay_within_the_prior_and_one_alone_has_itself():
     members = fits((2.4, -2.4), (-2.4, 2.4), (0.0, 0.0))
-    born = [h.z for _ in range(50) for h in children(Valleys(), members, np.random.default_rng())]
+    rng = np.random.default_rng(0)
+    born = [h.z for _ in range(50) for h in children(Valleys(), members, rng)]
     assert np.abs(born).max() <= 2.5 and np.ptp(born, axis=0)[0] == 5.0
     (only,) = children(Valleys(), members[:1], np.random.default_rng(0))
     assert np.array_equal(only.z, members[0].z)

@@ -185,7 +185,7 @@ ODD = {
     "noisy": (noisy, {"W-NOISE"}, "column wy_deg_s", "0.05"),
     "spike": (spiked, {"W-SPIKE"}, "column wz_deg_s", "80 deg/s at 1.2 s (row 601)"),
     # (alpha - tilt) p sinh(p t) at 80 ms and the 26 ms after it
-    "begun late": (
+    "late start": (
         lambda t, w: (t[:-40], w[40:]),
         {"W-MOVING", "W-RELEASE"},
         "column wx_deg_s",

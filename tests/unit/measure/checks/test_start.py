@@ -6,16 +6,9 @@ import numpy as np
 import pytest
 
 from rockref.measure.experiment import load_experiment
-from tests.records import DEGREE, Gyro, motion_of, sensed, some_block, written
+from tests.records import written
 
 RATE = 1000
-
-
-@pytest.fixture(scope="module")
-def made():
-    block = some_block(np.random.default_rng(4), 0.1)
-    gyro = Gyro(float(RATE), 0.05 * DEGREE, 300.0, 0.01 * DEGREE)
-    return sensed(block, gyro, np.random.default_rng(4), motion_of(block, swings=12.0))
 
 
 def notices(folder, code):

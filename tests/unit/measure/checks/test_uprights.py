@@ -9,16 +9,9 @@ from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.arcs import turned_angle
 from rockref.measure.signals.impacts import main_impacts
 from rockref.model.errors import InputError
-from tests.records import DEGREE, Gyro, motion_of, sensed, some_block, written
+from tests.records import DEGREE, written
 
 RATE = 1000
-
-
-@pytest.fixture(scope="module")
-def made():
-    block = some_block(np.random.default_rng(4), 0.1)
-    gyro = Gyro(float(RATE), 0.05 * DEGREE, 300.0, 0.01 * DEGREE)
-    return sensed(block, gyro, np.random.default_rng(4), motion_of(block, swings=12.0))
 
 
 def told(tmp_path, made, degrees):
