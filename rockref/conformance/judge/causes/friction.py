@@ -15,7 +15,16 @@ from rockref.conformance.judge.compare_answer import LOOK, Check, weighed_in_bar
 from rockref.conformance.judge.negligible import size_and_unit
 from rockref.conformance.vectors import Vector
 from rockref.conformance.vectors.fields import result
-from rockref.model.contact import Kinematics, kelvin_voigt, norm, open_gap, point_kinematics, touch, trial_force
+from rockref.model.contact import (
+    Kinematics,
+    kelvin_voigt,
+    norm,
+    open_gap,
+    point_kinematics,
+    radial_return,
+    touch,
+    trial_force,
+)
 
 HELD = "Feet that should slide show their trial force: they are held to stick."
 LOOSE = "Feet that should stick show the sliding force: they are made to slide."
@@ -89,10 +98,10 @@ def rule_of_the_start(vector: Vector, out: dict[str, Any], check: Check) -> tupl
 
 
 def sliding_force(q: dict[str, Any], k: Kinematics, F_trial: np.ndarray) -> np.ndarray:
-    """Return the force (n, 2) [N] of feet that slide along their trial force (n, 2) [N]. q : inputs of a run"""
+    """Return friction (n, 2) [N] of feet that all slide along it (3.6b); F_trial (n, 2) [N], q : inputs of a run"""
     F_N = open_gap(k.xi, kelvin_voigt(k.xi, k.xi_rate, q["K_N"], q["C_N"]))
-    length = np.maximum(norm(F_trial), np.finfo(float).tiny)
-    return (q["mu"] * F_N / length)[:, None] * F_trial
+    size = norm(F_trial)
+    return radial_return(F_trial, size, size == 0, q["mu"] * F_N)
 
 
 def of_the_row_before(vector: Vector, out: dict[str, Any], check: Check) -> bool:
