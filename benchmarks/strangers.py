@@ -6,7 +6,7 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | ninth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | tenth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
@@ -38,6 +38,7 @@ import strangers_schemes
 import strangers_second
 import strangers_seventh
 import strangers_sixth
+import strangers_tenth
 import strangers_third
 from strangers_list import HARMLESS, Mistake
 
@@ -60,6 +61,7 @@ LISTS = {
     "seventh": strangers_seventh.MISTAKES,
     "eighth": strangers_eighth.MISTAKES,
     "ninth": strangers_ninth.MISTAKES,
+    "tenth": strangers_tenth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -198,6 +200,7 @@ IN_PYTHON = (
     *strangers_seventh.IN_PYTHON,
     *strangers_eighth.IN_PYTHON,
     *strangers_ninth.IN_PYTHON,
+    *strangers_tenth.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
