@@ -6,7 +6,7 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | tenth   the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | eleventh  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
@@ -30,6 +30,7 @@ import numpy as np
 import strangers_controls
 import strangers_controls_c
 import strangers_eighth
+import strangers_eleventh
 import strangers_fifth
 import strangers_fourth
 import strangers_list
@@ -62,6 +63,7 @@ LISTS = {
     "eighth": strangers_eighth.MISTAKES,
     "ninth": strangers_ninth.MISTAKES,
     "tenth": strangers_tenth.MISTAKES,
+    "eleventh": strangers_eleventh.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -201,6 +203,7 @@ IN_PYTHON = (
     *strangers_eighth.IN_PYTHON,
     *strangers_ninth.IN_PYTHON,
     *strangers_tenth.IN_PYTHON,
+    *strangers_eleventh.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)

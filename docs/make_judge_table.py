@@ -13,7 +13,7 @@ HEAD = "| what is judged | shown | asked | detected | named by the right rule | 
 NAMES = {
     "first": "first list of mistakes", "second": "second list", "third": "third list", "fourth": "fourth list",
     "fifth": "fifth list", "sixth": "sixth list", "seventh": "seventh list", "eighth": "eighth list",
-    "ninth": "ninth list", "tenth": "tenth list",
+    "ninth": "ninth list", "tenth": "tenth list", "eleventh": "eleventh list",
     "scheme": "mistakes in other integrators", "fourth scheme": "fourth list, in further integrators",
     "fifth scheme": "fifth list, in further integrators",
     "variants": "correct variants", "zoo": "zoo",
