@@ -12,6 +12,7 @@ import numpy as np
 
 from rockref.conformance import vectors
 from rockref.conformance.backends import call, richardson
+from rockref.conformance.judge.causes.steps_of_a_run import step_is_wrong
 from rockref.conformance.judge.claims import ClaimCheck, judge_claims
 from rockref.conformance.judge.compare_answer import (
     LOOK,
@@ -38,7 +39,10 @@ NOT_OF_THE_SCHEME = {"integrate", "step"}
 
 @dataclass
 class Findings:
-    """Everything that was seen of one backend; `answers` to the vectors of the small layers and short runs."""
+    """Everything that was seen of one backend; `answers` to the vectors of the small layers and short runs.
+
+    step_is_wrong : whether the step, asked from the states of the first short run that is outside, is wrong by itself
+    """
 
     backend: dict[str, Any]
     profile: str
@@ -50,6 +54,7 @@ class Findings:
     remarks: list[str] = field(default_factory=list)
     answers: list[tuple[Vector, dict[str, Any]]] = field(default_factory=list)
     pieces: tuple[str, ...] = ()
+    step_is_wrong: bool = False
     seconds: float = 0.0
 
     @property
@@ -132,6 +137,7 @@ def judge(
         late = [] if findings.failures else [c for v, out in findings.answers for c in stand_ins(v, out, profile)]
         findings.checks += late
         findings.checks += left_behind(backend, findings)
+        findings.step_is_wrong = wrong_in_a_run(backend, findings)
     findings.remarks += getattr(backend, "remarks", [])
     findings.seconds = time.perf_counter() - begin
     return findings
@@ -196,6 +202,15 @@ def left_behind(backend: Any, findings: Findings) -> list[Check]:
     except call.ANYTHING:  # the backend is a stranger's
         return []
     return [replace(failed, rule="S2", note=OTHERWISE)] if changed else []
+
+
+def wrong_in_a_run(backend: Any, findings: Findings) -> bool:
+    """Return whether a step that passes by itself is wrong in the first short run that is outside."""
+    failed = findings.failures
+    if not failed or not call.has(backend, "step") or any(c.layer != "L5s" for c in failed):
+        return False
+    vector = next((v for v, _ in findings.answers if v.id == failed[0].vector), None)
+    return vector is not None and step_is_wrong(backend, vector)
 
 
 def _properties(backend: Any, findings: Findings, examples: int) -> None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-from rockref.conformance.judge.causes.friction import rule_of_friction
+from rockref.conformance.judge.causes.other_runs import cause_of
 from rockref.conformance.judge.causes.whole_steps import rule_of_a_step
 from rockref.conformance.judge.compare_answer import ELSEWHERE, OTHERWISE, Check
 from rockref.conformance.judge.findings import LAYERS, Findings, finite, of_the_profile
@@ -22,6 +22,7 @@ UNASKED = "Pieces that could tell the rule were not asked: ask for all layers, o
 NO_RULE = "No short run diverges: the first divergent sample of the long ones is all that is known."
 A_STEP = "A whole step is wrong, and no short run tells by which rule: it is this one, or one that comes before it."
 HANDED = "The piece by itself passes: look at what the step hands to it."
+STEP_OF_THE_RUN = "The pieces pass by themselves, steps of other runs, too; the step from a state of this run does not."
 COMPANY = "The piece by itself passes; where several feet stand together, at the very start of a run, it does not."
 ANEW = "The answer is that of a start evaluated anew: the a, T and F that the start brings were not taken."
 SMALL = ("L0", "L1", "L2", "L3", "L7")
@@ -180,6 +181,8 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
         unproved = first([c for c in checks if c.layer in SHORT and c.rule not in good])
         if unproved is not None and not {"step", "integrate"} & set(pieces):
             return unproved.rule, unproved, ""
+        if findings.step_is_wrong:
+            return check.rule, check, STEP_OF_THE_RUN
         return ("S2", check, LOOP) if all_asked(findings) else (None, check, UNASKED)
     return None, None, ""
 
@@ -225,7 +228,7 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     rules = status_of_rules(findings.checks)
     rule, check, says = suspect(findings)
     if check is not None and rule == check.rule and says in ("", COMPANY):
-        rule, words = rule_of_friction(findings.answers, findings.checks, check)
+        rule, words = cause_of(findings.answers, findings.checks, check, findings.profile)
         says = " ".join(filter(None, (says, words)))
     if check is not None and not check.weighed:
         rule, says = None, unanswered(findings.checks)

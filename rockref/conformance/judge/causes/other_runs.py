@@ -1,0 +1,26 @@
+"""Which rule a failure speaks of beside its own, as the same run and the other runs tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from rockref.conformance.judge.causes.circumstances import rule_in_common
+from rockref.conformance.judge.causes.falls import rule_of_a_fall
+from rockref.conformance.judge.causes.friction import rule_of_friction
+from rockref.conformance.judge.compare_answer import Check
+from rockref.conformance.vectors import Vector
+
+
+def cause_of(
+    answers: Sequence[tuple[Vector, dict[str, Any]]], checks: Sequence[Check], check: Check, profile: str
+) -> tuple[str, str]:
+    """Return the rule that a failure speaks of, and a sentence where that is another than its own.
+
+    Its own numbers are asked first, then what all runs have in common that are wrong, then how a fall goes on.
+    """
+    rule, words = rule_of_friction(answers, checks, check)
+    if words or profile != "float64" or check.layer != "L5s":
+        return rule, words
+    rule, words = rule_in_common(answers, check, rule)
+    return (rule, words) if words else rule_of_a_fall(answers, rule)

@@ -1,0 +1,78 @@
+"""What all wrong friction forces have in common names the rule; what a fall is off by tells place from acceleration."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rockref.conformance import vectors
+from rockref.conformance.backends.call import ask
+from rockref.conformance.backends.law import NumpyEngine, RulesBackend
+from rockref.conformance.judge.causes.circumstances import CIRCUMSTANCES, rows_of_the_law, rule_in_common
+from rockref.conformance.judge.causes.falls import rule_of_a_fall
+from rockref.conformance.judge.causes.steps_of_a_run import step_is_wrong
+from rockref.conformance.judge.compare_answer import Check
+
+
+@pytest.fixture(scope="module")
+def right():
+    """The law's answers to all short runs."""
+    return [(v, ask(NumpyEngine(), v)) for v in vectors.layer("L5s")]
+
+
+def with_wrong_friction(answers, meets, hidden):
+    """The answers, friction changed in the first row in which a foot meets a circumstance; and a failure that tells.
+    Hidden: no forces are shown, and the row after has another place."""
+    found, told = [], ""
+    for v, out in answers:
+        out = {k: np.array(out[k]) for k in ("x", "Lambda", "W", "F")}
+        for i, row in enumerate(rows_of_the_law(v.id)):
+            off = np.zeros(len(row.F), bool)
+            if row.feet is not None:
+                off[row.feet["touching"]] = meets({k: a for k, a in row.feet.items() if k != "touching"})
+            if np.any(off) and (not hidden or i + 1 < len(out["x"])):
+                out["F"][i, off, 0] += 1.0
+                out["x"][i + 1 :, 0] += 1e-9 * hidden
+                told = v.id
+                break
+        found.append((v, {k: a for k, a in out.items() if k != "F" or not hidden}))
+    return found, Check(told, "L5s", "T6", "F_T@0", "outside", float("inf"))
+
+
+@pytest.mark.parametrize("hidden", [False, True])
+@pytest.mark.parametrize("words", ["feet slid in the step before", "stretched feet stand beside one that touches anew"])
+def test_what_all_wrong_forces_have_in_common_names_the_rule(right, words, hidden):
+    rule, meets = next((rule, meets) for rule, said, meets in CIRCUMSTANCES if said == words)
+    answers, check = with_wrong_friction(right, meets, hidden)
+    named, says = rule_in_common(answers, check, "T6")
+    assert named == rule and words in says
+
+
+def test_the_rule_that_is_told_stays_where_nothing_explains_more(right):
+    rng = np.random.default_rng(5)
+    answers, check = with_wrong_friction(right, lambda feet: rng.random(len(feet["new"])) < 0.3, False)
+    assert rule_in_common(answers, check, "T6") == ("T6", "")
+    answers, check = with_wrong_friction(right, CIRCUMSTANCES[0][2], False)
+    assert rule_in_common(answers, replace(check, rule="K1"), "K1") == ("K1", ""), "forces say nothing of levers"
+
+
+@pytest.mark.parametrize(("power", "rule"), [(1, "I1"), (2, "A1")])
+def test_a_fall_that_loses_the_same_way_in_each_step_is_wrong_in_its_place(right, power, rule):
+    off = [(v, out | {"x": out["x"] + 1e-6 * np.arange(len(out["x"]))[:, None] ** power}) for v, out in right]
+    assert rule_of_a_fall(off, "A1")[0] == rule
+    assert rule_of_a_fall(off, "K1") == ("K1", "")
+
+
+class Slips(RulesBackend):
+    """The law, whose step is wrong where feet are down and have no damper."""
+
+    def step(self, problem):
+        out = super().step(problem)
+        slips = bool(np.any(out["anchored"])) and not np.any(problem.points.C_N)
+        return out | {"F": np.asarray(out["F"]) + 1.0 * slips}
+
+
+def test_a_step_that_is_wrong_in_a_run_alone_is_asked_by_itself():
+    standing = next(v for v in vectors.layer("L5s") if not np.any(v.inputs["C_N"]) and "S" in "".join(v.branch["rows"]))
+    assert step_is_wrong(Slips(), standing) and not step_is_wrong(RulesBackend(), standing)
+    assert not any(step_is_wrong(Slips(), v) for v in vectors.layer("L5s")[:3])
