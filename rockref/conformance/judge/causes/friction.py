@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.conformance.judge.causes.one_foot import rule_of_one_foot
 from rockref.conformance.judge.compare_answer import LOOK, Check, weighed_in_bars
 from rockref.conformance.judge.negligible import size_and_unit
 from rockref.conformance.vectors import Vector
@@ -46,6 +47,9 @@ def rule_of_friction(
     if vector is None or not check.weighed or check.rule not in OF_FRICTION:
         return check.rule, ""
     if vector.piece == "contact_law":
+        rule, words = rule_of_one_foot(vector.inputs, out, check)
+        if words:
+            return rule, words
         other = check.name == "sliding" and check.got is False and shows_another_trial(vector.inputs, out)
         return ("T1", OTHER_TRIAL) if other else (check.rule, "")
     if vector.piece != "simulate":

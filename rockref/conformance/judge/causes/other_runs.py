@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from rockref.conformance.judge.causes.circumstances import rule_in_common
+from rockref.conformance.judge.causes.circumstances import rule_in_common, rule_of_normal_forces
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
-from rockref.conformance.judge.causes.friction import rule_of_friction
+from rockref.conformance.judge.causes.friction import DAMPER, rule_of_friction
 from rockref.conformance.judge.compare_answer import Check
 from rockref.conformance.vectors import Vector
 
@@ -17,10 +17,14 @@ def cause_of(
 ) -> tuple[str, str]:
     """Return the rule that a failure speaks of, and a sentence where that is another than its own.
 
-    Its own numbers are asked first, then what all runs have in common that are wrong, then how a fall goes on.
+    Its own numbers are asked first, then the normal forces of its row, then what all runs have in common that are
+    wrong, then how a fall goes on.
     """
     rule, words = rule_of_friction(answers, checks, check)
-    if words or profile != "float64" or check.layer != "L5s":
+    if (words and words != DAMPER) or profile != "float64" or check.layer != "L5s":
         return rule, words
-    rule, words = rule_in_common(answers, check, rule)
+    for ask in (rule_of_normal_forces, rule_in_common):
+        other, says = ask(answers, check, rule)
+        if says:
+            return other, says
     return (rule, words) if words else rule_of_a_fall(answers, rule)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.backends.call import ANYTHING, as_mapping
-from rockref.conformance.judge.causes.circumstances import SAME, WRONG
+from rockref.conformance.judge.causes.rows_of_the_law import SAME, WRONG
 from rockref.conformance.vectors import Vector, problem_of
 from rockref.model.integrator import first_evaluation, prepared_inertia, step
 

@@ -8,8 +8,14 @@ import pytest
 from rockref.conformance import vectors
 from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine, RulesBackend
-from rockref.conformance.judge.causes.circumstances import CIRCUMSTANCES, rows_of_the_law, rule_in_common
+from rockref.conformance.judge.causes.circumstances import (
+    CIRCUMSTANCES,
+    rule_in_common,
+    rule_of_normal_forces,
+)
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
+from rockref.conformance.judge.causes.one_foot import rule_of_one_foot
+from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
 from rockref.conformance.judge.causes.steps_of_a_run import step_is_wrong
 from rockref.conformance.judge.compare_answer import Check
 
@@ -29,7 +35,7 @@ def with_wrong_friction(answers, meets, hidden):
         for i, row in enumerate(rows_of_the_law(v.id)):
             off = np.zeros(len(row.F), bool)
             if row.feet is not None:
-                off[row.feet["touching"]] = meets({k: a for k, a in row.feet.items() if k != "touching"})
+                off = row.feet["touching"] & meets(row.feet)
             if np.any(off) and (not hidden or i + 1 < len(out["x"])):
                 out["F"][i, off, 0] += 1.0
                 out["x"][i + 1 :, 0] += 1e-9 * hidden
@@ -54,6 +60,55 @@ def test_the_rule_that_is_told_stays_where_nothing_explains_more(right):
     assert rule_in_common(answers, check, "T6") == ("T6", "")
     answers, check = with_wrong_friction(right, CIRCUMSTANCES[0][2], False)
     assert rule_in_common(answers, replace(check, rule="K1"), "K1") == ("K1", ""), "forces say nothing of levers"
+
+
+def changed_where(answers, meets, component):
+    """The answers, with a component of forces changed in the first row in which a foot meets a circumstance; by run."""
+    found, told = [], []
+    for v, out in answers:
+        F = np.array(out["F"])
+        off = [(i, meets(row.feet)) for i, row in enumerate(rows_of_the_law(v.id)) if row.feet is not None]
+        for i, feet in [(i, feet) for i, feet in off if np.any(feet)][:1]:
+            F[i, feet, component] += 1.0
+            told.append(v.id)
+        found.append((v, dict(out) | {"F": F}))
+    return found, told
+
+
+def test_dampers_that_are_right_where_the_block_turns_alone_speak_of_the_velocity(right):
+    for meets, rule in (
+        (lambda f: f["touching"] & f["damper"] & f["drift"] & ~f["slides"], "K1"),
+        (lambda f: f["touching"] & f["damper"] & ~f["slides"], "T1"),
+    ):
+        answers, told = changed_where(right, meets, 0)
+        check = Check(told[0], "L5s", "T1", "F_T@0", "outside", float("inf"))
+        assert rule_in_common(answers, check, "T1")[0] == rule
+
+
+def test_friction_of_feet_whose_normal_force_is_wrong_speaks_of_that(right):
+    answers, told = changed_where(right, lambda f: f["touching"] & f["push"] & f["slid"], 2)
+    check = Check(told[-1], "L5s", "T5", "F_T@1", "outside", float("inf"))
+    assert rule_of_normal_forces(answers, check, "T5")[0] == "N1"
+    for meets, rule in ((lambda f: ~f["touching"], "N2"), (lambda f: f["push"] | ~f["touching"], "K1")):
+        answers, told = changed_where(right, meets, 2)
+        assert rule_of_normal_forces(answers, replace(check, name="F_N@0", vector=told[0]), "N2")[0] == rule
+
+
+def test_of_one_foot_the_first_result_that_is_wrong_is_told():
+    vector = next(v for v in vectors.layer("L1") if {"slip", "touch-down"} <= set(v.flags))
+    out, check = RulesBackend().contact_law(**vector.inputs), Check(vector.id, "L1", "T3", "F_T", "outside")
+    assert rule_of_one_foot(vector.inputs, out, check) == ("T3", "")
+    assert rule_of_one_foot(vector.inputs, out | {"F_N": out["F_N"] + 1.0}, check)[0] == "N1"
+    moved = out["trace"] | {"s_trial": out["trace"]["s_trial"] + 1e-6}
+    assert rule_of_one_foot(vector.inputs, out | {"trace": moved}, check)[0] == "T5"
+
+
+def test_a_fall_that_is_right_where_the_start_brings_its_acceleration_speaks_of_the_first_evaluation(right):
+    def lost(v, out):
+        missing = 0.0 if v.inputs.get("a") is not None else 1e-6
+        return out | {"x": out["x"] + missing * np.arange(len(out["x"]))[:, None]}
+
+    assert rule_of_a_fall([(v, lost(v, dict(out))) for v, out in right], "A1")[0] == "S2"
 
 
 @pytest.mark.parametrize(("power", "rule"), [(1, "I1"), (2, "A1")])
