@@ -27,8 +27,8 @@ def rule_of_a_fall(answers: Sequence[tuple[Vector, dict[str, Any]]], rule: str) 
     if rule != "A1":
         return rule, ""
     runs = [(v, out) for v, out in answers if v.layer == "L5s" and free(v)]
-    grown = [g for v, out in runs for g in growth(v, out)]
-    if len(grown) < 2 or any(abs(g - 2) >= NEAR for g in grown):
+    ratios = [g for v, out in runs for g in growth(v, out)]
+    if len(ratios) < 2 or any(abs(g - 2) >= NEAR for g in ratios):
         return rule, ""
     own = [same(out, "x", 1, rows_of_the_law(v.id)[1].x) for v, out in runs if lifted(v)]
     return ("S2", AT_THE_START) if own and all(own) else ("I1", AS_THE_STEPS)
