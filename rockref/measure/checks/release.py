@@ -8,8 +8,6 @@ import numpy as np
 
 from rockref.measure.reading.columns import DEGREE
 from rockref.measure.records.notice import Notice
-from rockref.measure.signals.arcs import turned_angle
-from rockref.measure.signals.impacts import main_impacts
 from rockref.measure.signals.noise import LEAST_WINDOWS, window_samples
 from rockref.measure.signals.running import half_width, running_mean
 from rockref.measure.signals.signal import Signal
@@ -194,7 +192,7 @@ def check_rest(signal: Signal) -> list[Notice]:
 
 def check_first_impact(signal: Signal) -> list[Notice]:
     """Remark on a first main impact at another time than a block of this size allows (W-FIRST-IMPACT)."""
-    impacts, duration = main_impacts(signal.t, signal.crv), signal.duration
+    impacts, duration = signal.impacts, signal.duration
     # A sample or two are no other time.
     if len(impacts) and abs(impacts.times[0] - duration) <= TIME_MARGIN * duration + 2.0 * signal.step:
         return []
@@ -209,10 +207,10 @@ def check_turned(signal: Signal) -> list[Notice]:
 
     Raises InputError E-RATE-SIZE where they are far off it at the expected time: that is a scale.
     """
-    impacts = main_impacts(signal.t, signal.crv)
+    impacts = signal.impacts
     if not len(impacts) or abs(impacts.times[0] - signal.duration) > TIME_MARGIN * signal.duration + 2.0 * signal.step:
         return []
-    turned = signal.sign * float(np.interp(impacts.times[0], signal.t, turned_angle(signal.t, signal.crv[:, 0])))
+    turned = signal.sign * float(np.interp(impacts.times[0], signal.t, signal.turned))
     off = turned / signal.tilt
     # An impact is known to two samples, in which the block turns on.
     if abs(off - 1.0) < TURNED_OFF + 2.0 * signal.step * signal.rate / signal.tilt:

@@ -7,8 +7,6 @@ import math
 import numpy as np
 
 from rockref.measure.records.notice import Notice
-from rockref.measure.signals.arcs import turned_angle
-from rockref.measure.signals.impacts import main_impacts
 from rockref.measure.signals.signal import Signal, growth_rate, stretches
 
 # decided: the arc is looked at in the middle of the swing, where it stands out of the noise and the feet are still.
@@ -44,7 +42,7 @@ def arc_start(signal: Signal, impact: float) -> tuple[float, float]:
 
 def check_start(signal: Signal) -> list[Notice]:
     """Remark on an arc that does not begin at zero (W-RELEASE): another start of time, or a start that moves."""
-    impacts = main_impacts(signal.t, signal.crv)
+    impacts = signal.impacts
     if not len(impacts) or signal.t[0] > LATE_SAMPLES * signal.step:
         return []
     start, error = arc_start(signal, float(impacts.times[0]))
@@ -63,13 +61,13 @@ def samples_before_setting_up(signal: Signal) -> tuple[int, float]:
     samples and NaN where it never does.
     """
     t, crv = signal.t, signal.crv
-    impacts = main_impacts(t, crv)
+    impacts = signal.impacts
     still = (np.abs(crv) < STILL * signal.grain).all(axis=1)
     # A hand that turns the block loses nothing at the largest rate.
     uprights = impacts.times[impacts.drops > 0.0]
     if not len(uprights) or not signal.grain > 0.0:
         return len(t), math.nan
-    turned = turned_angle(t, crv[:, 0])
+    turned = signal.turned
     upright = np.interp(t, uprights, np.interp(uprights, t, turned))
     # About an apex the rate goes from one such width to the other at the slope of the swing.
     apex = 2.0 * STILL * signal.grain * signal.duration / signal.rate

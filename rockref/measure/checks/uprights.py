@@ -12,8 +12,6 @@ import numpy as np
 
 from rockref.measure.reading.columns import DEGREE
 from rockref.measure.records.notice import Notice
-from rockref.measure.signals.arcs import turned_angle
-from rockref.measure.signals.impacts import Impacts, main_impacts
 from rockref.measure.signals.running import half_width, running_mean
 from rockref.measure.signals.signal import REFERENCE_SCALE, Signal
 from rockref.model.errors import InputError
@@ -43,20 +41,21 @@ def check_uprights(signal: Signal) -> list[Notice]:
 
     An arc is judged beside the others of its record: a zero that is off, or a range that cuts, is off in all of them.
     """
-    impacts = main_impacts(signal.t, signal.crv)
+    impacts = signal.impacts
     if len(impacts) < 3 or signal.scale * REFERENCE_SCALE < LEAST_SAMPLES * signal.step:
         return []
-    turned = turned_angle(signal.t, signal.crv[:, 0])
-    leaps = leaps_in_arcs(signal, turned, impacts)
-    arc = odd_arc(signal, turned, impacts)
+    leaps, arc, what = leaps_in_arcs(signal), odd_arc(signal), ""
     if arc is not None:
         begin, end = impacts.times[arc[0] : arc[0] + 2]
+        what = f"the block stands upright at {begin:.4g} and at {end:.4g} s, and between them the rates add up to"
+        what += f" {arc[1] / DEGREE:.3g} degrees"
         if begin < FOLLOWED * signal.scale:
-            raise _refusal(signal, impacts, arc, leaps)
-        return [Notice("W-LEAP", signal.column(0), _adds_up(arc[1], begin, end), _CURE_OF_LEAP)]
-    if not len(leaps):
-        return []
-    return [Notice("W-LEAP", signal.column(0), _leap(signal, leaps), _CURE_OF_LEAP)]
+            inside = leaps[(signal.t[leaps] > begin) & (signal.t[leaps] < end)]
+            what += f"; the rate {_leap(signal, inside)}" if len(inside) else ""
+            raise InputError("E-ROWS-LOST", signal.column(0), what, _CURE)
+    elif len(leaps):
+        what = _leap(signal, leaps)
+    return [Notice("W-LEAP", signal.column(0), what, _CURE_OF_LEAP)] if what else []
 
 
 _CURE = "Rows were lost or put out of order while the time went on: use another run, or cut the record before it."
@@ -65,12 +64,13 @@ _CURE_OF_LEAP = (
 )
 
 
-def odd_arc(signal: Signal, turned: np.ndarray, impacts: Impacts) -> tuple[int, float] | None:
+def odd_arc(signal: Signal) -> tuple[int, float] | None:
     """Return the arc, by the impact that begins it, whose rates add up to an angle rad where the others' do not.
 
-    turned : (N,) rad, integral of the rate about X. None where all are alike.
+    None where all are alike.
     """
-    angles = np.diff(np.interp(impacts.times, signal.t, turned))
+    impacts = signal.impacts
+    angles = np.diff(np.interp(impacts.times, signal.t, signal.turned))
     spans = np.diff(impacts.times)
     judged = (impacts.peaks[:-1] > LARGE_ARC * signal.rate) & (impacts.peaks[1:] > LARGE_ARC * signal.rate)
     if judged.sum() < 2:
@@ -87,9 +87,9 @@ def odd_arc(signal: Signal, turned: np.ndarray, impacts: Impacts) -> tuple[int, 
     return arc, float(angles[arc])
 
 
-def leaps_in_arcs(signal: Signal, turned: np.ndarray, impacts: Impacts) -> np.ndarray:
+def leaps_in_arcs(signal: Signal) -> np.ndarray:
     """Return the rows (K,) after which the rate about X leaps while the block is away from upright."""
-    t, wx = signal.t, signal.crv[:, 0]
+    t, wx, turned, impacts = signal.t, signal.crv[:, 0], signal.turned, signal.impacts
     upright = np.interp(t, impacts.times, np.interp(impacts.times, t, turned))
     away = (np.abs(turned - upright) > AWAY * signal.tilt) & (t > impacts.times[0]) & (t < impacts.times[-1])
     steps = np.diff(wx)
@@ -106,17 +106,3 @@ def _leap(signal: Signal, leaps: np.ndarray) -> str:
     size = (signal.crv[row + 1, 0] - signal.crv[row, 0]) / DEGREE
     what = f"leaps by {size:.3g} deg/s from row {row + 1} to the next, at {signal.t[row + 1]:.4g} s, far from upright"
     return what + (f", and at {len(leaps) - 1} other rows" if len(leaps) > 1 else "")
-
-
-def _adds_up(angle: float, begin: float, end: float) -> str:
-    what = f"the block stands upright at {begin:.4g} and at {end:.4g} s, and between them the rates add up to"
-    return f"{what} {angle / DEGREE:.3g} degrees"
-
-
-def _refusal(signal: Signal, impacts: Impacts, arc: tuple[int, float], leaps: np.ndarray) -> InputError:
-    begin, end = impacts.times[arc[0] : arc[0] + 2]
-    what = _adds_up(arc[1], begin, end)
-    inside = leaps[(signal.t[leaps] > begin) & (signal.t[leaps] < end)]
-    if len(inside):
-        what += f"; the rate {_leap(signal, inside)}"
-    return InputError("E-ROWS-LOST", signal.column(0), what, _CURE)

@@ -11,6 +11,8 @@ import numpy as np
 from rockref.measure.reading.columns import RATES
 from rockref.measure.reading.table import Table
 from rockref.measure.records.release import Experiment, Gyro, Run
+from rockref.measure.signals.arcs import turned_angle
+from rockref.measure.signals.impacts import Impacts, main_impacts
 from rockref.measure.signals.noise import smallest_step
 from rockref.measure.signals.running import sample_step
 from rockref.model.problem import GRAVITY
@@ -113,6 +115,16 @@ class Signal:
     def tilts(self) -> np.ndarray:
         """Return tilt after each sample, (N,) rad, positive on the side of the release."""
         return tilts(self.t, self.crv[:, 0], self.tilt, self.sign)
+
+    @cached_property
+    def impacts(self) -> Impacts:
+        """Return main impacts. Raises InputError E-SIGNAL."""
+        return main_impacts(self.t, self.crv)
+
+    @cached_property
+    def turned(self) -> np.ndarray:
+        """Return the angle that the rate about X adds up to, (N,) rad, from the first sample."""
+        return turned_angle(self.t, self.crv[:, 0])
 
     @cached_property
     def steps(self) -> np.ndarray:

@@ -75,9 +75,8 @@ def test_batches_are_filtered_one_by_one():
 
 @pytest.mark.parametrize("step", [1e-3, 5.1e-4, 0.0, -1e-5, math.nan])
 def test_coarse_signals_are_refused(step):
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError, match="E-STEP]"):
         low_pass(np.zeros((10, 3)), step, 300.0)
-    assert caught.value.code == "E-STEP"
 
 
 def test_sampling_on_the_grid_takes_the_samples():

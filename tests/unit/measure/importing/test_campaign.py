@@ -87,9 +87,8 @@ def test_a_run_without_a_swing_is_refused(measured, tmp_path):
     paths = foreign.write_logs(measured, tmp_path, "semicolons")
     lines = paths[0].read_text().splitlines()
     paths[0].write_text("\n".join(lines[:1000]) + "\n")
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(InputError, match="E-NO-RELEASE]"):
         import_logs(paths, Choices(*SIDES))
-    assert refused.value.code == "E-NO-RELEASE"
 
 
 def test_a_run_that_the_reader_refuses_is_left_out_and_said(measured, tmp_path):
@@ -126,9 +125,8 @@ def test_what_is_stated_goes_before_what_is_measured(measured, tmp_path):
 def test_axes_that_no_chip_has_are_refused(words):
     from rockref.measure.importing.campaign import stated_axes
 
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(InputError, match="E-AXES]"):
         stated_axes(words)
-    assert refused.value.code == "E-AXES"
 
 
 def run_of(tilt, turned=False):

@@ -102,9 +102,8 @@ def test_what_would_run_is_refused(tmp_path):
 @pytest.mark.parametrize("raw", [b"", b"PK\x03\x04", b"\x80\x02K\x01.", b"cos\nsystem\n(S'true'\ntR."])
 def test_rubbish_is_refused(tmp_path, raw):
     (tmp_path / "0.pt").write_bytes(raw)
-    with pytest.raises(InputError) as e:
+    with pytest.raises(InputError, match="E-FILE]"):
         read_tensor(tmp_path / "0.pt")
-    assert e.value.code == "E-FILE"
 
 
 def test_a_shape_that_reaches_out_is_refused(tmp_path):
@@ -178,9 +177,8 @@ def product(p, q):
 
 
 def test_a_folder_without_tosses_is_refused(tmp_path):
-    with pytest.raises(InputError) as e:
+    with pytest.raises(InputError, match="E-FOLDER]"):
         import_contactnets(tmp_path, tmp_path / "out")
-    assert e.value.code == "E-FOLDER"
     assert not (tmp_path / "out").exists()
 
 

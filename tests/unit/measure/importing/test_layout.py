@@ -49,9 +49,8 @@ def test_a_delimiter_at_the_end_of_rows_is_no_column(tmp_path):
 def test_what_cannot_be_read_is_said(tmp_path, content, code):
     path = tmp_path / "log.csv"
     path.write_text(content)
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(InputError, match=f"{code}]"):
         find_channels(read_log(path))
-    assert refused.value.code == code
 
 
 def test_a_phone_archive_is_read(tmp_path):
@@ -61,9 +60,8 @@ def test_a_phone_archive_is_read(tmp_path):
         archive.writestr("Metadata.csv", "a,b\n")
     assert read_log(path).values.shape == (30, 4)
     path.write_bytes(b"PK\x03\x04 cut off")
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(InputError, match="E-ZIP]"):
         read_log(path)
-    assert refused.value.code == "E-ZIP"
 
 
 def test_columns_are_named_by_words_or_places(tmp_path):
@@ -72,9 +70,8 @@ def test_columns_are_named_by_words_or_places(tmp_path):
     log = read_log(path)
     assert find_channels(log, ("when", "c", "b", "a")).rates == (3, 2, 1)
     assert find_channels(log, ("1", "4", "3", "2")).time == 0
-    with pytest.raises(InputError) as refused:
+    with pytest.raises(InputError, match="E-COLUMN-MISSING]"):
         find_channels(log, ("1", "4", "3", "5"))
-    assert refused.value.code == "E-COLUMN-MISSING"
 
 
 def test_garbled_rows_are_counted(tmp_path):

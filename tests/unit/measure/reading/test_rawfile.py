@@ -95,9 +95,8 @@ def test_missing_file_folder_and_pipe(tmp_path):
 
 
 def test_device_is_refused(tmp_path):
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError, match="E-FILE]"):
         read_bytes(tmp_path.__class__("/dev/zero"), 10)
-    assert caught.value.code == "E-FILE"
 
 
 def test_byte_order_mark_is_dropped_and_said(tmp_path):

@@ -84,9 +84,8 @@ def test_silence_has_an_envelope_of_zero():
 @pytest.mark.parametrize(("start", "end"), [(0.0, 0.006), (2.0, 3.0), (0.5, 0.4)])
 def test_stretch_without_samples_is_refused(start, end):
     t, crv = made(np.ones_like)
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError, match="E-STRETCH]"):
         envelopes(t, crv, start, end)
-    assert caught.value.code == "E-STRETCH"
 
 
 def test_control_looks_as_the_source_describes(shipped):

@@ -72,9 +72,8 @@ def test_bad_tables_are_refused(six, tmp_path, change, code):
     folder = write_tosses(tmp_path / "t", *six)
     text = gzip.decompress((folder / "tosses.csv.gz").read_bytes()).decode()
     (folder / "tosses.csv.gz").write_bytes(gzip.compress(change(text).encode()))
-    with pytest.raises(InputError) as e:
+    with pytest.raises(InputError, match=f"{code}]"):
         load_tosses(folder)
-    assert e.value.code == code
 
 
 def test_a_bad_number_is_told_by_its_line_of_the_file(six, tmp_path):
@@ -94,16 +93,14 @@ def test_a_packed_table_that_is_damaged_is_refused(six, tmp_path, damage):
     folder = write_tosses(tmp_path / "t", *six)
     path = folder / "tosses.csv.gz"
     path.write_bytes(damage(path.read_bytes()))
-    with pytest.raises(InputError) as e:
+    with pytest.raises(InputError, match="E-GZIP]"):
         load_tosses(folder)
-    assert e.value.code == "E-GZIP"
 
 
 def test_a_bomb_is_not_unpacked(tmp_path):
     (tmp_path / "tosses.csv.gz").write_bytes(gzip.compress(bytes(100_000_000), mtime=0))
-    with pytest.raises(InputError) as e:
+    with pytest.raises(InputError, match="E-SIZE]"):
         load_tosses(tmp_path)
-    assert e.value.code == "E-SIZE"
 
 
 @pytest.mark.parametrize("toml", [b"a = " + b"[" * 100_000, b"\xff", b"x" * 2_000_000, None])
@@ -154,9 +151,8 @@ def test_times_that_are_none_of_a_camera_are_refused(tmp_path, rows, code):
     text = 'name = "made"\nkind = "toss"\nbaseline = "four_points"\n'
     text += "[block]\nmass_kg = 0.5\nwidth_m = 0.1\nheight_m = 0.2\n"
     (tmp_path / "experiment.toml").write_text(text + '[[run]]\nid = "0"\nfile = "0.csv"\nuse = "fit"\n')
-    with pytest.raises(InputError) as e:
+    with pytest.raises(InputError, match=f"{code}]"):
         load_tosses(tmp_path)
-    assert e.value.code == code
 
 
 def test_a_release_is_no_toss(tmp_path):
