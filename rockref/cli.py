@@ -24,7 +24,7 @@ KEPT = {
 
 
 def application() -> typer.Typer:
-    """Return the Typer application with every command of :data:`rockref.commands.MODULES`."""
+    """Return the Typer application with every command of :data:`rockref.commands.COMMANDS`."""
     # Plain help (no rich markup): half the start-up time, and examples keep their line breaks.
     app = typer.Typer(
         name="rockref",
@@ -36,8 +36,14 @@ def application() -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
     )
     app.callback()(_top)
-    for name in commands.MODULES:
-        import_module(f"rockref.commands.{name}").register(app)
+    for name, place in commands.COMMANDS.items():
+        folder, _, function = place.partition(".")
+        module = import_module(f"rockref.commands.{folder}")
+        command = getattr(module, function)
+        if isinstance(command, typer.Typer):
+            app.add_typer(command, name=name)
+        else:
+            app.command(name, cls=getattr(module, "Command", None))(command)
     return app
 
 

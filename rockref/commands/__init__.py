@@ -1,28 +1,15 @@
 """The commands of the command line, a small module each.
 
-A module in this folder has one function ``register(app)`` that adds its commands to the Typer application. At its head
-it imports only Typer and the standard library; what a command needs is imported inside the command, so that
-``rockref --help`` stays quick. To add a command: write the module, append its name to :data:`MODULES`.
+A module in this folder has a function of the command's arguments, or a Typer of several. At its head it imports only
+Typer and the standard library; what a command needs is imported inside the function, so that ``rockref --help`` stays
+quick. To add a command: write the module, append it to :data:`COMMANDS`.
 """
 
-# The order is the order in `rockref --help`. A name here without its module is an error at once, never skipped.
-MODULES: tuple[str, ...] = (
-    "demo",
-    "new",
-    "simulate",
-    "shake",
-    "compare",
-    "fit",
-    "identify",
-    "sensitivity",
-    "diagnose",
-    "add",
-    "plan",
-    "effects",
-    "blind",
-    "lab",
-    "conform",
-    "imports",
-    "reproduce",
-    "version_info",
-)
+#: Each command with "module.function", in the order of `rockref --help`. One without its module is an error at once,
+#: never skipped.
+COMMANDS: dict[str, str] = {
+    name: f"{name}.{name}"
+    for name in (
+        "demo new simulate shake compare fit identify sensitivity diagnose add plan effects blind lab conform".split()
+    )
+} | {"import": "imports.imports", "reproduce": "reproduce.reproduce", "doctor": "version_info.doctor"}

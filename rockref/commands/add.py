@@ -10,11 +10,6 @@ from rockref.commands._models import OwnEffects
 from rockref.commands._results import ExperimentFolder, folder_option, only_for
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``add`` to `app`."""
-    app.command("add")(add)
-
-
 def add(
     experiment: ExperimentFolder,
     effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`, or file.py:Class.")],

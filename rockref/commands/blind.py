@@ -19,15 +19,6 @@ Example:
 """
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``blind make``, ``blind score`` and ``blind judge`` to `app`."""
-    group = typer.Typer(cls=FullHelp, no_args_is_help=True, rich_markup_mode=None, help=HELP)
-    group.command("make")(make)
-    group.command("score")(score)
-    group.command("judge")(judge)
-    app.add_typer(group, name="blind")
-
-
 def make(
     folder: Annotated[
         Path,
@@ -170,3 +161,9 @@ def _print(found: dict, as_json: bool) -> None:
 def _check(found: dict, check: bool) -> None:
     if check and any(row["met"] is False for rows in found["by_block"].values() for row in rows):
         raise typer.Exit(1)
+
+
+#: The three as one command.
+blind = typer.Typer(cls=FullHelp, no_args_is_help=True, rich_markup_mode=None, help=HELP)
+for function in (make, score, judge):
+    blind.command()(function)

@@ -10,11 +10,6 @@ from rockref.commands._models import OwnEffects
 from rockref.commands._results import ExperimentFolder, folder_option, only_for
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``compare`` to `app`."""
-    app.command("compare")(compare)
-
-
 def compare(
     experiment: ExperimentFolder,
     model: Annotated[

@@ -12,7 +12,7 @@ from typer.core import TyperCommand
 ACTIONS = ("exe", "export", "answer", "serve", "judge", "zoo", "example", "physics")
 
 
-class WithProgram(TyperCommand):
+class Command(TyperCommand):
     """A command after whose `exe` a program stands with options of its own."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
@@ -32,11 +32,6 @@ def parted(args: list[str], own: set[str]) -> list[str]:
             slip = name.startswith("--") and get_close_matches(name, own, cutoff=0.8)
             return args if slip else [*args[:i], "--", *args[i:]]
     return args
-
-
-def register(app: typer.Typer) -> None:
-    """Add ``conform`` to `app`."""
-    app.command("conform", cls=WithProgram)(conform)
 
 
 def conform(

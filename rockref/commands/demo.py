@@ -9,11 +9,6 @@ import typer
 from rockref.commands._results import folder_name, folder_option
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``demo`` to `app`."""
-    app.command("demo")(demo)
-
-
 def demo(
     output: Annotated[Path, folder_option("--output", "-o", help="Folder for the page and the figures.")] = Path(
         "demo_out"

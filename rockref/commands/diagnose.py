@@ -9,11 +9,6 @@ from rockref.commands._keeping import Fresh
 from rockref.commands._results import ExperimentFolder, PageFolder, only_for
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``diagnose`` to `app`."""
-    app.command("diagnose")(diagnose)
-
-
 def diagnose(
     experiment: ExperimentFolder,
     model: Annotated[

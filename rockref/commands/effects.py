@@ -10,11 +10,6 @@ if TYPE_CHECKING:
     from rockref.effects.base import Effect
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``effects`` to `app`."""
-    app.command("effects")(effects)
-
-
 def effects(
     name: Annotated[
         str | None, typer.Argument(help="An effect: id, id:key=value, or path/to/file.py:Class. Without it, the list.")

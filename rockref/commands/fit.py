@@ -10,11 +10,6 @@ from rockref.commands._keeping import Fresh
 from rockref.commands._results import ExperimentFolder, folder_option, only_for
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``fit`` to `app`."""
-    app.command("fit")(fit)
-
-
 def fit(
     experiment: ExperimentFolder,
     output: Annotated[Path, typer.Option("--output", "-o", help="Where the model goes, a .toml.")] = Path("model.toml"),

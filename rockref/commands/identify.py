@@ -13,11 +13,6 @@ from rockref.commands._results import ExperimentFolder, PageFolder, folder_optio
 MOST = 100_000
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``identify`` to `app`."""
-    app.command("identify")(identify)
-
-
 def identify(
     experiment: ExperimentFolder,
     output: Annotated[

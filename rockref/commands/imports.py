@@ -8,12 +8,7 @@ import typer
 from rockref.commands._results import folder_name, folder_option
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``import`` to `app`."""
-    app.command("import")(import_)
-
-
-def import_(
+def imports(
     kind: Annotated[str, typer.Argument(help="What is imported: contactnets or planardrops.")],
     source: Annotated[
         Path,

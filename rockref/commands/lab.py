@@ -6,11 +6,6 @@ from typing import Annotated
 import typer
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``lab`` to `app`."""
-    app.command("lab")(lab)
-
-
 def lab(
     experiment: Annotated[
         Path | None, typer.Argument(help="Folder with experiment.toml. Default: runs with a hidden effect.")

@@ -15,11 +15,6 @@ if TYPE_CHECKING:
 PICTURE = "first_swing.png"
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``new`` to `app`."""
-    app.command("new")(new)
-
-
 def new(
     folder: Annotated[
         Path, typer.Argument(parser=folder_name, metavar="FOLDER", help="The experiment folder to make.")
@@ -205,7 +200,7 @@ def _tell(campaign: "Campaign") -> None:
     from rockref.commands._terminal import console
     from rockref.measure.importing.units import SPOKEN
     from rockref.report.charts.first_swing import swing_in_text
-    from rockref.report.tables.table import Table
+    from rockref.report.tables.table import table_of
     from rockref.report.terminal.text import print_table, say
 
     out, first = console(), campaign.runs[0]
@@ -215,18 +210,15 @@ def _tell(campaign: "Campaign") -> None:
     noise, step = math.degrees(campaign.noise), math.degrees(campaign.resolution)
     steps = f"steps of {step:.3g} deg/s" if step else "no steps"
     say(out, f"gyroscope: noise {noise:.3g} deg/s, {steps}, bandwidth {campaign.bandwidth:.4g} Hz")
-    rows = [
-        [
-            run.id,
-            Path(run.source).name,
-            f"{run.standing:.1f} s",
-            f"{math.degrees(run.tilt):.2f}°",
-            "turned" if run.turned else "as is",
-            run.use,
-        ]
-        for run in campaign.runs
-    ]
-    print_table(out, Table("", ("run", "log", "at rest", "tilt", "side", "use"), rows, prose=True))
+    columns = {
+        "run": lambda run: run.id,
+        "log": lambda run: Path(run.source).name,
+        "at rest": lambda run: f"{run.standing:.1f} s",
+        "tilt": lambda run: f"{math.degrees(run.tilt):.2f}°",
+        "side": lambda run: "turned" if run.turned else "as is",
+        "use": lambda run: run.use,
+    }
+    print_table(out, table_of(campaign.runs, "", columns, prose=True))
     say(out, f"First swing of run {first.id}, rate about X:")
     room = max(16, min(64, out.width - 2 - len(" +000 deg/s")))
     for line in swing_in_text(first, room):

@@ -8,11 +8,6 @@ import typer
 from rockref.commands._results import PageFolder, only_for
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``plan`` to `app`."""
-    app.command("plan")(plan)
-
-
 def plan(
     model: Annotated[str, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml.")] = "table_3_1",
     runs: Annotated[

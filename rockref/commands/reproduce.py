@@ -16,11 +16,6 @@ import typer
 from rockref.commands._results import folder_name, only_for
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``reproduce`` to `app`."""
-    app.command("reproduce")(reproduce)
-
-
 def reproduce(
     what: Annotated[str, typer.Argument(metavar="STUDY|FOLDER", help="The study, or the folder to make `source` in.")],
     folder: Annotated[

@@ -12,11 +12,6 @@ from rockref.commands._results import folder_option, in_json, say_written
 MOST = 1_000
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``sensitivity`` to `app`."""
-    app.command("sensitivity")(sensitivity)
-
-
 def sensitivity(
     output: Annotated[
         Path, folder_option("--output", "-o", help="Folder for the figures and the result; made if it is not there.")

@@ -8,11 +8,6 @@ import typer
 from rockref.commands._results import PageFolder, folder_option
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``shake`` to `app`."""
-    app.command("shake")(shake)
-
-
 def shake(
     model: Annotated[str, typer.Argument(metavar="MODEL", help="table_3_1, four_points, or a model.toml.")],
     records: Annotated[

@@ -12,11 +12,6 @@ from rockref.commands._results import PageFolder, in_json
 LEAST_RATE = 50.0
 
 
-def register(app: typer.Typer) -> None:
-    """Add ``simulate`` to `app`."""
-    app.command("simulate")(simulate)
-
-
 def simulate(
     given: Annotated[str | None, typer.Argument(metavar="MODEL", hidden=True)] = None,
     model: Annotated[str, typer.Option("--model", "-m", help="table_3_1, four_points, or a model.toml.")] = "table_3_1",

@@ -30,9 +30,9 @@ def command_that(monkeypatch):
             raise error
 
         module = ModuleType("rockref.commands.act")
-        module.register = lambda app: app.command("act")(act)
+        module.act = act
         monkeypatch.setitem(sys.modules, "rockref.commands.act", module)
-        monkeypatch.setattr(commands, "MODULES", ("act",))
+        monkeypatch.setattr(commands, "COMMANDS", {"act": "act.act"})
 
     return install
 
@@ -118,14 +118,16 @@ def test_unknown_command_ends_with_2_and_suggests(capsys):
 
 
 def test_listed_module_that_is_missing_is_an_error(monkeypatch):
-    monkeypatch.setattr(commands, "MODULES", ("no_such_command",))
+    monkeypatch.setattr(commands, "COMMANDS", {"no": "no_such_command.no"})
     with pytest.raises(ModuleNotFoundError):
         cli.application()
 
 
 def test_every_module_of_the_folder_is_listed():
     folder = Path(commands.__file__).parent
-    assert {path.stem for path in folder.glob("[!_]*.py")} == set(commands.MODULES)
+    assert {path.stem for path in folder.glob("[!_]*.py")} == {
+        place.split(".")[0] for place in commands.COMMANDS.values()
+    }
 
 
 @pytest.mark.parametrize("name, command", all_commands())
