@@ -42,7 +42,7 @@ def compare(
     from rockref.discover.compare.models import compare as run_comparison
     from rockref.discover.compare.record import to_dict
     from rockref.discover.compare.sentences import findings
-    from rockref.report.charts.figures import whole_run
+    from rockref.report.charts.run_panels import whole_run
     from rockref.report.terminal.next_command import BASELINE
     from rockref.report.views.comparison_page import write_report
 

@@ -16,7 +16,6 @@ from rockref.api import Model, simulate
 from rockref.discover.compare.finding import Finding
 from rockref.discover.compare.models import Comparison
 from rockref.discover.compare.sentences import findings
-from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnosis_record import plain
 from rockref.discover.progress import StageReport
 from rockref.discover.story import STEPS, Journey, run_story
@@ -29,8 +28,7 @@ from rockref.model.errors import InputError
 from rockref.model.housner import housner
 from rockref.model.response import Response
 from rockref.report.charts import style
-from rockref.report.charts.drawing import Line, Panel
-from rockref.report.charts.figures import write_figures
+from rockref.report.charts.run_panels import housner_line, response_panels, write_figures
 from rockref.report.html import blocks
 from rockref.report.html.curves import curves
 from rockref.report.html.page import Page
@@ -102,24 +100,16 @@ def features_in_words(response: Response) -> list[str]:
 
 def model_curves(model: Model, response: Response):
     """Return the curves of the model alone, Housner about the main axis, contacts as lines."""
-    t, rates = response.t, response.crv
     inertia = model.mass * (model.depth**2 + model.height**2) / 12.0
     tilt = model.parameters.theta_0
     planar = housner(model.mass, model.depth, model.height, inertia, model.g, tilt, DURATION, 200.0, 1e-3)
-    panels = [
-        Panel(f"{a} (deg/s)", [Line("Table 3.1", t, rates[:, k], style.colour(0))], height=125.0)
-        for k, a in enumerate(AXES)
-    ]
-    main = [*panels[0].lines, Line("Housner", planar.t, DEGREES * planar.rate, style.GREY, style.HOUSNER_DASH)]
-    panels[0] = Panel(panels[0].label, main, height=150.0)
-    panels.append(Panel("contacts", strips=response.contacts(), height=110.0, colour=style.colour(0)))
     return curves(
-        t,
-        panels,
+        response.t,
+        response_panels(response, "Table 3.1", style.colour(0), housner_line(planar)),
         title="The model alone",
         sentence="Body rates of the model, Housner's planar block dashed; a line for each point while it touches.",
         marks=[float(v) for v in response.main_impacts()],
-        views=blocks.named_views(main_impacts(t, response.W), DURATION),
+        views=blocks.named_views(main_impacts(response.t, response.W), DURATION),
     )
 
 

@@ -197,12 +197,7 @@ def _response(model: Model, art: _Art) -> dict[str, Any]:
     response = run(model.problem(LONG, output_rate=2000.0), engine="auto")
     J = float(np.asarray(response.problem.block.inertia)[0, 0])
     plane = housner(model.mass, model.width, model.height, J, model.g, model.parameters.theta_0, LONG, 500.0, 1e-3)
-    art.keep(
-        {
-            "figure_3_4_whole": source_figures.response_figure(response, plane),
-            "figure_3_4_zooms": source_figures.zooms_figure(response, plane),
-        }
-    )
+    art.keep(source_figures.response_figures(response, plane))
     return {"facts": [asdict(f) for f in facts(response)], "main_impacts_s": response.main_impacts().tolist()}
 
 

@@ -12,52 +12,23 @@ from rockref.model.channel import DEGREES
 from rockref.model.housner import HousnerResponse
 from rockref.model.response import Response
 from rockref.report.charts import style
-from rockref.report.charts.figures import contact_lines, dressed, mark_impacts, new_figure, titled
+from rockref.report.charts.drawing import draw
+from rockref.report.charts.figures import dressed, new_figure, titled
+from rockref.report.charts.run_panels import housner_line, response_panels
 
 #: The stretches of Fig. 3.4 [s]: the whole record; about the first main impact; the first two; the ninth to eleventh.
 WHOLE, ABOUT_FIRST, FIRST_TWO, LATE = (0.0, 14.0), (0.46, 0.62), (0.45, 1.40), (4.8, 5.9)
 
 
-def response_figure(response: Response, plane: HousnerResponse) -> Any:
-    """Return rates over the whole run, contact indices below; Housner's model on the main axis (as Fig. 3.4a)."""
-    figure = new_figure(10.0, 7.6)
-    axes = figure.subplots(4, 1, sharex=True, height_ratios=[1.3, 1.0, 1.0, 1.0])
-    _rates(axes[:3], response, plane, WHOLE)
-    _contacts(axes[3], response, WHOLE)
-    axes[3].set_xlabel("time (s)")
-    axes[0].legend(loc="upper right", frameon=False, fontsize=8)
-    return titled(figure, "The release of Table 3.1 (as Fig. 3.4a)")
-
-
-def zooms_figure(response: Response, plane: HousnerResponse) -> Any:
-    """Return zooms: about the first main impact, between the first two, ninth to eleventh (as Fig. 3.4b to 3.4j)."""
-    figure = new_figure(12.0, 7.4)
-    stretches = (ABOUT_FIRST, FIRST_TWO, LATE)
-    axes = figure.subplots(4, 3, sharex="col", height_ratios=[1, 1, 1, 0.9])
-    for column, stretch in enumerate(stretches):
-        _rates(axes[:3, column], response, plane, stretch, labelled=column == 0)
-        _contacts(axes[3][column], response, stretch, labelled=column == 0)
-        axes[3][column].set_xlabel("time (s)")
-    return titled(figure, "Zooms (as Fig. 3.4b to 3.4j); red: main impacts")
-
-
-def _rates(axes: Any, response: Response, plane: HousnerResponse, stretch: tuple[float, float], labelled=True) -> None:
-    inside = (response.t >= stretch[0]) & (response.t <= stretch[1])
-    for axis, ax in enumerate(axes):
-        ax.plot(response.t[inside], response.crv[inside, axis], color=style.INK, lw=0.8, label="eight points")
-        if axis == 0:
-            also = (plane.t >= stretch[0]) & (plane.t <= stretch[1])
-            ax.plot(
-                plane.t[also], DEGREES * plane.rate[also], color=style.GREY, lw=0.8, ls=(0, (5, 4)), label="Housner"
-            )
-        mark_impacts(ax, response.main_impacts(), *stretch)
-        dressed(ax, f"{style.AXIS_NAMES[axis]}\n(deg/s)" if labelled else None)
-
-
-def _contacts(ax: Any, response: Response, stretch: tuple[float, float], labelled: bool = True) -> None:
-    contact_lines(ax, response.contacts(), style.COLOURS[0], stretch, labelled)
-    ax.set_xlim(stretch)
-    mark_impacts(ax, response.main_impacts(), *stretch)
+def response_figures(response: Response, plane: HousnerResponse) -> dict[str, Any]:
+    """Return by name of file the rates and contacts of a run with Housner's block, whole and zooms (as Fig. 3.4)."""
+    panels = response_panels(response, "eight points", style.INK, housner_line(plane))
+    marks = response.main_impacts()
+    zooms = "Zooms (as Fig. 3.4b to 3.4j); red: main impacts"
+    return {
+        "figure_3_4_whole": draw(panels, [WHOLE], marks=marks, title="The release of Table 3.1 (as Fig. 3.4a)"),
+        "figure_3_4_zooms": draw(panels, [ABOUT_FIRST, FIRST_TWO, LATE], marks=marks, title=zooms),
+    }
 
 
 def twins_figure(rows: Sequence[dict[str, Any]]) -> Any:

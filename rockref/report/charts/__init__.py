@@ -1,1 +1,1 @@
-"""Pictures: SVG text drawn here, and Matplotlib figures."""
+"""Pictures: panels and other figures, by Matplotlib, as files and inside pages."""

@@ -15,7 +15,9 @@ from rockref.model.errors import InputError
 from rockref.model.problem import Block, ContactPoints, Problem, State
 from rockref.model.response import Response
 from rockref.report.charts import style
-from rockref.report.charts.figures import dressed, mark_impacts, new_figure, titled
+from rockref.report.charts.drawing import draw
+from rockref.report.charts.figures import dressed, new_figure, titled
+from rockref.report.charts.run_panels import response_panels
 from rockref.report.charts.shake_figures import fragility_figure, overturning_map
 from rockref.shake.ensemble import Ensemble
 from rockref.shake.experiment import ShakenExperiment
@@ -43,23 +45,10 @@ def of_response(response: Response) -> Any:
         raise InputError("E-PLOT", "response", "has no rows", "Give a duration and an output rate.")
     if response.problem.batch:
         return _tilts(response)
-    figure = new_figure(9.0, 7.0)
-    axes = figure.subplots(4, 1, sharex=True, height_ratios=[1.5, 1.0, 1.0, 0.9])
-    every = -(-len(response.t) // ROWS)
-    impacts, ends = response.main_impacts(), (float(response.t[0]), float(response.t[-1]))
-    for k in range(3):
-        axes[k].plot(response.t[::every], response.crv[::every, k], color=style.INK, lw=0.9)
-        dressed(axes[k], f"{style.AXIS_NAMES[k]}\n(deg/s)", MARGIN)
-        mark_impacts(axes[k], impacts, *ends)
-    strips = response.contacts()
-    for row, (_, intervals) in enumerate(strips):
-        spans = [(a, b - a) for a, b in intervals]
-        axes[3].broken_barh(spans, (len(strips) - row - 0.75, 0.5), color=style.COLOURS[1], lw=0)
-    axes[3].set_yticks([len(strips) - row - 0.5 for row in range(len(strips))], [name for name, _ in strips])
-    dressed(axes[3], "contacts", MARGIN)
-    axes[3].tick_params(axis="y", labelsize=6)
-    axes[3].set_xlabel("time (s)")
-    return titled(figure, f"{response.facts()['largest lean']} largest lean; red: main impacts")
+    panels = response_panels(response, "simulated", style.INK, every=-(-len(response.t) // ROWS))
+    ends = [(float(response.t[0]), float(response.t[-1]))]
+    title = f"{response.facts()['largest lean']} largest lean; red: main impacts"
+    return draw(panels, ends, marks=response.main_impacts(), title=title)
 
 
 def _tilts(response: Response) -> Any:

@@ -9,7 +9,9 @@ import numpy as np
 
 from rockref.model.channel import DEGREES
 from rockref.report.charts import style
-from rockref.report.charts.figures import dressed, mark_impacts, new_figure, titled
+from rockref.report.charts.drawing import draw
+from rockref.report.charts.figures import new_figure, titled
+from rockref.report.charts.run_panels import rate_panels
 from rockref.studies.predictability import Growth
 from rockref.studies.sensitivity import Family
 from rockref.studies.sensitivity_study import Study
@@ -34,22 +36,9 @@ def sensitivity_figures(study: Study) -> dict[str, Any]:
 
 def family_figure(f: Family, title: str) -> Any:
     """Return three rates over the whole run on the left, between the first two main impacts on the right."""
-    figure = new_figure(10.0, 6.6)
-    axes = figure.subplots(3, 2, sharex="col", width_ratios=[1.6, 1.0])
-    chosen = _drawn(f)
-    for column, (start, end) in enumerate(((0.0, float(f.t[-1])), ZOOM)):
-        inside = (f.t >= start) & (f.t <= end)
-        for axis, name in enumerate(style.AXIS_NAMES):
-            ax = axes[axis][column]
-            for order, k in enumerate(chosen):
-                colour = style.INK if order == 0 else style.colour(order - 1)
-                ax.plot(f.t[inside], DEGREES * f.crv[k, inside, axis], color=colour, lw=0.8, label=f.labels[k])
-            mark_impacts(ax, f.impacts[0], start, end)
-            dressed(ax, f"{name}\n(deg/s)" if column == 0 else None)
-        axes[2][column].set_xlabel("time (s)")
-    handles, labels = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper right", ncols=4, frameon=False, fontsize=9)
-    return titled(figure, title)
+    look = [style.INK, *(style.colour(k) for k in range(CURVES))]
+    rates = [(f.labels[k], DEGREES * f.crv[k].T, colour, ()) for k, colour in zip(_drawn(f), look, strict=False)]
+    return draw(rate_panels(f.t, rates), [(0.0, float(f.t[-1])), ZOOM], marks=f.impacts[0], title=title)
 
 
 def _drawn(f: Family) -> list[int]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.report.charts import style
-from rockref.report.charts.figures import new_figure, titled
+from rockref.report.charts.figures import new_figure, plain_ticks, titled
 from rockref.shake.statistics.bands import distribution_function, wilson_interval
 from rockref.shake.statistics.fragility import Fragility, monotone_curve
 from rockref.shake.statistics.scores import reliability
@@ -44,7 +44,7 @@ def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str) -> Any:
     shift = _JITTER * (np.arange(len(y)) * 0.618 % 1.0)
     ax.plot(sizes, np.where(y == 1.0, 1.0 + shift, -shift), "|", ms=4, mew=0.5, color=style.GREY)
     ax.set_xscale("log")
-    _plain_ticks(ax.xaxis)
+    plain_ticks(ax.xaxis)
     ax.set_xlabel(unit)
     ax.set_ylabel("probability of falling")
     ax.set_ylim(-0.06, 1.06)
@@ -78,8 +78,8 @@ def overturning_map(
         inside = outcome == value
         look: dict[str, Any] = {"ms": 4, "mfc": "none", "color": colour, "lw": 0, "label": f"{name} ({inside.sum()})"}
         ax.plot(across_all[inside], up_all[inside], mark, **look)
-    _plain_ticks(ax.xaxis)
-    _plain_ticks(ax.yaxis)
+    plain_ticks(ax.xaxis)
+    plain_ticks(ax.yaxis)
     ax.set_xlabel(axes[0])
     ax.set_ylabel(axes[1])
     ax.legend(loc="upper right", frameon=True, framealpha=0.9, edgecolor="none", fontsize=8)
@@ -105,7 +105,7 @@ def distribution_figure(samples: Mapping[str, Any], quantity: str) -> Any:
     known = known[np.isfinite(known)]
     if len(known) and known.min() > 0.0 and known.max() > WIDE * known.min():
         ax.set_xscale("log")
-        _plain_ticks(ax.xaxis)
+        plain_ticks(ax.xaxis)
     ax.set_xlabel(quantity)
     ax.set_ylabel("share of runs at or below")
     ax.grid(color=style.GRID, lw=0.6)
@@ -131,12 +131,3 @@ def reliability_figure(predictions: Mapping[str, tuple[Any, Any]]) -> Any:
     ax.grid(color=style.GRID, lw=0.6)
     ax.legend(loc="upper left", frameon=False, fontsize=8)
     return titled(figure, "Reliability: on the line is as predicted", 9)
-
-
-def _plain_ticks(axis: Any) -> None:
-    """Label a logarithmic axis with plain numbers at 1, 2 and 5."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(NullFormatter())

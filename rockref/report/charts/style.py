@@ -10,7 +10,7 @@ GREY = "#6b7280"
 HOUSNER_DASH = (5, 4)
 #: Main impacts: vertical lines.
 IMPACT = "#b42318"
-GRID = "#e7ebef"
+FRAME, GRID = "#d1d9e0", "#e7ebef"
 #: The band of noise and run-to-run spread.
 BAND = "#c9d3de"
 AXIS_NAMES = ("main (X)", "transverse (Y)", "longitudinal (Z)")

@@ -16,13 +16,14 @@ from rockref.engines import machine
 from rockref.measure.signals.impacts import Impacts
 from rockref.model.channel import DEGREES
 from rockref.report.charts import style
+from rockref.report.charts.dots import dots, level
 from rockref.report.charts.drawing import Line, Panel, chart, key, key_of
-from rockref.report.charts.run_lines import contact_strips, housner_line
+from rockref.report.charts.run_panels import run_panels
 from rockref.report.html.curves import Curves, curves
 from rockref.report.html.page import Page
 from rockref.report.html.player import player
 from rockref.report.tables import comparison_tables
-from rockref.report.tables.table import Table
+from rockref.report.tables.table import Table, number
 
 
 def add_measured(page: Page, c: Comparison) -> None:
@@ -57,25 +58,19 @@ def add_failures(page: Page, c: Comparison) -> None:
 def add_error_figure(page: Page, c: Comparison) -> None:
     """Add the error by stretch and axis of every model, with noise floor and run-to-run spread as lines."""
     places = [(s, a) for s in STRETCHES for a in AXES]
-    x = np.arange(len(places), dtype=float)
-    lines = [
-        _ticks("noise floor", x, [DEGREES * c.noise(AXES.index(a)) for _, a in places], (2, 2)),
-        _ticks("two repeated runs", x, [_repeats_differ(c, s, a) for s, a in places], style.HOUSNER_DASH),
-    ]
-    for k, name in enumerate(c.names):
-        shift = 0.14 * (k - 0.5 * (len(c.names) - 1))
-        values = np.array([DEGREES * c.rms(k, s, a) for s, a in places])
-        lines.append(Line(name, x + shift, values, style.colour(k), dots=True))
-    ticks = [(float(i), f"{a[:5]}." if len(a) > 5 else a) for i, (_, a) in enumerate(places)]
-    svg = chart(
-        [Panel("error (deg/s)", lines, log=True, height=210.0)],
-        title="Error by stretch and axis",
+    svg, keys = dots(
+        "Error by stretch and axis",
+        [f"{a[:5]}." if len(a) > 5 else a for _, a in places],
+        [(name, [DEGREES * c.rms(k, s, a) for s, a in places]) for k, name in enumerate(c.names)],
+        [
+            level("noise floor", [DEGREES * c.noise(AXES.index(a)) for _, a in places]),
+            level("two repeated runs", [_repeats_differ(c, s, a) for s, a in places], style.HOUSNER_DASH),
+        ],
         x_label=f"left to right: {' | '.join(STRETCH_WORDS[s] for s in STRETCHES)}",
-        x_limits=(-0.6, len(places) - 0.4),
+        log=True,
+        height=210.0,
         marks=(2.5, 5.5),
-        ticks=ticks,
     )
-    keys = key_of(lines)
     sentence = (
         "Dots: RMS of model minus measured over all runs, by axis, in the three stretches of a run, on a "
         "logarithmic scale. Dashes: what noise alone makes, and by how much two repeated runs differ."
@@ -83,20 +78,10 @@ def add_error_figure(page: Page, c: Comparison) -> None:
     page.add_figure(svg, sentence, title="Error by stretch and axis", keys=keys)
 
 
-def _ticks(name: str, x: np.ndarray, values: list[float], dash: tuple[int, ...]) -> Line:
-    """Return short level lines at x (n,) with gaps between them."""
-    across = np.stack((x - 0.35, x + 0.35, np.full(len(x), np.nan)), axis=1).ravel()
-    level = np.stack((values, values, np.full(len(x), np.nan)), axis=1).ravel()
-    return Line(name, np.nan_to_num(across, nan=x[0]), level, style.GREY, dash, 1.6)
-
-
 def _repeats_differ(c: Comparison, stretch: str, axis: str) -> float:
     """Return the RMS over runs of the difference between two repeated runs, deg/s; NaN where unknown."""
-    squares = []
-    for r in c.results[0]:
-        e = r.error(stretch, axis)
-        if e is not None and e.in_spread is not None:
-            squares.append(2.0 * (e.rms / e.in_spread) ** 2)
+    errors = [r.error(stretch, axis) for r in c.results[0]]
+    squares = [2.0 * (e.rms / e.in_spread) ** 2 for e in errors if e is not None and e.in_spread is not None]
     return DEGREES * math.sqrt(float(np.mean(squares))) if squares else float("nan")
 
 
@@ -105,25 +90,10 @@ def run_curves(c: Comparison, k: int, every: int = 1) -> Curves:
 
     every : of so many samples one is drawn, such that every extreme is.
     """
+    t, panels = run_panels(c, k, every)
     m = c.measured[k]
-    run = m.run
-    assert run.t is not None and run.crv is not None
-    crv = run.crv * DEGREES
-    last, t = float(run.t[-1]), thinned_times(run.t, every)
-    panels = []
-    for axis in range(3):
-        lines = [Line("measured", t, thinned(crv[:, axis], every))]
-        for i, name in enumerate(c.names):
-            rates = thinned(c.results[i][k].modelled[:, axis] * DEGREES, every)
-            lines.append(Line(name, t, rates, style.colour(i), style.dash(i)))
-        if axis == 0:
-            lines.append(housner_line(c, k, last))
-        panels.append(Panel(f"{AXES[axis]} (deg/s)", lines, height=150.0 if axis == 0 else 120.0))
-    for i, name in enumerate(c.names):
-        # A longer name does not fit beside the rows; the colour tells whose they are.
-        label = name if 1 < len(c.names) and len(name) <= 16 else "contacts"
-        panels.append(Panel(label, strips=contact_strips(c.results[i][k]), height=110.0, colour=style.colour(i)))
-    impacts = m.features.impacts
+    assert m.run.t is not None
+    last = float(m.run.t[-1])
     of_each = f" (from above: {', then '.join(c.names)})" if len(c.names) > 1 else ""
     return curves(
         t,
@@ -134,10 +104,11 @@ def run_curves(c: Comparison, k: int, every: int = 1) -> Curves:
             f"first main impact. Below, a line for every contact point of the model{of_each} while it touches. "
             "Red: main impacts of the run." + (THINNED.format(every, 2 * every) if every > 1 else "")
         ),
-        marks=[float(v) for v in impacts.times],
-        views=named_views(impacts, last),
+        marks=[float(v) for v in m.features.impacts.times],
+        views=named_views(m.features.impacts, last),
         opening=opening_view(c, k, last),
         table=extremes_table(c, k),
+        whole=run_panels(c, k)[1],
     )
 
 
@@ -146,20 +117,6 @@ THINNED = " Thinned to one sample in {}: of every {} the smallest and the larges
 #: Opening view of a run: what it shows before a model leaves the band, and its length [s]; decided: an impact and the
 #: clatter after it.
 EARLIER, OPENED = 0.1, 0.6
-
-
-def thinned(y: np.ndarray, every: int) -> np.ndarray:
-    """Return (N // every) of the values (N,): of each 2 every the smallest and the largest, in their order."""
-    if every == 1:
-        return y
-    rows = y[: len(y) // (2 * every) * 2 * every].reshape(-1, 2 * every)
-    pair = np.sort(np.stack((rows.argmin(axis=1), rows.argmax(axis=1)), axis=1), axis=1)
-    return np.take_along_axis(rows, pair, axis=1).ravel()
-
-
-def thinned_times(t: np.ndarray, every: int) -> np.ndarray:
-    """Return the times of thinned values: even steps of `every` samples."""
-    return t if every == 1 else t[: len(t) // (2 * every) * 2 * every : every]
 
 
 def opening_view(c: Comparison, k: int, end: float) -> tuple[float, float] | None:
@@ -200,7 +157,7 @@ def extremes_table(c: Comparison, k: int) -> Table:
                 x = x[np.isfinite(x)]
                 if len(x):
                     rms = float(np.sqrt(np.mean(x**2)))
-                    numbers = [comparison_tables.number(float(v), 2) for v in (x.min(), x.max(), rms)]
+                    numbers = [number(float(v), 2) for v in (x.min(), x.max(), rms)]
                     rows.append([STRETCH_WORDS[stretch], label, name, *numbers])
     return Table("Rates in deg/s", ("stretch", "axis", "of", "smallest", "largest", "RMS"), rows)
 
@@ -289,12 +246,8 @@ def _peaks(c: Comparison, k: int) -> Table:
     rows = []
     for i, name in enumerate(c.names):
         for s in c.results[i][k].spectra:
-            peaks = [
-                comparison_tables.number(v, 2)
-                for peak in (s.peak_measured, s.peak_model)
-                for v in (peak[0], DEGREES * peak[1])
-            ]
-            rows.append([name, s.axis, *peaks, comparison_tables.number(s.distance, 2)])
+            peaks = [number(v, 2) for peak in (s.peak_measured, s.peak_model) for v in (peak[0], DEGREES * peak[1])]
+            rows.append([name, s.axis, *peaks, number(s.distance, 2)])
     columns = ("model", "axis", "measured peak (Hz)", "(deg/s)", "model peak (Hz)", "(deg/s)", "distance")
     return Table(
         "Largest lines of the spectra", columns, rows, "Distance: size of the difference over the measured size."

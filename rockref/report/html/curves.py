@@ -37,11 +37,12 @@ def curves(
     views: Sequence[tuple[str, float, float]] = (),
     opening: tuple[float, float] | None = None,
     table: Table | None = None,
+    whole: Sequence[Panel] = (),
 ) -> Curves:
     """Return curves over t (N,) s; every line of the panels has N values, or fewer at even steps of its own.
 
     `marks` are main impacts, s; `views` are named stretches that a button leads to;
-    `opening` is the one that is shown first, by default all.
+    `opening` is the one that is shown first, by default all; `whole` are the panels of the picture, where not these.
     """
     lines = [line for panel in panels for line in panel.lines]
     data = {
@@ -54,7 +55,7 @@ def curves(
     }
     if opening is not None:
         data["open"] = [round(float(end), 5) for end in opening]
-    picture = chart(panels, title=title, x_label=x_label, x_limits=(float(t[0]), float(t[-1])), marks=marks)
+    picture = chart(whole or panels, title=title, x_label=x_label, x_limits=(float(t[0]), float(t[-1])), marks=marks)
     return Curves(title, sentence, picture, key_of(lines), table, data)
 
 

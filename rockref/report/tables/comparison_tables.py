@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
-from rockref.discover.compare.models import Comparison, RunComparison
+from rockref.discover.compare.models import Comparison, MeasuredRun
 from rockref.discover.compare.sentences_shape import LEDGER_SHARE
 from rockref.discover.compare.stretches import AXES, STRETCH_WORDS, STRETCHES
 from rockref.model.channel import DEGREES
-from rockref.report.tables.table import Table
+from rockref.report.tables.table import Table, number, table_of
 
 #: Stretches by the main impacts that bound them, and units, where a line is short.
 STRETCH_SHORT = {"before": "to 1st impact", "between": "1st to 2nd", "after": "after 2nd"}
 UNITS = ("(deg/s)", "/ noise", "/ spread")
-
-
-def number(value: float | None, digits: int = 2, unit: str = "", plus: bool = False) -> str:
-    """Return a number as text, an en dash for what is not known."""
-    if value is None or not math.isfinite(value):
-        return "\u2013"
-    return f"{value:{'+' if plus else ''}.{digits}f}{unit}"
 
 
 def run_name(comparison: Comparison, k: int) -> str:
@@ -32,36 +26,26 @@ def run_name(comparison: Comparison, k: int) -> str:
 
 def runs_table(c: Comparison) -> Table:
     """Return what was measured, run by run."""
-    rows = []
-    for k, m in enumerate(c.measured):
-        times = m.features.impacts.times
-        rows.append(
-            [
-                run_name(c, k),
-                number(m.run.release_tilt, 3),
-                number(math.degrees(m.run.block_turned), 0),
-                number(float(times[0]) if len(times) else None, 4),
-                number(float(times[1]) if len(times) > 1 else None, 4),
-                str(len(times)),
-                " / ".join(number(v, 3) for v in m.noise * DEGREES),
-                {True: "borrowed", False: "own"}[m.borrowed] if m.repeats is not None else "none",
-            ]
-        )
-    return Table(
-        f"Runs of {c.experiment.name}",
-        (
-            "run",
-            "tilt (rad)",
-            "turned (deg)",
-            "1st main impact (s)",
-            "2nd (s)",
-            "main impacts",
-            "noise X / Y / Z (deg/s)",
-            "repeats",
-        ),
-        rows,
-        "Repeats: whether runs with the same release give the run-to-run spread, or those of another release lend it.",
+    impact = [[*m.features.impacts.times, math.nan, math.nan] for m in c.measured]
+    columns = {
+        "run": lambda k: run_name(c, k),
+        "tilt (rad)": lambda k: number(c.measured[k].run.release_tilt, 3),
+        "turned (deg)": lambda k: number(math.degrees(c.measured[k].run.block_turned), 0),
+        "1st main impact (s)": lambda k: number(impact[k][0], 4),
+        "2nd (s)": lambda k: number(impact[k][1], 4),
+        "main impacts": lambda k: str(len(impact[k]) - 2),
+        "noise X / Y / Z (deg/s)": lambda k: " / ".join(number(v, 3) for v in c.measured[k].noise * DEGREES),
+        "repeats": lambda k: repeats_of(c.measured[k]),
+    }
+    note = (
+        "Repeats: whether runs with the same release give the run-to-run spread, or those of another release lend it."
     )
+    return table_of(range(len(c.measured)), f"Runs of {c.experiment.name}", columns, note)
+
+
+def repeats_of(m: MeasuredRun) -> str:
+    """Return whose repeats give the run-to-run spread of a run."""
+    return "none" if m.repeats is None else "borrowed" if m.borrowed else "own"
 
 
 def errors_table(c: Comparison, model: int, use: str | None = None) -> Table:
@@ -102,62 +86,42 @@ def mean_of(c: Comparison, model: int, use: str | None, stretch: str, axis: str,
 
 def departures_table(c: Comparison, model: int) -> Table:
     """Run by run: instants, and where the model leaves the band."""
-    rows = []
-    fell = any(r.overturned for r in c.results[model])
-    for k, r in enumerate(c.results[model]):
-        d = r.leaves_band
-        rows.append(
-            [
-                run_name(c, k),
-                number(1e3 * r.tilt_offset, 2, plus=True),
-                number(1e3 * r.impacts[0].error if r.impacts else None, 1, plus=True),
-                number(1e3 * r.impacts[1].aligned_error if len(r.impacts) > 1 else None, 1, plus=True),
-                "never" if d is None else number(d.time, 3),
-                "" if d is None else d.axis,
-                "" if d is None else ", ".join(name for name, _ in d.points),
-                *([("yes" if r.overturned else "no")] if fell else []),
-            ]
-        )
-    columns = [
-        "run",
-        "tilt moved by (mrad)",
-        "1st impact (ms)",
-        "1st to 2nd (ms)",
-        "leaves the band (s)",
-        "axis",
-        "points touching",
-        *(["fell over"] if fell else []),
-    ]
+    results = c.results[model]
+    gone = [r.leaves_band for r in results]
+    columns: dict[str, Callable[[int], str]] = {
+        "run": lambda k: run_name(c, k),
+        "tilt moved by (mrad)": lambda k: number(1e3 * results[k].tilt_offset, 2, plus=True),
+        "1st impact (ms)": lambda k: late([p.error for p in results[k].impacts[:1]]),
+        "1st to 2nd (ms)": lambda k: late([p.aligned_error for p in results[k].impacts[1:2]]),
+        "leaves the band (s)": lambda k: "never" if (d := gone[k]) is None else number(d.time, 3),
+        "axis": lambda k: "" if (d := gone[k]) is None else d.axis,
+        "points touching": lambda k: "" if (d := gone[k]) is None else ", ".join(name for name, _ in d.points),
+    }
+    if any(r.overturned for r in results):
+        columns["fell over"] = lambda k: "yes" if results[k].overturned else "no"
     note = (
         "1st impact: model minus measured at the stated tilt. 1st to 2nd: the same after the tilt was moved. "
         "Band: three times what noise and another run would differ by, over 50 ms."
     )
-    return Table(f"Run by run: {c.names[model]}", columns, rows, note)
+    return table_of(range(len(results)), f"Run by run: {c.names[model]}", columns, note)
+
+
+def late(errors: list[float]) -> str:
+    """Return by how many ms an impact is late, of none or one [s]."""
+    return number(1e3 * errors[0] if errors else None, 1, plus=True)
 
 
 def impacts_table(c: Comparison, model: int, k: int) -> Table:
     """Return the main impacts of one run: times and losses."""
-    r: RunComparison = c.results[model][k]
-    rows = [
-        [
-            str(p.number),
-            number(p.measured, 4),
-            number(p.model, 4),
-            number(1e3 * p.aligned_error, 1, plus=True),
-            number(1e3 * p.loss_measured, 1),
-            number(1e3 * p.loss_model, 1),
-        ]
-        for p in r.impacts
-    ]
-    columns = (
-        "main impact",
-        "measured (s)",
-        "model (s)",
-        "aligned error (ms)",
-        "measured loss (mJ)",
-        "model loss (mJ)",
-    )
-    return Table(f"Main impacts of run {run_name(c, k)}: {c.names[model]}", columns, rows)
+    columns = {
+        "main impact": lambda p: str(p.number),
+        "measured (s)": lambda p: number(p.measured, 4),
+        "model (s)": lambda p: number(p.model, 4),
+        "aligned error (ms)": lambda p: number(1e3 * p.aligned_error, 1, plus=True),
+        "measured loss (mJ)": lambda p: number(1e3 * p.loss_measured, 1),
+        "model loss (mJ)": lambda p: number(1e3 * p.loss_model, 1),
+    }
+    return table_of(c.results[model][k].impacts, f"Main impacts of run {run_name(c, k)}: {c.names[model]}", columns)
 
 
 def energy_table(c: Comparison) -> Table:

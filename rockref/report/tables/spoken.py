@@ -11,6 +11,7 @@ from typing import Any
 from rockref.effects import catalogue
 from rockref.effects.base import Quantity
 from rockref.model.channel import DEGREES
+from rockref.report.tables.table import figures
 
 #: For an SI unit the spoken one and the factor to it.
 SPOKEN = {"m": ("mm", 1e3), "rad": ("deg", DEGREES), "rad/s": ("deg/s", DEGREES), "s": ("ms", 1e3)}
@@ -59,14 +60,6 @@ def spoken(name: str, value: float | None, low: float | None, high: float | None
 def raised(power: re.Match[str]) -> str:
     """Return a power as it is written, raised: s2 as s²."""
     return {"2": "²", "3": "³"}[power[0]]
-
-
-def figures(value: float) -> str:
-    """Return a number with three figures, as people write it."""
-    if math.isinf(value):
-        return "∞" if value > 0 else "-∞"
-    size = abs(value)
-    return f"{value:.3g}" if size == 0 or 1e-3 <= size < 1e4 else f"{value:.2e}"
 
 
 def quantity_of(name: str) -> Quantity | None:

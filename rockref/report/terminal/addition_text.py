@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from rockref.discover.add_effect import Addition
 from rockref.discover.compare.stretches import AXES
-from rockref.report.tables import comparison_tables
-from rockref.report.tables.table import Table
+from rockref.report.tables.table import Table, number
 from rockref.report.terminal.diagnosis_text import GAP
 from rockref.report.terminal.fit_text import effect_lines, estimates_table
 from rockref.report.terminal.text import print_table, say, say_all
@@ -59,9 +58,9 @@ def axes_table(a: Addition) -> Table:
     columns += ["noise floor", "two repeats differ by"]
     rows = []
     for j, axis in enumerate((*AXES, "total")):
-        row = [axis, *(comparison_tables.number(errors[axis], 4) for pair in pairs for errors in pair)]
+        row = [axis, *(number(errors[axis], 4) for pair in pairs for errors in pair)]
         spread = None if a.spread is None or axis == "total" else float(a.spread[j])
-        rows.append([*row, comparison_tables.number(a.noise, 4), comparison_tables.number(spread, 3)])
+        rows.append([*row, number(a.noise, 4), number(spread, 3)])
     return Table("Error, deg/s RMS", columns, rows, NOTE)
 
 
@@ -70,5 +69,5 @@ def history_table(a: Addition) -> Table:
     rows = []
     for entry in a.history:
         name = " + ".join(entry["effects"]) or "baseline"
-        rows.append([name, *(comparison_tables.number(entry.get(f"{use}_deg_s"), 4) for use in ("fit", "holdout"))])
+        rows.append([name, *(number(entry.get(f"{use}_deg_s"), 4) for use in ("fit", "holdout"))])
     return Table("History of the model", ("effects", "fit (deg/s)", "held-out (deg/s)"), rows)

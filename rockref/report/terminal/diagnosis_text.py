@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rockref.effects import catalogue
-from rockref.report.tables import comparison_tables
 from rockref.report.tables.spoken import spoken_amplitudes
-from rockref.report.tables.table import Table
-from rockref.report.terminal.fit_text import quantity
+from rockref.report.tables.table import Table, figures, number, table_of, with_unit
 from rockref.report.terminal.text import print_table, say, say_all
 
 if TYPE_CHECKING:
@@ -112,8 +110,7 @@ SHOWN, SIZES = 2, 3
 def alternative_lines(d: dict[str, Any]) -> list[str]:
     """Return the most probable sets of effects on a line each."""
     return [
-        f"  {r['effect']}: probability {r['weight']:.3f}, "
-        f"{comparison_tables.number(r['gain'], 0)} nat better than the baseline"
+        f"  {r['effect']}: probability {r['weight']:.3f}, {number(r['gain'], 0)} nat better than the baseline"
         for r in d["ranking"][:SHOWN]
     ]
 
@@ -176,10 +173,10 @@ def errors_table(d: dict[str, Any]) -> Table:
         if key == "with_effect" and not d["amplitudes"]:
             continue
         values = [e[key].get("fit"), e[key].get("holdout")]
-        rows.append([words, *(comparison_tables.number(v, 4) for v in values)])
+        rows.append([words, *(number(v, 4) for v in values)])
     if len(rows) == 2:
         rows.append(["gap to the noise closed", *(closed(e, use, floor) for use in ("fit", "holdout"))])
-    rows.append(["noise floor", comparison_tables.number(floor, 4), comparison_tables.number(floor, 4)])
+    rows.append(["noise floor", number(floor, 4), number(floor, 4)])
     return Table("Error, deg/s RMS", ("", "fit runs", "held-out runs"), rows, f"Over {e['stretch']}.")
 
 
@@ -201,8 +198,7 @@ def amplitudes_table(d: dict[str, Any]) -> Table:
     """Return how large the effects are, with intervals."""
     rows = []
     for name, a in d["amplitudes"].items():
-        unit = "" if a["unit"] == "1" else a["unit"]
-        rows.append([name, *(number(a[k]) for k in ("value", "low", "high")), unit])
+        rows.append([name, *(figures(a[k], 4) for k in ("value", "low", "high")), with_unit(a["unit"])])
     note = "Intervals of 90 %."
     bounds = d.get("gates", {}).get("off_bounds")
     if bounds and not bounds["passed"]:
@@ -210,35 +206,24 @@ def amplitudes_table(d: dict[str, Any]) -> Table:
     return Table("How large", ("number", "value", "low", "high", "unit"), rows, note)
 
 
-def number(value: float | None) -> str:
-    """Return a number with four figures; infinite (None in the record) as a sign."""
-    return "∞" if value is None else quantity(value)
-
-
 def ranking_table(d: dict[str, Any]) -> Table:
     """Return the candidates, best first."""
-    rows = [
-        [
-            r["effect"],
-            comparison_tables.number(r["gain"], 0),
-            comparison_tables.number(r["z"], 1),
-            comparison_tables.number(r["weight"], 3),
-        ]
-        for r in d["ranking"]
-    ]
+    columns = {
+        "effect": lambda r: r["effect"],
+        "gain": lambda r: number(r["gain"], 0),
+        "z": lambda r: number(r["z"], 1),
+        "weight": lambda r: number(r["weight"], 3),
+    }
     note = (
         "Gain: log posterior gained over the null model [nat]. z: the same as a number of standard deviations. "
         "Weight: probability. All other effects were tested and dropped."
     )
-    return Table("Alternatives", ("effect", "gain", "z", "weight"), rows, note)
+    return table_of(d["ranking"], "Alternatives", columns, note)
 
 
 def limits_table(d: dict[str, Any]) -> Table:
     """Return how large an effect could have been without being seen."""
-    rows = [
-        [name, quantity(row["value"]), "" if row["unit"] == "1" else row["unit"]]
-        for name, row in d["detection_limits"].items()
-    ]
+    rows = [[name, figures(row["value"], 4), with_unit(row["unit"])] for name, row in d["detection_limits"].items()]
     note = (
         "Each number alone, the others of its effect absent. Numbers of one effect that trade with each other, such "
         "as sides that are all a little short, can stay undetected together above the limit."

@@ -9,7 +9,7 @@ from rockref.discover.evidence.evidence import Number
 from rockref.discover.fit_baseline import BaselineFit
 from rockref.discover.fit_gates import Gate
 from rockref.report.tables.spoken import spoken
-from rockref.report.tables.table import Table
+from rockref.report.tables.table import Table, figures, with_unit
 from rockref.report.terminal.text import print_table, say, say_all
 
 if TYPE_CHECKING:
@@ -33,21 +33,10 @@ OUTCOMES = {
 }
 
 
-def quantity(value: float) -> str:
-    """Return a number with four figures, as people write it."""
-    size = abs(value)
-    return f"{value:.4g}" if size == 0 or 1e-3 <= size < 1e5 else f"{value:.3e}"
-
-
-def unit_of(n: Number) -> str:
-    """Return the unit of a number, empty for a pure one."""
-    return "" if n.unit in ("", "1") else n.unit
-
-
 def with_interval(name: str, n: Number) -> str:
     """Return a number with its 90 % interval in words."""
-    unit = f" {unit_of(n)}" if unit_of(n) else ""
-    return f"{name} {quantity(n.value)} ({quantity(n.low)} to {quantity(n.high)}){unit}"
+    said = f"{name} {figures(n.value, 4)} ({figures(n.low, 4)} to {figures(n.high, 4)}) {with_unit(n.unit)}"
+    return said.rstrip()
 
 
 def law_lines(law: Mapping[str, Number]) -> list[str]:
@@ -73,7 +62,7 @@ def said(name: str, n: Number) -> str:
 def estimates_table(found: Mapping[str, Number]) -> Table:
     """Return numbers with 90 % intervals as a table."""
     rows = [
-        [name, quantity(n.value), quantity(n.low), quantity(n.high), unit_of(n), f"{n.z:+.2f}"]
+        [name, figures(n.value, 4), figures(n.low, 4), figures(n.high, 4), with_unit(n.unit), f"{n.z:+.2f}"]
         for name, n in found.items()
     ]
     note = "Intervals of 90 %. Last column: distance from the centre of the prior, in its standard deviations."

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rockref.model.parameters import TABLE_3_1
-from rockref.report.tables.table import Table
+from rockref.report.tables.table import Table, table_of
 from rockref.report.terminal.text import print_table, say_all
 
 if TYPE_CHECKING:
@@ -91,17 +91,14 @@ def terms_table(result: dict[str, Any]) -> Table:
 
 def runs_table(result: dict[str, Any]) -> Table:
     """Return every run up to its second main impact."""
-    rows = [
-        [
-            r["run"],
-            r["use"],
-            f"{r['release_tilt_rad']:.5f}",
-            *(f"{v:.3f}" for v in r["rms_deg_s"]),
-            f"{r['rms_over_noise']:.2f}",
-            f"{r['rms_over_noise_as_stated']:.2f}",
-        ]
-        for r in result["runs"]
-    ]
-    columns = ("run", "use", "tilt (rad)", "main (deg/s)", "transverse", "longitudinal", "over noise", "tilt as stated")
+    axes = ("main (deg/s)", "transverse", "longitudinal")
+    columns = {
+        "run": lambda r: r["run"],
+        "use": lambda r: r["use"],
+        "tilt (rad)": lambda r: f"{r['release_tilt_rad']:.5f}",
+        **{name: lambda r, k=k: f"{r['rms_deg_s'][k]:.3f}" for k, name in enumerate(axes)},
+        "over noise": lambda r: f"{r['rms_over_noise']:.2f}",
+        "tilt as stated": lambda r: f"{r['rms_over_noise_as_stated']:.2f}",
+    }
     note = "RMS of model minus measured up to the second main impact; 1 is the noise floor."
-    return Table("Runs", columns, rows, note)
+    return table_of(result["runs"], "Runs", columns, note)

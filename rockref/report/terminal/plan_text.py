@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rockref.discover.plan import Plan
-from rockref.report.tables.spoken import figures, spoken
-from rockref.report.tables.table import Table
+from rockref.report.tables.spoken import spoken
+from rockref.report.tables.table import Table, figures, table_of, with_unit
 from rockref.report.terminal.text import print_table, say_all
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def limits_table(p: Plan) -> Table:
     """Return smallest amplitude that would be seen, effect by effect, with repeats and with varied releases."""
     rows = []
     for name, limit in p.outlook.limits.items():
-        unit = "" if limit["unit"] == "1" else limit["unit"]
+        unit = with_unit(limit["unit"])
         typical = limit["in_typical_sizes"]
         others = [o.limits[name]["in_typical_sizes"] for o in (p.repeats, p.varied)]
         rows.append([name, f"{limit['limit']:.3g} {unit}".strip(), *(f"{v:.2g}" for v in (typical, *others))])
@@ -104,15 +104,11 @@ def confusion_table(p: Plan) -> Table:
 
 def further_table(p: Plan) -> Table:
     """Return what one more run would bring."""
-    rows = [
-        [
-            f["run"] + (" (a repeat)" if f["repeat"] else ""),
-            f"{f['limits_fall_by']:.2f}",
-            f["helps_most"],
-            f"{f['its_limit_falls_by']:.2f}",
-            str(f["confused_pairs"]),
-        ]
-        for f in p.further
-    ]
-    columns = ("one more run", "limits fall by", "most for", "by", "pairs confused then")
-    return Table("The next run", columns, rows, "A trailing t: the block turned by half a turn.")
+    columns = {
+        "one more run": lambda f: f["run"] + (" (a repeat)" if f["repeat"] else ""),
+        "limits fall by": lambda f: f"{f['limits_fall_by']:.2f}",
+        "most for": lambda f: f["helps_most"],
+        "by": lambda f: f"{f['its_limit_falls_by']:.2f}",
+        "pairs confused then": lambda f: str(f["confused_pairs"]),
+    }
+    return table_of(p.further, "The next run", columns, "A trailing t: the block turned by half a turn.")

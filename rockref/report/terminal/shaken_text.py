@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from rockref.report.tables.table import Table
+from rockref.report.tables.table import Table, table_of
 from rockref.report.terminal.text import print_table, say
 
 if TYPE_CHECKING:
@@ -22,43 +22,32 @@ def interval(found: dict[str, float], sign: str = "") -> str:
 
 def scores_table(record: dict[str, Any]) -> Table:
     """Return log loss, Brier score and accuracy of every prediction."""
-    rows = [
-        [
-            p["name"],
-            interval(p["log_loss"]),
-            "" if p["more"] is None else interval(p["more"], "+"),
-            interval(p["brier"]),
-            interval(p["accuracy"]),
-        ]
-        for p in record["predictions"]
-    ]
-    head = ("prediction", "log loss (nat)", "more than the first", "Brier score", "accuracy")
+    columns = {
+        "prediction": lambda p: p["name"],
+        "log loss (nat)": lambda p: interval(p["log_loss"]),
+        "more than the first": lambda p: "" if p["more"] is None else interval(p["more"], "+"),
+        "Brier score": lambda p: interval(p["brier"]),
+        "accuracy": lambda p: interval(p["accuracy"]),
+    }
     note = "In brackets 95 % from resampled motions. What is fitted or chosen has not seen the motion that it predicts."
-    return Table("Predictions of falls", head, rows, note)
+    return table_of(record["predictions"], "Predictions of falls", columns, note)
 
 
 def distances_table(record: dict[str, Any]) -> Table:
     """Return how far the maxima of models lie from the measured ones."""
-    rows = []
-    for d in record["maxima"]:
-        unit, scale = UNITS[d["unit"]]
-        beyond = "beyond" if d["ks"] > d["band"] else "within"
-        rows.append(
-            [
-                f"{d['quantity']}, {d['name']}",
-                f"{d['tests']}, {d['runs']}",
-                f"{d['ks']:.3f}",
-                f"{d['band']:.3f}, {beyond}",
-                f"{scale * d['energy_distance']:.3g} {unit}",
-                f"{d['p_value']:.3f}",
-            ]
-        )
-    head = ("largest", "tests, runs", "KS", "both bands", "energy distance", "p")
+    columns = {
+        "largest": lambda d: f"{d['quantity']}, {d['name']}",
+        "tests, runs": lambda d: f"{d['tests']}, {d['runs']}",
+        "KS": lambda d: f"{d['ks']:.3f}",
+        "both bands": lambda d: f"{d['band']:.3f}, {'beyond' if d['ks'] > d['band'] else 'within'}",
+        "energy distance": lambda d: f"{UNITS[d['unit']][1] * d['energy_distance']:.3g} {UNITS[d['unit']][0]}",
+        "p": lambda d: f"{d['p_value']:.3f}",
+    }
     note = (
         "KS: the largest gap of the distribution functions; p: whole motions exchanged between the tests and one run "
         "of each. A fall counts as a tilt of 45 deg; slide and twist are of what stood."
     )
-    return Table("Distributions of maxima", head, rows, note)
+    return table_of(record["maxima"], "Distributions of maxima", columns, note)
 
 
 def ceiling_line(record: dict[str, Any]) -> str:

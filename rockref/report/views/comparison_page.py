@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
+
 from rockref.discover.compare.models import Comparison
 from rockref.report.charts.block_drawing import block_drawing
-from rockref.report.charts.figures import write_figures
+from rockref.report.charts.run_panels import write_figures
 from rockref.report.html import blocks
 from rockref.report.html.curves import Curves
 from rockref.report.html.page import MAX_BYTES, Page
@@ -65,12 +67,14 @@ def add_runs(page: Page, c: Comparison, room: int | None = None) -> list[str]:
     size = page.size()
     limit = MAX_BYTES - RESERVE if room is None else size + room
     runs = range(len(c.measured))
-    drawn = [blocks.run_curves(c, k) for k in runs]
-    pictures = sum(len(one.picture) for one in drawn)
-    numbers = sum(cost(one) for one in drawn) - pictures
-    if (left := limit - size - pictures) < numbers:
+    # The longest run says how much room all of them take at most.
+    longest = blocks.run_curves(c, max(runs, key=lambda k: np.size(c.measured[k].run.t)))
+    pictures = len(runs) * len(longest.picture)
+    numbers = len(runs) * cost(longest) - pictures
+    left, every = limit - size - pictures, 1
+    if left < numbers:
         every = min(THINNEST, math.ceil(numbers / max(left, 1)))
-        drawn = [blocks.run_curves(c, k, every=every) for k in runs]
+    drawn = [blocks.run_curves(c, k, every) for k in runs]
     releases = [(m.run.release_tilt, m.run.block_turned) for m in c.measured]
     left_out = list[str]()
     # The first of each release comes before its repeats.

@@ -15,10 +15,9 @@ from rockref.discover.diagnose import Diagnosis
 from rockref.discover.diagnosis_record import plain
 from rockref.discover.provenance import OF_ONE_RELEASE
 from rockref.effects import catalogue
-from rockref.report.charts import style
-from rockref.report.charts.drawing import Line, Panel, chart, key_of
+from rockref.report.charts.dots import dots
 from rockref.report.html import blocks
-from rockref.report.html.falling import levels
+from rockref.report.html.falling import by_use
 from rockref.report.html.page import Page
 from rockref.report.tables import comparison_tables
 from rockref.report.tables.table import Table
@@ -127,20 +126,11 @@ def add_where(page: Page, record: dict[str, Any], c: Comparison) -> None:
 
 def add_shares(page: Page, states: Sequence[tuple[str, dict[str, float]]]) -> None:
     """Add the shares of the axes in the misfit as dots."""
-    lines = []
-    for k, (name, shares) in enumerate(states):
-        y = np.array([shares.get(a) or 0.0 for a in AXES])
-        x = np.arange(3.0) + 0.12 * (k - 0.5 * (len(states) - 1))
-        lines.append(Line(name, x, 100 * y, style.colour(k), dots=True))
-    svg = chart(
-        [Panel("share (%)", lines, height=120.0, limits=(0.0, 105.0))],
-        title="Shares of the axes in the misfit",
-        x_label="axis",
-        x_limits=(-0.6, 2.6),
-        ticks=[(float(k), a) for k, a in enumerate(AXES)],
-    )
+    numbers = [(name, [100 * (shares.get(a) or 0.0) for a in AXES]) for name, shares in states]
+    title = "Shares of the axes in the misfit"
+    svg, keys = dots(title, AXES, numbers, label="share (%)", limits=(0.0, 105.0), height=120.0)
     sentence = "How the misfit of the fitted baseline, noise taken out, is shared among the axes of the gyroscope."
-    page.add_figure(svg, sentence, None, "Shares of the axes", key_of(lines))
+    page.add_figure(svg, sentence, None, "Shares of the axes", keys)
 
 
 def add_tried(page: Page, record: dict[str, Any]) -> None:
@@ -156,21 +146,12 @@ def add_tried(page: Page, record: dict[str, Any]) -> None:
 
 def add_gains(page: Page, ranking: list[dict[str, Any]]) -> None:
     """Add the figure of the gains, where there are some to be compared."""
-    gains = np.array([max(r["gain"], 1.0) for r in ranking])
-    lines = [Line("gain", np.arange(float(len(gains))), gains, style.colour(0), dots=True)]
-    svg = chart(
-        [Panel("gain (nat)", lines, log=True, height=150.0)],
-        title="Gain of the candidates",
-        x_label="effect",
-        x_limits=(-0.6, len(gains) - 0.4),
-        ticks=[(float(k), r["effect"] if len(ranking) <= NAMED else str(k + 1)) for k, r in enumerate(ranking)],
-    )
-    page.add_figure(
-        svg,
-        "Log-likelihood that each candidate gains over the baseline, best first, on a logarithmic scale.",
-        None,
-        "Gain of the candidates",
-    )
+    names = [r["effect"] if len(ranking) <= NAMED else str(k) for k, r in enumerate(ranking, 1)]
+    gains = [("gain", [max(r["gain"], 1.0) for r in ranking])]
+    title = "Gain of the candidates"
+    svg, _ = dots(title, names, gains, label="gain (nat)", x_label="effect", log=True, height=150.0)
+    sentence = "Log-likelihood that each candidate gains over the baseline, best first, on a logarithmic scale."
+    page.add_figure(svg, sentence, None, title)
 
 
 def add_explanation(page: Page, record: dict[str, Any]) -> None:
@@ -220,17 +201,7 @@ def add_falling_error(page: Page, record: dict[str, Any]) -> None:
     places = [("baseline", "baseline")]
     if record["amplitudes"]:
         places.append((diagnosis_text.with_words(record), "with_effect"))
-    lines = [levels("noise floor", [e["noise_floor"]] * len(places), (2, 2))]
-    for k, (use, name) in enumerate((("fit", "fit runs"), ("holdout", "held-out runs"))):
-        y = np.array([np.nan if e[key].get(use) is None else e[key][use] for _, key in places], float)
-        lines.append(Line(name, np.arange(float(len(y))), y, style.colour(k), dots=True))
-    top = max(float(np.nanmax(line.y)) for line in lines if np.isfinite(line.y).any())
-    svg = chart(
-        [Panel("error (deg/s)", lines, height=170.0, limits=(0.0, 1.15 * top))],
-        title="The error falling",
-        x_label="model",
-        x_limits=(-0.6, len(places) - 0.4),
-        ticks=[(float(k), name) for k, (name, _) in enumerate(places)],
-    )
+    errors = {use: [np.nan if (v := e[key].get(use)) is None else v for _, key in places] for use in ("fit", "holdout")}
+    svg, keys = by_use("The error falling", [name for name, _ in places], errors, e["noise_floor"], "model")
     sentence = "RMS of measured minus modelled, deg/s, before and after, on the runs that were fitted and not."
-    page.add_figure(svg, sentence, diagnosis_text.errors_table(record), "The error falling", key_of(lines))
+    page.add_figure(svg, sentence, diagnosis_text.errors_table(record), "The error falling", keys)

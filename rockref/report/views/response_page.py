@@ -7,8 +7,9 @@ from pathlib import Path
 from rockref import __version__
 from rockref.api import Model
 from rockref.model.response import Response
+from rockref.report.charts import style
 from rockref.report.charts.block_drawing import block_drawing
-from rockref.report.charts.drawing import Line, Panel
+from rockref.report.charts.run_panels import response_panels
 from rockref.report.html.curves import curves
 from rockref.report.html.page import Page
 from rockref.report.tables.response_table import as_measured
@@ -27,16 +28,14 @@ def write_response_page(response: Response, model: Model, folder: Path) -> Path:
     page = Page("A simulated release", lead(response, model, effects))
     page.add_section("The body rates")
     step = -(-len(response.t) // MOST_ROWS)
-    t, crv = response.t[::step], as_measured(response).crv[::step]
-    panels = [Panel(f"{'XYZ'[k]} (deg/s)", [Line("simulated", t, crv[:, k])]) for k in range(3)]
-    panels.append(Panel("points that touch", strips=response.contacts()))
+    panels = response_panels(as_measured(response), "simulated", style.INK, every=step)
     sentence = (
         "Rates about the block's axes (X main, Y transverse, Z longitudinal) as a gyroscope without noise shows them, "
         "and when each point touches. Red lines: main impacts."
     )
     if step > 1:
         sentence += f" One row in {step} is drawn."
-    page.add_curves(curves(t, panels, title="Body rates", sentence=sentence, marks=impacts))
+    page.add_curves(curves(response.t[::step], panels, title="Body rates", sentence=sentence, marks=impacts))
     rows = [[str(k + 1), f"{at:.4f}"] for k, at in enumerate(impacts)]
     page.add_details("Main impacts", Table("Main impacts", ("number", "time (s)"), rows))
     page.add_section("The block")

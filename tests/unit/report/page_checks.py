@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 
 VOID = {"meta", "link", "img", "br", "hr", "input", "col"}
 #: Elements of SVG that are written with a slash.
-CLOSED = {"path", "rect", "circle"}
+CLOSED = {"path", "use", "circle"}
 
 
 class Reader(HTMLParser):

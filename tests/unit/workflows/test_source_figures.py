@@ -35,7 +35,7 @@ def line(ax, name):
 
 
 def test_the_response_has_its_rates_impacts_and_contacts(response, plane):
-    axes = source_figures.response_figure(response, plane).axes
+    axes = source_figures.response_figures(response, plane)["figure_3_4_whole"].axes
     for axis in range(3):
         np.testing.assert_array_equal(line(axes[axis], "eight points").get_ydata(), response.crv[:, axis])
         red = [one.get_xdata()[0] for one in axes[axis].lines if one.get_color() == style.IMPACT]
@@ -47,7 +47,7 @@ def test_the_response_has_its_rates_impacts_and_contacts(response, plane):
 
 
 def test_zooms_show_their_stretch_and_name_the_rows_once(response, plane):
-    figure = source_figures.zooms_figure(response, plane)
+    figure = source_figures.response_figures(response, plane)["figure_3_4_zooms"]
     grid = np.array(figure.axes).reshape(4, 3)
     t = line(grid[1, 0], "eight points").get_xdata()
     start, end = source_figures.ABOUT_FIRST

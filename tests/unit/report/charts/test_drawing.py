@@ -1,127 +1,118 @@
-"""Charts as SVG: well-formed, thinned within the width of a line, gaps kept."""
+"""Charts as SVG: well-formed, within their stretch, gaps kept, every model told from the others."""
 
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
 
-from rockref.report.charts.drawing import TOLERANCE, Line, Panel, _path, chart, key, nice_ticks, thinned
+from rockref.report.charts.dots import dots, level
+from rockref.report.charts.drawing import Line, Panel, chart, draw, key
+from rockref.report.charts.style import COLOURS
 
 X = np.linspace(0.0, 5.0, 1001)
+INK = "#123456"
 
 
-def paths(svg):
-    """The d of every drawn curve, in order."""
-    return [p.get("d") for p in ET.fromstring(svg).iter("path") if p.get("stroke-width") == "1.2"]
+def texts(svg):
+    return {t.text for t in ET.fromstring(svg).iter("text")}
+
+
+def paths(svg, colour=INK):
+    """The d of every path drawn in a colour, in order."""
+    return [p.get("d") for p in ET.fromstring(svg).iter("path") if f"stroke: {colour}" in (p.get("style") or "")]
 
 
 def points(d):
-    """The points of a path of one M and one l, in pixels."""
-    head, _, tail = d[1:].partition("l")
-    steps = [float(v) for v in head.split()] + [float(v) for v in tail.split()]
-    return np.cumsum(np.array(steps).reshape(-1, 2), axis=0)
+    """The places that a path goes through, in pixels."""
+    return np.array(re.findall(r"-?\d+\.?\d*", d), float).reshape(-1, 2)
 
 
-@given(arrays(np.float64, st.integers(2, 300), elements=st.floats(0.0, 200.0)))
-def test_thinned_curve_keeps_within_the_tolerance(y):
-    x = np.linspace(0.0, 800.0, len(y))
-    px, py = thinned(x, y)
-    assert px[0] == x[0] and px[-1] == x[-1]
-    # Rounding of a slope over 800 pixels.
-    assert np.abs(np.interp(x, px, py) - y).max() <= TOLERANCE + 1e-9
-
-
-def test_a_straight_line_is_two_points():
-    px, _ = thinned(X, 3.0 * X + 1.0)
-    assert len(px) == 2
-
-
-@given(arrays(np.float64, st.integers(1, 50), elements=st.floats(0.0, 900.0)))
-def test_path_data_lead_to_the_points_to_a_tenth_of_a_pixel(y):
-    x = np.arange(len(y), dtype=float)
-    # Relative moves of rounded places do not add up their rounding: half a tenth remains.
-    assert points(_path(x, y)) == pytest.approx(np.stack((x, y), axis=1), abs=0.051)
+def of(y, **more):
+    return chart([Panel("y", [Line("y", X, y, INK)])], title="t", x_label="x", **more)
 
 
 def test_chart_is_well_formed_and_says_what_it_is():
     svg = chart([Panel("rate <deg/s>", [Line("a & b", X, np.sin(X))])], title='a "quoted" <title>', x_label="time (s)")
     root = ET.fromstring(svg)
-    assert root.get("role") == "img" and root.get("aria-label") == 'a "quoted" <title>'
-    assert root.findtext("title") == 'a "quoted" <title>'
-    assert "rate <deg/s>" in [t.text for t in root.iter("text")]
+    assert root.get("role") == "img" and root.get("aria-label") == root.findtext("title") == 'a "quoted" <title>'
+    assert {"rate <deg/s>", "time (s)"} <= texts(svg)
+    assert " id=" not in svg
+
+
+def test_curve_is_where_its_numbers_are():
+    """A parabola through a frame whose corners are those of the limits, to the width of a line."""
+    panel = Panel("y", [Line("y", X, X**2, INK)], limits=(0.0, 25.0), height=100.0)
+    (d,) = paths(chart([panel], title="t", x_label="x"))
+    at = points(d)
+    x, y = np.interp(at[:, 0], at[[0, -1], 0], (0.0, 5.0)), np.interp(at[:, 1], at[[-1, 0], 1], (25.0, 0.0))
+    assert at[0, 1] - at[-1, 1] == pytest.approx(100.0, abs=0.3) and len(at) < 60
+    assert np.abs(y - x**2).max() < 25.0 * 1.2 / 100.0
 
 
 def test_gap_parts_the_curve():
     y = np.sin(X)
     y[400:500] = np.nan
-    (d,) = paths(chart([Panel("y", [Line("y", X, y)])], title="t", x_label="x"))
+    (d,) = paths(of(y))
     assert d.count("M") == 2 and "nan" not in d
 
 
-def test_only_what_lies_in_view_is_drawn():
-    (d,) = paths(chart([Panel("y", [Line("y", X, X)])], title="t", x_label="x", x_limits=(1.0, 2.0)))
-    at = points(d)
-    assert at[:, 0].min() == pytest.approx(62.0) and at[:, 0].max() == pytest.approx(848.0)
+def test_only_what_lies_in_view_is_drawn_and_sets_the_ordinate():
+    (d,) = paths(of(X, x_limits=(1.0, 2.0)))
+    # The margins of 62 and 12 of 860 pixels, to a pixel.
+    assert np.sort(points(d)[[0, -1], 0]) == pytest.approx([61.2, 849.2], abs=1.0)
+    assert {"1.2", "1.8"} <= texts(of(X, x_limits=(1.0, 2.0))) and "4.0" not in texts(of(X, x_limits=(1.0, 2.0)))
 
 
 def test_strips_show_every_point_and_its_intervals():
     strips = [("1ext", np.array([[0.0, 1.0], [2.0, 3.0]])), ("2ext", np.empty((0, 2)))]
-    svg = chart([Panel("contacts", strips=strips)], title="t", x_label="x", x_limits=(0.0, 4.0))
-    drawn = [p.get("d") for p in ET.fromstring(svg).iter("path") if p.get("stroke-width")]
-    assert [d.count("M") for d in drawn] == [2, 0]
-    assert {"1ext", "2ext"} <= {t.text for t in ET.fromstring(svg).iter("text")}
+    svg = chart([Panel("contacts", strips=strips, colour=INK)], title="t", x_label="x", x_limits=(0.5, 4.0))
+    (d,) = paths(svg)
+    assert d.count("M") == 2 and {"1ext", "2ext"} <= texts(svg)
+    # Of seven half seconds one, then two after two.
+    assert points(d)[:, 0] == pytest.approx(61.2 + 788.0 / 7 * np.array([0, 1, 3, 5]), abs=1.0)
 
 
-def test_contacts_closer_than_half_a_pixel_are_one():
-    strips = [("1ext", np.array([[0.0, 1.0], [1.0001, 2.0]]))]
-    svg = chart([Panel("c", strips=strips)], title="t", x_label="x", x_limits=(0.0, 4.0))
-    assert [p.get("d").count("M") for p in ET.fromstring(svg).iter("path") if p.get("stroke-width")] == [1]
+def test_a_short_contact_is_still_seen():
+    svg = chart([Panel("c", strips=[("1ext", np.array([[1.0, 1.00001]]))], colour=INK)], title="t", x_label="x",
+                x_limits=(0.0, 4.0))  # fmt: skip
+    assert np.ptp(points(paths(svg)[0])[:, 0]) > 0.3
 
 
 def test_logarithmic_ordinate_has_powers_of_ten():
     svg = chart([Panel("y", [Line("y", X, 10.0 ** (X - 2.0), dots=True)], log=True)], title="t", x_label="x")
-    texts = [t.text for t in ET.fromstring(svg).iter("text")]
-    assert {"0.01", "0.1", "1", "10", "100"} <= set(texts)
+    assert {"0.01", "0.1", "1", "10", "100"} <= texts(svg)
 
 
 def test_marks_outside_are_left_out():
-    svg = chart([Panel("y", [Line("y", X, X)])], title="t", x_label="x", marks=[1.0, 9.0])
-    assert svg.count('stroke-width="0.7"') == 1
-
-
-@pytest.mark.parametrize(
-    "low, high, expected",
-    [(0.0, 5.0, [0, 1, 2, 3, 4, 5]), (-0.03, 0.09, [-0.02, 0, 0.02, 0.04, 0.06, 0.08]), (3.0, 3.0, [3.0])],
-)
-def test_ticks_are_round(low, high, expected):
-    assert nice_ticks(low, high, 6) == pytest.approx(expected, abs=1e-12)
+    assert len(paths(of(X, marks=[1.0, 9.0]), "#b42318")) == 1
 
 
 def test_models_have_dots_of_their_own_and_the_legend_shows_them():
-    from rockref.report.charts.style import COLOURS
-
     lines = [Line(str(k), X[:3], X[:3] + k, colour, dots=True) for k, colour in enumerate(COLOURS)]
-    svg = ET.fromstring(chart([Panel("y", lines)], title="t", x_label="x", x_limits=(-1.0, 1.0)))
-    shapes = {p.get("style"): p.get("d") for p in svg.iter("path") if p.get("transform")}
-    assert len(set(shapes.values())) == len(COLOURS)
-    assert shapes[f"fill:{COLOURS[1]}"] in key([("1", COLOURS[1], ())])
+    (ax,) = draw([Panel("y", lines)], [(-1.0, 1.0)]).axes
+    assert len({line.get_marker() for line in ax.lines}) == len(COLOURS)
+    shapes = {re.search(r' d="([^"]+)"', key([("1", colour, ())])).group(1) for colour in COLOURS}
+    assert len(shapes) == len(COLOURS)
 
 
 def test_legend_escapes_names():
     assert re.search(r"<svg[^>]*>.*</svg>a&lt;b", key([("a<b", "#000", (1, 2))]))
 
 
-def test_levels_are_drawn_and_named_at_their_height():
-    panel = Panel("p", [Line("a", X, X)], levels=[("floor", 2.5)], limits=(0.0, 5.0), height=100.0)
-    plain = chart([replace(panel, levels=[])], title="t", x_label="x")
-    svg = chart([panel], title="t", x_label="x")
-    assert ">floor<" in svg and ">floor<" not in plain
-    (level,) = [p.get("d") for p in ET.fromstring(svg).iter("path") if p.get("stroke-dasharray") == "2 3"]
-    frame = next(r for r in ET.fromstring(svg).iter("rect") if r.get("class") == "frame")
-    # Half of the range is the middle of the frame.
-    assert float(level[1:].split()[1].split("h")[0]) == pytest.approx(float(frame.get("y")) + 50.0, abs=0.1)
+def test_every_stretch_has_its_column_and_a_title_its_legend():
+    figure = draw(
+        [Panel("y", [Line("sine", X, np.sin(X))]), Panel("z", [Line("line", X, X)])], [(0, 1), (2, 5)], title="t"
+    )
+    assert [ax.get_xlim() for ax in figure.axes] == [(0, 1), (2, 5)] * 2
+    assert [ax.get_ylabel() for ax in figure.axes] == ["y", "", "z", ""]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["sine"]
+
+
+def test_dots_stand_over_their_places_beside_levels_that_leave_out_what_is_unknown():
+    line = level("floor", [1.0, np.nan, 2.0])
+    assert np.isfinite(line.y).sum() == 4 and line.x[np.isfinite(line.y)] == pytest.approx([-0.37, 0.37, 1.63, 2.37])
+    svg, keys = dots("t", ["a", "b", "c"], [("before", [3.0, 4.0, np.nan]), ("after", [1.0, 1.0, 1.0])], [line])
+    assert {"a", "b", "c"} <= texts(svg) and all(name in keys for name in ("floor", "before", "after"))
+    # From zero up, with room above the largest.
+    assert "0" in texts(svg) and len(re.findall("<use ", svg)) == 5

@@ -85,4 +85,4 @@ def test_shapes_need_what_was_measured_and_leave_out_a_model_without_them(short)
     blocks.add_shapes(page, replace(short, results=bare), 0)
     text, figures = part(page)
     # Its curves are gone: two of an envelope and one of a spectrum about each of two axes.
-    assert figures == 2 and whole.count('stroke-width="1.2"') - text.count('stroke-width="1.2"') == 6
+    assert figures == 2 and whole.count("stroke-width: 1.2") - text.count("stroke-width: 1.2") == 6
