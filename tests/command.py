@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 
 from rockref import cli
@@ -12,3 +14,8 @@ def run(capsys, *words) -> tuple[int, str, str]:
     with pytest.raises(SystemExit) as end:
         cli.main([str(word) for word in words])
     return end.value.code, *capsys.readouterr()
+
+
+def of(verb: str) -> Callable[..., tuple[int, str, str]]:
+    """What takes capsys and the words after `rockref VERB`."""
+    return lambda capsys, *words: run(capsys, verb, *words)

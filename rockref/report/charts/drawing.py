@@ -185,7 +185,7 @@ def _shortened(body: str) -> str:
     body = re.sub(r"font: ([\d.]+px)[^;\"]*", r"font-size: \1", body)
     # decided: a tenth of a pixel is not seen.
     body = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d)\d+", r"\1", d[0]).replace(" \nL ", " "), body)
-    return re.sub(r"\s*\n\s*", "\n", body)
+    return re.sub(r"\s*\n\s*", " ", body)
 
 
 def key_of(lines: Iterable[Line]) -> str:

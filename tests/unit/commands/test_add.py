@@ -9,14 +9,12 @@ from rockref.discover import add_effect as adding
 from tests import command
 from tests.unit.discover import fakes
 
+run = command.of("add")
+
 
 @pytest.fixture(scope="module")
 def made():
     return fakes.made_experiment()
-
-
-def run(capsys, *words):
-    return command.run(capsys, "add", *words)
 
 
 def test_error_before_and_after_in_words(capsys, monkeypatch, tmp_path, made):

@@ -8,13 +8,14 @@ from xml.etree import ElementTree
 
 import pytest
 
-from rockref import cli
 from rockref.conformance import vectors
 from rockref.conformance.faults import run as zoo
 from rockref.conformance.judge import findings as judging
 from rockref.conformance.judge import offline
+from tests import command
 from tests.unit.commands import terminal
 
+run = command.of("conform")
 ROOT = Path(__file__).resolve().parents[3]
 #: The law with a gyroscope that is wrong by a half.
 WRONG = """from rockref.conformance.backends.law import NumpyEngine
@@ -22,12 +23,6 @@ class Backend(NumpyEngine):
     def channel(self, **q):
         return {k: 1.5 * v for k, v in super().channel(**q).items()}
 """
-
-
-def run(capsys, *words):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["conform", *map(str, words)])
-    return end.value.code or 0, *capsys.readouterr()
 
 
 @pytest.fixture

@@ -13,16 +13,15 @@ from rockref.model.errors import InputError
 from tests import command
 from tests.unit.discover import fakes
 
+run = command.of("diagnose")
+
+
 ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture(scope="module")
 def made():
     return fakes.made_experiment()
-
-
-def run(capsys, *words):
-    return command.run(capsys, "diagnose", *words)
 
 
 def answer(monkeypatch, found):

@@ -5,18 +5,16 @@ from pathlib import Path
 
 import pytest
 
-from rockref import cli
 from rockref.effects.catalogue import EFFECTS, OF_TOSSES
+from tests import command
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/my_effect.py"
 
 
 def said(capsys, *arguments):
     """What the command prints, and its exit code."""
-    with pytest.raises(SystemExit) as end:
-        cli.main(["effects", *arguments])
-    out, err = capsys.readouterr()
-    return out, err, end.value.code or 0
+    code, out, err = command.run(capsys, "effects", *arguments)
+    return out, err, code
 
 
 def test_list_has_every_effect_with_its_sentence(capsys):
@@ -50,9 +48,7 @@ def test_the_command_that_is_shown_can_be_typed(capsys, id):
     """`foot_defects` needs the four-point model."""
     out = said(capsys, id)[0]
     line = out.split("to use it    rockref ")[1].splitlines()[0]
-    with pytest.raises(SystemExit) as end:
-        cli.main([*line.split(), "--duration", "0.01"])
-    assert not end.value.code
+    assert command.run(capsys, *line.split(), "--duration", "0.01")[0] == 0
     assert f"--picture {id}.png" in out
 
 
@@ -80,23 +76,20 @@ def test_sign_and_hard_limits_are_shown(capsys, id, words):
     assert f" {words}\n" in said(capsys, id)[0]
 
 
-@pytest.mark.parametrize("command", ["effects", "simulate"])
-def test_what_is_not_plausible_is_remarked(capsys, tmp_path, command):
+@pytest.mark.parametrize("verb", ["effects", "simulate"])
+def test_what_is_not_plausible_is_remarked(capsys, tmp_path, verb):
     """Used all the same, with the range on standard error; from a file, too."""
-    more = ["--duration", "0.01"] if command == "simulate" else []
+    more = ["--duration", "0.01"] if verb == "simulate" else []
     for value, remark in (("50", True), ("0.4", False), ("0", False)):
         words = f"quadratic_drag:c={value}"
-        with pytest.raises(SystemExit) as end:
-            cli.main([command, *(["--effect", words] if command == "simulate" else [words]), *more])
-        err = capsys.readouterr().err
-        assert not end.value.code
+        code, _, err = command.run(capsys, verb, *(["--effect", words] if verb == "simulate" else [words]), *more)
+        assert code == 0
         assert ("c: is 50 N m s2, which is not plausible. Plausible is 0.002 to 5 N m s2" in err) is remark
         assert (err == "") is not remark
     file = tmp_path / "model.toml"
     file.write_text("[effects.rounded_feet]\nradius = 0.03\n", encoding="utf-8")
-    with pytest.raises(SystemExit):
-        cli.main(["simulate", str(file), "--duration", "0.01"])
-    assert f"{file}: rounded_feet radius: is 0.03 m" in capsys.readouterr().err
+    _, _, err = command.run(capsys, "simulate", file, "--duration", "0.01")
+    assert f"{file}: rounded_feet radius: is 0.03 m" in err
 
 
 def test_users_own_effect_is_shown(capsys):

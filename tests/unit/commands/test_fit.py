@@ -11,9 +11,7 @@ from rockref.model.errors import InputError
 from tests import command
 from tests.unit.discover import fakes
 
-
-def run(capsys, *words):
-    return command.run(capsys, "fit", *words)
+run = command.of("fit")
 
 
 @pytest.mark.parametrize(

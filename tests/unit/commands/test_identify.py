@@ -6,8 +6,9 @@ import json
 import numpy as np
 import pytest
 
-from rockref import InputError, Model, cli
+from rockref import InputError, Model
 from rockref.identify.search import Progress, Settings
+from tests import command
 from tests.shipped import two_runs
 from tests.unit.report.made_up import IDENTIFICATION
 
@@ -25,10 +26,9 @@ def here(tmp_path, monkeypatch):
 
 
 def refused(capsys, *words):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["identify", *words])
-    assert end.value.code == 2
-    return capsys.readouterr().err
+    code, _, err = command.run(capsys, "identify", *words)
+    assert code == 2
+    return err
 
 
 @pytest.mark.parametrize(
@@ -85,9 +85,7 @@ class TestTheEnd:
                 return record, Model.table_3_1()
 
             monkeypatch.setattr("rockref.identify.from_experiment.answered", answered)
-            with pytest.raises(SystemExit) as end:
-                cli.main(["identify", "EIGHT", "-o", "found", "--workers", "1", *words])
-            return end.value.code, *capsys.readouterr(), asked
+            return *command.run(capsys, "identify", "EIGHT", "-o", "found", "--workers", "1", *words), asked
 
         return run
 

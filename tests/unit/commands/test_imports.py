@@ -5,6 +5,8 @@ import pytest
 from rockref.measure.importing import contactnets
 from tests import command
 
+run = command.of("import")
+
 
 @pytest.fixture
 def calls(monkeypatch):
@@ -12,10 +14,6 @@ def calls(monkeypatch):
     made = []
     monkeypatch.setattr(contactnets, "import_contactnets", lambda *a: made.append(tuple(map(str, a))) or (4, 1))
     return made
-
-
-def run(capsys, *words):
-    return command.run(capsys, "import", *words)
 
 
 def test_recordings_and_copies_are_counted(capsys, calls):

@@ -4,9 +4,7 @@ import rockref
 from rockref.lab import page
 from tests import command
 
-
-def run(capsys, *words):
-    return command.run(capsys, "lab", *words)
+run = command.of("lab")
 
 
 def test_without_an_experiment_the_page_begins_at_the_model(capsys, tmp_path):

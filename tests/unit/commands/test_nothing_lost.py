@@ -4,10 +4,10 @@ import json
 
 import pytest
 
-from rockref import cli
 from rockref.discover import add_effect, diagnose, fit_baseline, plan
 from rockref.model import storage
 from rockref.model.errors import InputError
+from tests.command import run as typed
 from tests.unit.discover import fakes
 
 #: Command, the engine behind it, and a word that its result is known by.
@@ -39,10 +39,8 @@ def run(capsys, monkeypatch, tmp_path, found, command, *more):
 
     monkeypatch.setattr(module, name, lambda *a, **k: found[command])
     monkeypatch.setattr(storage, "write_pieces", full)
-    with pytest.raises(SystemExit) as end:
-        cli.main([command, *arguments, "-o", str(tmp_path / "out"), *more])
-    out, err = capsys.readouterr()
-    assert end.value.code == 2 and "[E-WRITE]" in err and not list(tmp_path.iterdir())
+    code, out, err = typed(capsys, command, *arguments, "-o", tmp_path / "out", *more)
+    assert code == 2 and "[E-WRITE]" in err and not list(tmp_path.iterdir())
     return out, word
 
 
@@ -67,8 +65,6 @@ def test_a_page_that_cannot_be_drawn_loses_neither_the_verdict_nor_the_file(caps
     monkeypatch.setattr(diagnose, "diagnose", lambda *a, **k: found["diagnose"])
     monkeypatch.setattr(diagnosis_page, "diagnosis_page", too_large)
     output, page = tmp_path / "verdict.json", tmp_path / "page"
-    with pytest.raises(SystemExit) as end:
-        cli.main(["diagnose", "anywhere", "-o", str(output), "--report", str(page)])
-    out, err = capsys.readouterr()
-    assert end.value.code == 2 and "[E-PAGE-SIZE]" in err
+    code, out, err = typed(capsys, "diagnose", "anywhere", "-o", output, "--report", page)
+    assert code == 2 and "[E-PAGE-SIZE]" in err
     assert "quadratic_drag is missing" in out and json.loads(output.read_text())["verdict"] == "named"

@@ -11,6 +11,8 @@ from rockref.discover.progress import StageReport
 from tests import command
 from tests.unit.discover import fakes
 
+run = command.of("plan")
+
 
 @pytest.fixture(scope="module")
 def found():
@@ -29,10 +31,6 @@ def calls(monkeypatch, found):
 
     monkeypatch.setattr(engine, "plan", plan)
     return made
-
-
-def run(capsys, *words):
-    return command.run(capsys, "plan", *words)
 
 
 def test_words_and_the_file_with_the_record(capsys, calls, found, tmp_path):

@@ -4,14 +4,12 @@ import json
 
 import pytest
 
-from rockref import cli
 from rockref.engines import machine
+from tests import command
 
 
 def run(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["doctor", *arguments])
-    return end.value.code, capsys.readouterr().out
+    return command.run(capsys, "doctor", *arguments)[:2]
 
 
 @pytest.fixture
