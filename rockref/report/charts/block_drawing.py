@@ -86,7 +86,8 @@ def _posture(ax: Any, turned: bool) -> None:
         _foot(ax, at, str(k + 1), seen[:4].mean(axis=0), 17.0)
     for axis, name in enumerate("XYZ"):
         reach = 0.075 * (1.2 if axis != 1 else 1.0) * start.Lambda[:, axis]
-        _arrow(ax, *_flat(np.stack([centre, centre + reach])), name)
+        begin, end = _flat(np.stack([centre, centre + reach]))
+        _arrow(ax, begin, end, name)
     _tilt(ax, seen, on)
     sign = "negative" if turned else "positive"
     ax.text(150, 16, f"block_turned_deg = {180 if turned else 0}", ha="center", va="center", fontsize=14)

@@ -16,7 +16,7 @@ def rendered(figure: Any, kind: str, dpi: float = 150, salt: str = "rockref") ->
 
     buffer = io.BytesIO()
     # Ids from a fixed salt and no date: two runs of the program write the same file. Curves keep to half their width.
-    look = {"svg.hashsalt": salt, "svg.fonttype": "none", "path.simplify_threshold": 0.6}
+    look: Any = {"svg.hashsalt": salt, "svg.fonttype": "none", "path.simplify_threshold": 0.6}
     with matplotlib.rc_context(look):
         metadata = {"Date": None} if kind == "svg" else {"Software": None}
         figure.savefig(buffer, format=kind, dpi=dpi, metadata=metadata)

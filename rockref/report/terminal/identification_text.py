@@ -91,12 +91,13 @@ def terms_table(result: dict[str, Any]) -> Table:
 
 def runs_table(result: dict[str, Any]) -> Table:
     """Return every run up to its second main impact."""
-    axes = ("main (deg/s)", "transverse", "longitudinal")
     columns = {
         "run": lambda r: r["run"],
         "use": lambda r: r["use"],
         "tilt (rad)": lambda r: f"{r['release_tilt_rad']:.5f}",
-        **{name: lambda r, k=k: f"{r['rms_deg_s'][k]:.3f}" for k, name in enumerate(axes)},
+        "main (deg/s)": lambda r: f"{r['rms_deg_s'][0]:.3f}",
+        "transverse": lambda r: f"{r['rms_deg_s'][1]:.3f}",
+        "longitudinal": lambda r: f"{r['rms_deg_s'][2]:.3f}",
         "over noise": lambda r: f"{r['rms_over_noise']:.2f}",
         "tilt as stated": lambda r: f"{r['rms_over_noise_as_stated']:.2f}",
     }

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-import numpy as np
-
 from rockref.discover.compare.models import Comparison
 from rockref.report.charts.block_drawing import block_drawing
 from rockref.report.charts.run_panels import write_figures
@@ -68,7 +66,7 @@ def add_runs(page: Page, c: Comparison, room: int | None = None) -> list[str]:
     limit = MAX_BYTES - RESERVE if room is None else size + room
     runs = range(len(c.measured))
     # The longest run says how much room all of them take at most.
-    longest = blocks.run_curves(c, max(runs, key=lambda k: np.size(c.measured[k].run.t)))
+    longest = blocks.run_curves(c, max(runs, key=lambda k: c.results[0][k].modelled.size))
     pictures = len(runs) * len(longest.picture)
     numbers = len(runs) * cost(longest) - pictures
     left, every = limit - size - pictures, 1
