@@ -29,6 +29,7 @@ Answers = Sequence[tuple[Vector, dict[str, Any]]]
 CIRCUMSTANCES: Circumstances = (
     ("T5", "feet touch anew", lambda f: f["new"]),
     ("T5", "stretched feet stand beside one that touches anew", lambda f: f["spring"] & f["company"]),
+    ("T5", "anchors are those of the step before", lambda f: f["later"] & ~f["new"] & f["spring"]),
     ("T1", "dampers of friction work", lambda f: f["damper"]),
     ("T1", "springs of friction are stretched", lambda f: f["spring"]),
     ("T1", "dampers of sticking feet work", lambda f: f["damper"] & ~f["slides"]),
