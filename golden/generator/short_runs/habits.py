@@ -1,5 +1,5 @@
 """Short runs (L5s) for what programs do of themselves: they put slow bodies to rest, count eight feet, remember the run
-before, show flags a row late, and take small turns for none.
+before, show flags a row late, take small turns for none, add turns up, and leave a force where a foot has opened.
 
 They stand behind all others; `place` says between which they are judged. Three are asked one after another.
 """
@@ -99,6 +99,22 @@ def turned_and_tied() -> Iterator[tuple[float, Case]]:
     yield 49.9, ask({"F_T@0": "T1"}, "spring and damper below a newton", 2, standing(), made=GLUE, **hardly)
 
 
+def let_go() -> Iterator[tuple[float, Case]]:
+    """Yield N2 of feet without dampers, which open while their springs push: nothing is left of their forces."""
+    made = ICE | {"K_N": 2.0**17, "K_T": 2.0**17, "C_N": 0.0}
+    flag = "opening while the springs push"
+    yield 22.95, ask({"F_N@1": "N2"}, flag, 2, standing(2.0**-13), made=made, step=2.0**-10, v=Z)
+
+
+def turned_twice() -> Iterator[tuple[float, Case]]:
+    """Yield I3 of the second turn of a top: turns about other axes do not add up."""
+    d = Draw(83, 53)
+    top: Any = {"W": d.vector(8), "Lambda": d.rotation(0.5), "step": 2.0**-7}
+    yield 16.9, fly({"Lambda@2": "I3"}, "torque-free top, the second turn", 2, **top)
+
+
 def habits() -> Iterator[Case]:
     """Yield all of them."""
-    return placed(slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied)
+    return placed(
+        slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied, let_go, turned_twice
+    )
