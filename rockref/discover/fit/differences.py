@@ -11,7 +11,7 @@ from rockref.discover.fit.objective import mean_loss, smoothed
 from rockref.discover.fit.problem import FitProblem
 from rockref.discover.fit.stages import Stage, fineness
 from rockref.discover.hypotheses.parameter import Parameter
-from rockref.discover.listening.listener import Job
+from rockref.discover.listening.listener import Job, Listener
 
 #: Half width of a difference in prior deviations, the part of it that is tried next where the objective rises more than
 #: bearable, and the least width; decided: a quarter of what is expected is seen by every number.
@@ -29,9 +29,15 @@ class Residuals:
     widths: dict[str, float] = field(default_factory=dict)
 
     @property
+    def listener(self) -> Listener:
+        """Return the records as the stage hears them."""
+        whole, most = self.problem.listener, self.stage.rate
+        return whole if most is None else whole.thinned(most)
+
+    @property
     def count(self) -> int:
         """Return how many innovations there are, smoothing included (its white noise counts as fewer)."""
-        listener = self.problem.listener
+        listener = self.listener
         horizon = self.stage.horizon
         N = listener.N if horizon is None else min(listener.N, int(horizon * listener.gyro.sample_rate) + 1)
         thinned = max(1, round(self.stage.smoothing * listener.gyro.sample_rate))
@@ -39,10 +45,11 @@ class Residuals:
 
     def of(self, jobs: Sequence[Job], fine: float) -> np.ndarray:
         """Return innovations (J, R, n, 3) of jobs, smoothed and in inflated noise widths."""
-        problem, stage = self.problem, self.stage
-        listener = problem.listener
-        memory = stage.memory(problem.time_scale, fine)
-        predicted = listener.predict(jobs, memory, stage.horizon)
+        problem, stage, listener = self.problem, self.stage, self.listener
+        before = listener.simulated
+        predicted = listener.predict(jobs, stage.memory(problem.time_scale, fine), stage.horizon)
+        if listener is not problem.listener:
+            problem.listener.simulated += listener.simulated - before
         r = listener.innovations(predicted, stage.jitter)
         return smoothed(r, stage.smoothing * listener.gyro.sample_rate) / stage.inflation
 

@@ -16,9 +16,11 @@ from rockref.discover.fit.stages import Stage
 #: Generations at least and at most, the steps of a member in each, and the factors on the difference of two members by
 #: which a child leaps (decided on simulated blocks of other feet, as the numbers below).
 GENERATIONS, STEPS, LEAPS = (2, 4), 2, (0.5, 1.0, 1.5)
-#: Part of the members, the best, from which children leap, two at least.
+#: Part of the members, the best, from which children leap, two at least, and whose loss tells whether all have arrived.
 PARENTS = 1 / 3
-#: Part of its loss that a member has to lose to go on, as have all in a generation for another one.
+#: Share of the children that take the effects of any member, and leave its law.
+CROSSED = 0.5
+#: Part of its loss that a member has to lose to go on, as have the best in a generation for another one.
 GOES_ON = 0.02
 #: Prior deviations beyond which no number is moved.
 OUTSIDE = 2.5
@@ -28,25 +30,41 @@ DISTINCT = 0.5
 
 
 def evolved(
-    fitter: Fitter, field: Sequence[FittedModel], stage: Stage, size: int, rng: np.random.Generator
+    fitter: Fitter,
+    field: Sequence[FittedModel],
+    stage: Stage,
+    size: int,
+    rng: np.random.Generator,
+    of_each: int | None = None,
 ) -> list[FittedModel]:
-    """Return the best of a population of one hypothesis after some generations, best first.
+    """Return the best of a population after some generations, best first.
 
-    field : evaluated at the stage.  size : how many live on.
+    field : evaluated at the stage.  size : how many live on.  of_each : how many of them with the same effects.
     """
-    members = best(field, size)
+    members = survivors(fitter, field, size, of_each)
     moving = list(members)
     for generation in range(GENERATIONS[1]):
-        before = members[0].loss
+        before = loss_of(members)
         moving = descended(fitter, moving, stage)
-        born = children(fitter, best(members, size), rng)
+        members = survivors(fitter, members, size, of_each)
+        born = children(fitter, members, rng)
         fitter.evaluate_all(born, stage)
         moving += descended(fitter, born, stage)
-        members = best([*members, *born], size)
+        members = survivors(fitter, [*members, *born], size, of_each)
         moving = [h for h in moving if any(h is m for m in members)]
-        if generation + 1 >= GENERATIONS[0] and members[0].loss > (1 - GOES_ON) * before:
+        if generation + 1 >= GENERATIONS[0] and loss_of(members) > (1 - GOES_ON) * before:
             break
     return members
+
+
+def parents_of(members: Sequence[FittedModel]) -> int:
+    """Return how many of some members, the best, have children."""
+    return min(len(members), max(2, round(PARENTS * len(members))))
+
+
+def loss_of(members: Sequence[FittedModel]) -> float:
+    """Return the mean loss of the parents among members, best first."""
+    return float(np.mean([h.loss for h in members[: parents_of(members)]]))
 
 
 def descended(fitter: Fitter, field: Sequence[FittedModel], stage: Stage) -> list[FittedModel]:
@@ -61,18 +79,20 @@ def descended(fitter: Fitter, field: Sequence[FittedModel], stage: Stage) -> lis
 
 
 def children(fitter: Fitter, members: Sequence[FittedModel], rng: np.random.Generator) -> list[FittedModel]:
-    """Return as many children as there are members: one of the best each, moved by the difference of two others."""
-    parameters = fitter.parameters(members[0])
-    far = OUTSIDE * np.array([p.reach for p in parameters])
-    least = np.maximum([p.least for p in parameters], -far)
-    most = np.minimum([p.most for p in parameters], far)
-    parents = min(len(members), max(2, round(PARENTS * len(members))))
+    """Return as many children as there are members, best first: the law and the releases of one of the best, moved by
+    the difference of two others, with its effects or those of any member."""
+    shared = fitter.problem.parameters()
+    G = len(shared)
+    far = OUTSIDE * np.array([p.reach for p in shared])
+    least = np.maximum([p.least for p in shared], -far)
+    most = np.minimum([p.most for p in shared], far)
     found = []
     for _ in members:
-        parent = members[int(rng.integers(parents))]
+        parent = members[int(rng.integers(parents_of(members)))]
         a, b = rng.choice(len(members), 2, replace=len(members) < 2)
-        z = parent.z + rng.choice(LEAPS) * (members[a].z - members[b].z)
-        found.append(FittedModel(parent.effects, np.clip(z, least, most)))
+        giver = members[int(rng.integers(len(members)))] if rng.random() < CROSSED else parent
+        law = parent.z[:G] + rng.choice(LEAPS) * (members[a].z[:G] - members[b].z[:G])
+        found.append(FittedModel(giver.effects, np.concatenate([np.clip(law, least, most), giver.z[G:]])))
     return found
 
 
@@ -81,11 +101,26 @@ def best(field: Sequence[FittedModel], size: int) -> list[FittedModel]:
     return sorted(field, key=lambda h: h.loss)[:size]
 
 
-def distinct(fitter: Fitter, field: Sequence[FittedModel]) -> list[FittedModel]:
-    """Return those of a field whose law is not that of a better one, best first."""
-    law = [k for k, p in enumerate(fitter.parameters(field[0])) if p.run is None and not p.effect]
+def survivors(fitter: Fitter, field: Sequence[FittedModel], size: int, of_each: int | None = None) -> list[FittedModel]:
+    """Return so many of a field with the least loss, best first, no more than `of_each` with one set of effects, nor in
+    one valley, and each once."""
+    most = size if of_each is None else of_each
     found: list[FittedModel] = []
     for h in best(field, len(field)):
-        if all(np.abs(h.z[law] - k.z[law]).max(initial=0.0) > DISTINCT for k in found):
+        alike = [set(k.effects) == set(h.effects) for k in found]
+        near = [is_near(fitter, h, k) for k in found]
+        once = not any(a and n for a, n in zip(alike, near, strict=True))
+        if once and len(found) < size and sum(alike) < most and sum(near) < most:
             found.append(h)
     return found
+
+
+def is_near(fitter: Fitter, h: FittedModel, k: FittedModel) -> bool:
+    """Return whether two fits stand in one valley, by their laws."""
+    law = [i for i, p in enumerate(fitter.problem.parameters()) if p.run is None]
+    return bool(np.abs(h.z[law] - k.z[law]).max(initial=0.0) <= DISTINCT)
+
+
+def distinct(fitter: Fitter, field: Sequence[FittedModel]) -> list[FittedModel]:
+    """Return those of a field whose law is not that of a better one with the same effects, best first."""
+    return survivors(fitter, field, len(field))

@@ -22,6 +22,7 @@ class Stage:
     """One stage: time constants of the memory, smoothing and jitter [s], steps in 0.5 ms.
 
     inflation : of the noise.  horizon [s] : how far runs are followed, None for all of it.
+    rate : samples in a second of which a faster record is thinned, None where all are heard.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Stage:
     steps: int = 16
     inflation: float = 1.0
     horizon: float | None = None
+    rate: float | None = None
 
     def memory(self, time_scale: float, fineness: float) -> Memory:
         """Return the memory for a block whose motion is slower by `time_scale`, with finer steps."""
@@ -50,7 +52,7 @@ class Stage:
 #: Decided: gains of an effect grow by five from 10 to 80 ms, and the roughness of the objective, 30 to 100 nats at
 #: 40 ms, does so too. The attitude is remembered for half a second at least: its target is the integral of a noisy
 #: rate, which wanders by 50 urad in three seconds; pulled after it faster, the right model leaves more than its noise.
-S1 = Stage("S1", 0.005, 0.5, smoothing=8e-3, steps=6)
+S1 = Stage("S1", 0.005, 0.5, smoothing=8e-3, steps=6, rate=1000.0)
 S2 = Stage("S2", 0.010, 0.5, smoothing=2e-3, steps=12)
 S3 = Stage("S3", 0.020, 0.5, jitter=0.05e-3)
 F = Stage("F", 0.040, 1.0, jitter=0.05e-3)

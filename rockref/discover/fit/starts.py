@@ -95,9 +95,13 @@ def stages(fitter: Fitter) -> list[Stage]:
 
 @dataclass
 class GlobalFit:
-    """A fit from starts over the whole prior: fits that differ over each horizon on the way, best first."""
+    """A fit from starts over the whole prior: fits that differ over each horizon on the way, best first.
+
+    wide : the best starts after a step, from which these descend
+    """
 
     fields: list[list[FittedModel]]
+    wide: list[FittedModel]
 
     @property
     def best(self) -> FittedModel:
@@ -111,30 +115,30 @@ def global_fit(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> GlobalF
     z : numbers of releases and effects from which all start
     """
     few = FewRuns(fitter.problem)
-    fields = populations(Fitter(few.problem), effects, few.taken(effects, z))
+    found = populations(Fitter(few.problem), effects, few.taken(effects, z))
     fitter.problem.listener.simulated += few.problem.listener.simulated
-    for h in (h for field in fields for h in field):
+    for h in (h for field in [*found.fields, found.wide] for h in field):
         h.z, h.r, h.objective = few.put(effects, h.z, z), None, np.inf
-    found = GlobalFit(fields)
     fitter.tempered(found.best, S1, AGAIN)
     found.best.start = found.best.z.copy()
     return found
 
 
-def populations(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> list[list[FittedModel]]:
+def populations(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> GlobalFit:
     """Return fits from starts over the whole prior that differ, over each horizon, best first."""
     rng = np.random.default_rng(fitter.problem.seed)
-    field, fields = draws(fitter, effects, z, DRAWS), []
+    found, field = GlobalFit([], []), draws(fitter, effects, z, DRAWS)
     first = stages(fitter)[0]
     fitter.evaluate_all(field, first)
     for most, steps in ROUNDS:
         field = best(field, most)
         for h in field:
             fitter.tempered(h, first, steps)
+        found.wide = found.wide or [h.copy() for h in best(field, most)]
     for stage, members in zip(stages(fitter), MEMBERS, strict=True):
         fitter.evaluate_all(field, stage)
         before = [h.copy() for h in field]
         field = evolved(fitter, field, stage, members, rng)
-        fields.append([h.copy() for h in distinct(fitter, [*field, *before])])
+        found.fields.append([h.copy() for h in distinct(fitter, [*field, *before])])
         fitter.problem.say(f"starts over the whole prior: mean loss {field[0].loss:.2f}")
-    return fields
+    return found

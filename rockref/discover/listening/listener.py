@@ -90,7 +90,25 @@ class Listener:
         self._at = [ticks_at(self.ticks, t) for t in self.t]
         self._targets: dict[tuple, Target] = {}
         self._undone: dict[tuple[int, int], dict] = {}
+        self._thinned: dict[int, Listener] = {}
         self.simulated = 0
+
+    def thinned(self, most: float) -> Listener:
+        """Return a listener to every second or further sample of faster records, so that `most` [Hz] or more are left.
+
+        Where a memory is short and innovations are smoothed, more samples only take time.
+        """
+        factor = int(self.gyro.sample_rate / most + 1e-9)
+        if factor < 2:
+            return self
+        if factor not in self._thinned:
+            gyro = replace(self.gyro, sample_rate=self.gyro.sample_rate / factor)
+            records = [(run, *record_of(run)) for run in self.runs]
+            runs = [replace(run, t=t[::factor], crv=crv[::factor]) for run, t, crv in records]
+            few = Listener(replace(self.experiment, gyro=gyro), runs, self.end, self.workers)
+            few.sigma = self.sigma
+            self._thinned[factor] = few
+        return self._thinned[factor]
 
     def target(self, i: int, effects: tuple[Effect, ...], ticks: Grid | None = None) -> Target:
         """Return what run i tells of the block, its sensor having these effects; the last hundred are kept."""

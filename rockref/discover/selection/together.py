@@ -1,8 +1,8 @@
 """An effect and the law, looked for together: pairs of a start and an effect compete.
 
 Without the effect the law bends towards what is missing, and what fits best is not near the truth. So starts of the law
-that have gone some way are each tried with every effect; few steps for many pairs over the first horizon that tells
-them apart, more for few over whole runs.
+are each tried with every effect, and the best pairs are a population (`rockref.discover.fit.evolution`): what one pair
+finds of the law, others take over. Many pairs over the first horizon that tells them apart, few over whole runs.
 """
 
 from __future__ import annotations
@@ -12,14 +12,23 @@ from itertools import count
 
 import numpy as np
 
+from rockref.discover.fit.evolution import evolved
+from rockref.discover.fit.few_runs import FewRuns
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
-from rockref.discover.fit.stages import S2, Stage
-from rockref.discover.fit.starts import GlobalFit, stages
+from rockref.discover.fit.stages import S1, S2, Stage
+from rockref.discover.fit.starts import AGAIN, GlobalFit, stages
 from rockref.discover.selection.halving import MARGIN, SECOND, proposed, say, sized_at_release, within
 
-#: Mean loss of the law alone from which a horizon tells effects apart, and the starts that are tried there (decided).
-TELLING, STARTS = 1.5, 6
+#: Mean loss of the law alone from which a horizon tells effects apart (decided: above what white noise leaves).
+TELLING = 1.2
+#: Starts of the law that are tried with every effect, of those that went far without one, and of those that took one
+#: step; and the effects that go on from each (decided: the first bend, the others lie all over the prior).
+STARTS, WIDE = (6, 16), (12, 9)
+#: Steps of a pair at S2 after the first three, as long as each takes off a fiftieth.
+SETTLED = 5
+#: Members of the population over each horizon, and how many of one effect among them.
+MEMBERS = ((24, 3), (10, 2), (5, 1))
 #: Part of the misfit of the law alone that an effect may leave and lead by far (decided: it is there, whatever the
 #: feet).
 LEADS = 0.1
@@ -53,19 +62,32 @@ def from_statement(
     """
     losses = [fitter.evaluate(null.copy(), stage).loss for stage in stages(fitter)]
     k = telling(losses)
-    pairs = first_pairs(fitter, [nominal], stages(fitter)[k])
-    best = pairs[0].copy()
+    found = first_pairs(fitter, nominal, stages(fitter)[k])
+    best = found[0].copy()
     leads = best.loss - WHITE <= LEADS * (losses[k] - WHITE)
-    return followed(fitter, pairs, k) if best.loss <= left else [], best if leads else None
+    return followed(fitter, found, k) if best.loss <= left else [], best if leads else None
 
 
 def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
-    """Return the best pairs of an effect and a law, from the starts of the law over the whole prior that went far."""
+    """Return the best pairs of an effect and a law, fitted at S2, from starts of the law over the whole prior."""
+    problem, few = fitter.problem, FewRuns(fitter.problem)
+    part, rng = Fitter(few.problem), np.random.default_rng(problem.seed)
     k = telling([field[0].loss for field in found.fields])
-    starts = found.fields[k][: STARTS - 1]
-    if k < len(found.fields) - 1:  # over whole runs it is the first of them
-        starts = [*starts, found.best]
-    return followed(fitter, first_pairs(fitter, starts, stages(fitter)[k]), k)
+    field = []
+    bent = [found.best, *(h for h in found.fields[k] if h is not found.best)]
+    for starts, (most, effects) in ((bent, STARTS), (found.wide, WIDE)):
+        own = [FittedModel(h.effects, few.taken(h.effects, h.z)) for h in starts[:most]]
+        field += pairs(part, own, stages(part)[k], effects)
+    for stage, (size, of_each) in zip(stages(part)[k:], MEMBERS[k:], strict=True):
+        part.evaluate_all(field, stage)
+        field = evolved(part, field, stage, size, rng, of_each)
+        say(part, "together", field)
+    problem.listener.simulated += few.problem.listener.simulated
+    for h in field:
+        whole = fitter.with_effect(found.best, h.effects[-1]).z
+        h.z, h.r = few.put(h.effects, h.z, whole), None
+        fitter.tempered(h, S1, AGAIN)
+    return at_S2(fitter, field)
 
 
 def followed(fitter: Fitter, field: list[FittedModel], horizon: int) -> list[FittedModel]:
@@ -79,22 +101,33 @@ def followed(fitter: Fitter, field: list[FittedModel], horizon: int) -> list[Fit
         for h in field[:moved]:
             fitter.polish(h, stage, steps)
         say(fitter, "farther", field)
+    return at_S2(fitter, field)
+
+
+def at_S2(fitter: Fitter, field: list[FittedModel]) -> list[FittedModel]:
+    """Return the best pairs over whole runs, fitted at S2."""
     for h in field:
         h.start = h.z.copy()
     field = best_pairs(field, SECOND, 1, MARGIN)
     for h in field:
-        fitter.refine(h, S2, 3)
+        fitter.settle(fitter.refine(h, S2, 3), S2, SETTLED)
     say(fitter, "S2", field)
     return within(field, SECOND)
 
 
-def first_pairs(fitter: Fitter, starts: Sequence[FittedModel], stage: Stage) -> list[FittedModel]:
-    """Return the pairs of a start and an effect by how they explain the runs over a horizon, best first."""
+def pairs(fitter: Fitter, starts: Sequence[FittedModel], stage: Stage, effects: int) -> list[FittedModel]:
+    """Return each start with so many of the best effects, and with each error of the sensor."""
     field: list[FittedModel] = []
     for start in starts:
-        field += proposed(fitter, start.copy(), stage, TRIED)
+        field += proposed(fitter, start.copy(), stage, effects)
     field += with_sensors(fitter, starts)
     fitter.evaluate_all(field, stage)
+    return field
+
+
+def first_pairs(fitter: Fitter, start: FittedModel, stage: Stage) -> list[FittedModel]:
+    """Return the pairs of a start and an effect by how they explain the runs over a horizon, best first."""
+    field = pairs(fitter, [start], stage, TRIED)
     for most, of_each, margin, steps in ROUNDS:
         for h in best_pairs(field, most, of_each, margin):
             fitter.tempered(h, stage, steps)

@@ -1,8 +1,10 @@
 """A population leaps out of valleys that a descent ends in."""
 
+from types import SimpleNamespace
+
 import numpy as np
 
-from rockref.discover.fit.evolution import DISTINCT, children, descended, distinct, evolved
+from rockref.discover.fit.evolution import DISTINCT, children, descended, distinct, evolved, survivors
 from rockref.discover.fit.fitter import FittedModel
 from rockref.discover.fit.stages import S1
 from rockref.discover.hypotheses.parameter import Parameter
@@ -21,8 +23,7 @@ def depth(z: np.ndarray) -> float:
 class Valleys:
     """A fitter of two numbers whose descent ends at the bottom of the nearest dent."""
 
-    def parameters(self, h):
-        return NUMBERS
+    problem = SimpleNamespace(parameters=lambda effects=(): NUMBERS)
 
     def evaluate_all(self, field, stage):
         for h in field:
@@ -66,8 +67,24 @@ def test_children_stay_within_the_prior_and_one_alone_has_itself():
     assert np.array_equal(only.z, members[0].z)
 
 
+def test_children_take_the_law_of_one_member_and_the_effect_of_another_with_its_numbers():
+    one, two = (FittedModel((e,), np.array([at, at, 0.0, size]), loss=1.0) for e, at, size in (("a", 1, 5), ("b", 2, 7)))
+    rng = np.random.default_rng(0)
+    born = [h for _ in range(50) for h in children(Valleys(), [one, two], rng)]
+    assert {(*h.effects, h.z[3]) for h in born} == {("a", 5.0), ("b", 7.0)}
+    from_one = [h for h in born if h.z[0] in (0.5, 1.5)]  # one moved by half the difference; two never stands there
+    assert {h.effects for h in from_one} == {("a",), ("b",)}
+
+
 def test_fits_in_one_valley_count_once_whatever_their_releases():
     better, near, other = fits((0.0, 0.0), (0.9 * DISTINCT, 0.0), (1.1 * DISTINCT, 0.0))
     better.loss, near.loss, other.loss = 1.0, 1.1, 1.2
     near.z[2] = 2.0
     assert distinct(Valleys(), [other, near, better]) == [better, other]
+
+
+def test_neither_one_effect_nor_one_valley_crowds_a_population():
+    bent = [FittedModel((e,), np.zeros(3), loss=1 + k / 10) for k, e in enumerate("abc")]
+    far = [FittedModel(("a",), np.array([k, 0.0, 0.0]), loss=k) for k in (2.0, 3.0, 4.0)]
+    assert survivors(Valleys(), [*far, *bent], 9, 2) == [bent[0], bent[1], far[0]]
+    assert survivors(Valleys(), [*far, *bent], 2, 2) == bent[:2]

@@ -53,6 +53,17 @@ def test_innovations_of_a_wrong_model_are_not(change):
     assert mean_losses(listener, model.replace(**change)).mean() > 1.3 * WHITE
 
 
+def test_every_other_sample_of_a_fast_record_tells_of_the_same_motion():
+    e, model = made()
+    listener = Listener(e, e.runs, END, workers=1)
+    few = listener.thinned(500.0)
+    assert listener.thinned(501.0) is listener and listener.thinned(500.0) is few
+    assert few.gyro.sample_rate == 500.0 and few.N == -(-listener.N // 2)
+    assert np.array_equal(few.measured, listener.measured[:, ::2]) and np.array_equal(few.sigma, listener.sigma)
+    # Bounds as above; between fewer samples the rates of an impact are not told, so the longest memory is not for them.
+    assert abs(np.median(mean_losses(few, model)) - WHITE) < 0.2
+
+
 def test_a_run_that_is_left_out_shows_nothing():
     e, model = made()
     predicted = Listener(e, e.runs, END, workers=1).predict([Job((None, model))], LONG)
