@@ -38,15 +38,20 @@ html_extra_path = ["_lab"]
 
 
 def setup(app):
-    """Draw the pictures of the effects and make the page of the lab; they are not kept with the text."""
+    """Write the pages and pictures that the package makes of itself; they are not kept with the text."""
     import sys
     from pathlib import Path
 
     sys.path.insert(0, str(app.srcdir))
-    from make_gallery import write_pictures
+    import make_checks
+    import make_errors
+    import make_gallery
+    import make_reference
 
+    for maker in (make_checks, make_errors, make_gallery, make_reference):
+        maker.write()
     Path(app.srcdir, "_lab").mkdir(exist_ok=True)  # sphinx asks for it before it builds anything
-    app.connect("builder-inited", lambda app: write_pictures(Path(app.srcdir, "reference", "effects")))
+    app.connect("builder-inited", lambda app: make_gallery.write_pictures(Path(app.srcdir, "reference", "effects")))
     app.connect("builder-inited", lambda app: write_lab(Path(app.srcdir)))
 
 

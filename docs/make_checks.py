@@ -35,5 +35,10 @@ def page() -> str:
     return HEAD + "".join(row(check) for check in (*OTHERS, *CHECKS))
 
 
-if __name__ == "__main__":
+def write() -> None:
+    """Write the page where the site is built from."""
     PAGE.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write()

@@ -151,5 +151,10 @@ def page() -> str:
     return "\n".join(lines)
 
 
-if __name__ == "__main__":
+def write() -> None:
+    """Write the page where the site is built from."""
     PAGE.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write()

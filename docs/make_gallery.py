@@ -88,5 +88,10 @@ def write_pictures(folder: Path) -> None:
             gallery.write_picture(kind.typical(), path)
 
 
-if __name__ == "__main__":
+def write() -> None:
+    """Write the page where the site is built from."""
     PAGE.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write()

@@ -122,6 +122,11 @@ def api_page() -> str:
     return "\n".join(lines)
 
 
-if __name__ == "__main__":
+def write() -> None:
+    """Write both pages where the site is built from."""
     COMMANDS.write_text(commands_page(), encoding="utf-8")
     API.write_text(api_page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write()

@@ -19,7 +19,7 @@ def maker():
 @pytest.fixture(scope="module")
 def sections(maker):
     """Code -> its part of the page."""
-    parts = re.split(r"^## (\S+)$", maker.PAGE.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    parts = re.split(r"^## (\S+)$", maker.page(), flags=re.MULTILINE)
     return dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
@@ -32,7 +32,6 @@ def codes_in_the_code():
 
 
 def test_every_code_is_on_the_page_and_no_other(sections):
-    """`python docs/make_errors.py` writes the page anew."""
     assert set(sections) == codes_in_the_code()
 
 

@@ -68,7 +68,9 @@ def test_children_stay_within_the_prior_and_one_alone_has_itself():
 
 
 def test_children_take_the_law_of_one_member_and_the_effect_of_another_with_its_numbers():
-    one, two = (FittedModel((e,), np.array([at, at, 0.0, size]), loss=1.0) for e, at, size in (("a", 1, 5), ("b", 2, 7)))
+    one, two = (
+        FittedModel((e,), np.array([at, at, 0.0, size]), loss=1.0) for e, at, size in (("a", 1, 5), ("b", 2, 7))
+    )
     rng = np.random.default_rng(0)
     born = [h for _ in range(50) for h in children(Valleys(), [one, two], rng)]
     assert {(*h.effects, h.z[3]) for h in born} == {("a", 5.0), ("b", 7.0)}

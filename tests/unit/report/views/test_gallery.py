@@ -14,11 +14,6 @@ DOCS = Path(__file__).resolve().parents[4] / "docs"
 MAKER = program("docs/make_gallery.py")
 
 
-def test_the_page_in_the_documentation_is_current():
-    """Made anew by `python docs/make_gallery.py`."""
-    assert MAKER.PAGE.read_text(encoding="utf-8") == MAKER.page()
-
-
 def test_the_page_has_a_section_and_a_picture_for_each():
     page = MAKER.page()
     assert re.findall(r"^### (\w+)$", page, re.MULTILINE) == [
