@@ -28,7 +28,7 @@ STARTS, WIDE = (6, 16), (12, 9)
 #: Steps of a pair at S2 after the first three, as long as each takes off a fiftieth.
 SETTLED = 5
 #: Members of the population over each horizon, and how many of one effect among them.
-MEMBERS = ((24, 3), (10, 2), (5, 1))
+MEMBERS = ((16, 3), (8, 2), (4, 1))
 #: Part of the misfit of the law alone that an effect may leave and lead by far (decided: it is there, whatever the
 #: feet).
 LEADS = 0.1
