@@ -110,19 +110,10 @@ def _head(document: Mapping[str, Any], folder: Path, source: str) -> Experiment:
     block = read_fields(top["block"], BLOCK, f"{source}, [block]")
     tilt = read_fields(top["release"], RELEASE, f"{source}, [release]") if top["release"] is not None else {}
     prior = read_fields(top["prior"], PRIOR, f"{source}, [prior]") if top["prior"] is not None else {}
-    return Experiment(
-        path=folder,
-        name=top["name"],
-        kind=top["kind"],
-        baseline=top["baseline"],
-        mass=block["mass"],
-        width=block["width"],
-        height=block["height"],
-        tilt_uncertainty=tilt.get("tilt_uncertainty"),
-        prior={key: ends for key, ends in prior.items() if ends is not None},
-        gyro=None,
-        runs=(),
-    )
+    named = {key: top[key] for key in ("name", "kind", "baseline")}
+    stated = {key: ends for key, ends in prior.items() if ends is not None}
+    uncertainty = tilt.get("tilt_uncertainty")
+    return Experiment(folder, **named, **block, tilt_uncertainty=uncertainty, gyro=None, runs=(), prior=stated)
 
 
 def _gyro(table: Any, runs: tuple[Run, ...], folder: Path, source: str) -> tuple[Gyro, list[Notice]]:
@@ -189,13 +180,7 @@ def _listed_run(table: Any, experiment: Experiment, where: str) -> Run:
         tilt, turn = (next(key for key in table if key.startswith(name)) for name in ("release_tilt", "block_turned"))
         _check_tilt(values["release_tilt"], experiment, f"{where}, key {tilt}")
         _check_turn(values["block_turned"], f"{where}, key {turn}")
-    return Run(
-        id=values["id"],
-        file=values["file"],
-        use=values["use"],
-        release_tilt=values["release_tilt"],
-        block_turned=values["block_turned"] or 0.0,
-    )
+    return Run(**values | {"block_turned": values["block_turned"] or 0.0})
 
 
 def _check_tilt(tilt: float, experiment: Experiment, where: str) -> None:

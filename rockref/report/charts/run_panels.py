@@ -104,7 +104,8 @@ def response_panels(
     """Return the panels of a computed release, one row in `every`: rates and contacts."""
     rates: list[Rates] = [(name, response.crv[::every].T, colour, ())]
     panels = rate_panels(response.t[::every], rates, plane)
-    return [*panels, Panel("contacts", strips=response.contacts(), height=110.0, colour=colour)]
+    of_strips = style.GREY if colour == style.INK else colour
+    return [*panels, Panel("contacts", strips=response.contacts(), height=110.0, colour=of_strips)]
 
 
 def whole_run(c: Comparison, k: int) -> Any:

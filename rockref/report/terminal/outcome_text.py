@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from rockref.report.tables.spoken import SPOKEN
 from rockref.report.tables.table import Table
 from rockref.report.terminal.text import print_table, say
 
 if TYPE_CHECKING:
     from rich.console import Console
-
-#: Units in which a person thinks of a size, and how many of it are one in SI.
-UNITS = {"m": ("mm", 1e3), "s": ("ms", 1e3)}
 
 
 def candidates_table(record: dict[str, Any]) -> Table:
@@ -22,7 +20,7 @@ def candidates_table(record: dict[str, Any]) -> Table:
     for h in sorted(hypotheses, key=lambda h: h["loss"]):
         size = "-"
         for n in h["numbers"].values():
-            unit, scale = UNITS.get(n["unit"], (n["unit"], 1.0))
+            unit, scale = SPOKEN.get(n["unit"], (n["unit"], 1.0))
             size = f"{scale * n['value']:.3g} ({scale * n['low']:.3g} to {scale * n['high']:.3g}) {unit}".rstrip()
         if set(h["effects"]) & set(record["evidence"]["signature"].get("open_ends", ())):
             size += ", no further tried"

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
+from rockref.report.tables.spoken import SPOKEN
 from rockref.report.tables.table import Table, table_of
 from rockref.report.terminal.text import print_table, say
 
 if TYPE_CHECKING:
     from rich.console import Console
-
-#: Unit in which a person thinks of a maximum, and how many of it are one in SI.
-UNITS = {"rad": ("deg", math.degrees(1.0)), "m": ("mm", 1e3)}
 
 
 def interval(found: dict[str, float], sign: str = "") -> str:
@@ -40,7 +37,7 @@ def distances_table(record: dict[str, Any]) -> Table:
         "tests, runs": lambda d: f"{d['tests']}, {d['runs']}",
         "KS": lambda d: f"{d['ks']:.3f}",
         "both bands": lambda d: f"{d['band']:.3f}, {'beyond' if d['ks'] > d['band'] else 'within'}",
-        "energy distance": lambda d: f"{UNITS[d['unit']][1] * d['energy_distance']:.3g} {UNITS[d['unit']][0]}",
+        "energy distance": lambda d: f"{SPOKEN[d['unit']][1] * d['energy_distance']:.3g} {SPOKEN[d['unit']][0]}",
         "p": lambda d: f"{d['p_value']:.3f}",
     }
     note = (

@@ -12,6 +12,7 @@ from rockref.model.problem import GRAVITY
 from rockref.report.charts import shake_figures
 from rockref.report.charts.figures import rendered
 from rockref.report.html.page import Page
+from rockref.report.tables.spoken import SPOKEN
 from rockref.report.terminal import shaken_text
 from rockref.shake.comparison import ShakenComparison
 from rockref.shake.experiment import MAXIMA
@@ -94,9 +95,9 @@ def _regression(x: np.ndarray, y: np.ndarray, fell: np.ndarray) -> Any:
 
 
 def add_distributions(page: Page, samples: dict[str, dict[str, np.ndarray]]) -> None:
-    """Add a figure of distribution functions with their bands for each quantity of `shaken_text.UNITS`' units."""
+    """Add a figure of distribution functions with their bands of each quantity."""
     for quantity, parts in samples.items():
-        unit, scale = shaken_text.UNITS[MAXIMA[quantity]]
+        unit, scale = SPOKEN[MAXIMA[quantity]]
         drawn = {name: scale * values for name, values in parts.items()}
         figure = shake_figures.distribution_figure(drawn, f"largest {quantity} ({unit})")
         said = f"Distribution functions of the largest {quantity}; bands that hold a whole function with 95 %."

@@ -192,9 +192,8 @@ def test_what_is_said_of_a_late_start():
 
 def test_two_rows_are_enough_for_a_clock_and_one_is_not():
     assert len(regular_samples(table([0.0, 0.001]), 1000.0)[0]) == 2
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError, match=r"one row holds no motion.*E-SHORT]"):
         regular_samples(table([0.0]), 1000.0)
-    assert str(caught.value) == "run.csv: one row holds no motion. Export the run again. [E-SHORT]"
 
 
 def test_what_is_said_of_time_that_runs_back():

@@ -68,10 +68,8 @@ def test_eight_samples_are_enough_and_frequencies_any_sequence():
 
 def test_what_is_said_of_seven_samples():
     t = np.arange(1000) / 1000.0
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(InputError, match=r"7 samples between 0\.493 and 0\.5 s.*E-STRETCH]"):
         amplitude_spectrum(t, np.zeros((1000, 3)), 0.493, 0.5)
-    said = "arguments start, end: 7 samples between 0.493 and 0.5 s. Give a stretch of the run. [E-STRETCH]"
-    assert str(caught.value) == said
 
 
 def test_the_time_of_day_does_not_matter():
