@@ -50,7 +50,7 @@ def growth(vector: Vector, out: dict[str, Any]) -> list[float]:
     """Return how many times as much the place of a run is off after two steps as after one; nothing where it is
     right, or has fewer."""
     rows = rows_of_the_law(vector.id)
-    if len(rows) < 3 or vector.inputs.get("a") is not None:
+    if len(rows) < 3 or np.any(rows[0].F) or vector.inputs.get("a") is not None:
         return []
     try:
         first, second = (np.asarray(out["x"], float)[i] - rows[i].x for i in (1, 2))
