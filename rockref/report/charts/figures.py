@@ -36,6 +36,16 @@ def new_figure(width: float, height: float) -> Any:
     return figure
 
 
+def one_panel(width: float, height: float, x: str, y: str) -> tuple[Any, Any]:
+    """Return a figure, inches, and its only axes with a grid and what they are."""
+    figure = new_figure(width, height)
+    ax = figure.subplots(1, 1)
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)
+    ax.grid(color=style.GRID, lw=0.6)
+    return figure, ax
+
+
 def dressed(ax: Any, name: str | None = None, margin: float = 0.0, size: float = 8) -> None:
     """Give axes a pale frame and grid, small numbers, room beside the curves as a share, and what the ordinate is."""
     if name is not None:

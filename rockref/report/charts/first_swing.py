@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.measure.importing.campaign import Campaign, ImportedRun
-from rockref.measure.signals.signal import growth_rate
+from rockref.measure.signals.signal import growth_rate, rocking_time
 from rockref.report.charts import style
 from rockref.report.charts.figures import new_figure, rendered
 
@@ -26,7 +26,7 @@ def expected_arc(run: ImportedRun, width: float, height: float) -> tuple[np.ndar
     width and height in m; linear in the angle.
     """
     p, alpha = growth_rate(width, height), math.atan2(width, height)
-    end = math.acosh(alpha / (alpha - run.tilt)) / p if run.tilt < alpha else run.impact
+    end = rocking_time(run.tilt, width, height) if run.tilt < alpha else run.impact
     t = np.linspace(0.0, end, 200)
     return t, (-1 if run.turned else 1) * (alpha - run.tilt) * p * np.sinh(p * t)
 

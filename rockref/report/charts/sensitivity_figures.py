@@ -10,7 +10,7 @@ import numpy as np
 from rockref.model.channel import DEGREES
 from rockref.report.charts import style
 from rockref.report.charts.drawing import draw
-from rockref.report.charts.figures import new_figure, titled
+from rockref.report.charts.figures import one_panel, titled
 from rockref.report.charts.run_panels import rate_panels
 from rockref.studies.predictability import Growth
 from rockref.studies.sensitivity import Family
@@ -49,8 +49,7 @@ def _drawn(f: Family) -> list[int]:
 def growth_figure(g: Growth) -> Any:
     """Return every small difference in the middle of each arc, over its first size; the straight line of the mean
     factor."""
-    figure = new_figure(7.0, 4.2)
-    ax = figure.subplots(1, 1)
+    figure, ax = one_panel(7.0, 4.2, "main impacts passed", "difference over the first")
     arcs = np.arange(g.factors.shape[1])
     for row in g.factors:
         ax.semilogy(arcs, row, color=style.BAND, lw=0.8)
@@ -58,8 +57,5 @@ def growth_figure(g: Growth) -> Any:
     until = arcs[g.per_impact**arcs < 3 * g.factors.max()]
     label = f"{g.per_impact:.3g} × per main impact (×/÷ {g.spread:.2g})"
     ax.semilogy(until, g.per_impact**until, color=style.COLOURS[0], lw=1.2, ls="--", label=label)
-    ax.set_xlabel("main impacts passed")
-    ax.set_ylabel("difference over the first")
-    ax.grid(color=style.GRID, lw=0.6)
     ax.legend(frameon=False, fontsize=9)
     return titled(figure, f"{len(g.factors)} releases that differ by 1e-9 rad")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.report.charts import style
-from rockref.report.charts.figures import new_figure, plain_ticks, titled
+from rockref.report.charts.figures import new_figure, one_panel, plain_ticks, titled
 from rockref.shake.statistics.bands import distribution_function, wilson_interval
 from rockref.shake.statistics.fragility import Fragility, monotone_curve
 from rockref.shake.statistics.scores import reliability
@@ -27,8 +27,7 @@ def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str) -> Any:
     x : (n,) sizes of the motions, `unit` is what the axis says;  fell : (n,) outcomes
     """
     sizes, y = np.asarray(x, float), np.asarray(fell, float)
-    figure = new_figure(7.0, 4.4)
-    ax = figure.subplots(1, 1)
+    figure, ax = one_panel(7.0, 4.4, unit, "probability of falling")
     at = np.geomspace(sizes.min(), sizes.max(), 300)
     low, high = fitted.interval(at)
     ax.fill_between(at, low, high, color=style.BAND, lw=0, label="95% interval of the fit")
@@ -45,10 +44,7 @@ def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str) -> Any:
     ax.plot(sizes, np.where(y == 1.0, 1.0 + shift, -shift), "|", ms=4, mew=0.5, color=style.GREY)
     ax.set_xscale("log")
     plain_ticks(ax.xaxis)
-    ax.set_xlabel(unit)
-    ax.set_ylabel("probability of falling")
     ax.set_ylim(-0.06, 1.06)
-    ax.grid(color=style.GRID, lw=0.6)
     ax.legend(loc="upper left", bbox_to_anchor=(0.0, 0.94), frameon=False, fontsize=8)
     title = f"median {fitted.theta:.3g}, scatter {fitted.beta:.2g}; {len(y)} tests, {int(y.sum())} fell"
     return titled(figure, title, 9)
@@ -89,10 +85,9 @@ def overturning_map(
 
 def distribution_figure(samples: Mapping[str, Any], quantity: str) -> Any:
     """Draw distribution functions with their bands, a colour and a dash a sample; the first is the measured one."""
-    figure = new_figure(7.0, 4.8)
+    figure, ax = one_panel(7.0, 4.8, quantity, "share of runs at or below")
     # Room for the names above the curves, which reach into every corner.
     figure.subplots_adjust(top=0.82)
-    ax = figure.subplots(1, 1)
     for k, (name, values) in enumerate(samples.items()):
         x, share, low, high = distribution_function(values)
         colour = style.INK if k == 0 else style.colour(k - 1)
@@ -106,17 +101,13 @@ def distribution_figure(samples: Mapping[str, Any], quantity: str) -> Any:
     if len(known) and known.min() > 0.0 and known.max() > WIDE * known.min():
         ax.set_xscale("log")
         plain_ticks(ax.xaxis)
-    ax.set_xlabel(quantity)
-    ax.set_ylabel("share of runs at or below")
-    ax.grid(color=style.GRID, lw=0.6)
     ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), frameon=False, fontsize=8, ncols=3)
     return titled(figure, "Distribution functions; bands hold a whole function with 95% (DKW)", 9)
 
 
 def reliability_figure(predictions: Mapping[str, tuple[Any, Any]]) -> Any:
     """Draw the share that fell over the predicted probability, with Wilson intervals; values: probability and fell."""
-    figure = new_figure(5.6, 4.8)
-    ax = figure.subplots(1, 1)
+    figure, ax = one_panel(5.6, 4.8, "predicted probability of falling", "share that fell")
     ax.plot([0.0, 1.0], [0.0, 1.0], color=style.GREY, lw=0.8, dashes=style.HOUSNER_DASH)
     for k, (name, (probability, fell)) in enumerate(predictions.items()):
         found = reliability(probability, fell)
@@ -124,10 +115,7 @@ def reliability_figure(predictions: Mapping[str, tuple[Any, Any]]) -> Any:
         ends = np.array([[b.observed - b.low, b.high - b.observed] for b in found]).T
         look: dict[str, Any] = {"fmt": "os^Dv"[k % 5], "ms": 4, "lw": 0.8, "color": style.colour(k), "label": name}
         ax.errorbar(at, [b.observed for b in found], np.maximum(ends, 0.0), **look)
-    ax.set_xlabel("predicted probability of falling")
-    ax.set_ylabel("share that fell")
     ax.set_xlim(-0.03, 1.03)
     ax.set_ylim(-0.03, 1.03)
-    ax.grid(color=style.GRID, lw=0.6)
     ax.legend(loc="upper left", frameon=False, fontsize=8)
     return titled(figure, "Reliability: on the line is as predicted", 9)

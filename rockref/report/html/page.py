@@ -12,6 +12,7 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -95,12 +96,11 @@ class Page:
 
         `table` holds its numbers and is folded; `keys` is a legend of :func:`rockref.report.charts.drawing.key`.
         """
+        drawn = svg
         if isinstance(svg, bytes):
             data = base64.b64encode(svg).decode("ascii")
-            svg = ""
-            self._add("png", {"data": data, "sentence": sentence, "table": table, "title": title})
-            return
-        self._add("figure", {"svg": svg, "sentence": sentence, "table": table, "title": title, "keys": keys})
+            drawn = f'<img alt="{escape(sentence)}" src="data:image/png;base64,{data}">'
+        self._add("figure", {"svg": drawn, "sentence": sentence, "table": table, "title": title, "keys": keys})
 
     def add_curves(self, curves: Curves) -> None:
         """Add curves that can be zoomed; their static picture stands there until scripts run, and on paper."""
