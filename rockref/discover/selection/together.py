@@ -60,9 +60,15 @@ def from_statement(
     null : the baseline fitted from there
     left : mean loss above which the best over the first horizon is not the cause beside this law, and none goes on.
     """
-    losses = [fitter.evaluate(null.copy(), stage).loss for stage in stages(fitter)]
+    few = FewRuns(fitter.problem)
+    part = Fitter(few.problem)
+    alone = FittedModel(null.effects, few.taken(null.effects, null.z))
+    losses = [part.evaluate(alone, stage).loss for stage in stages(part)]
     k = telling(losses)
-    found = first_pairs(fitter, nominal, stages(fitter)[k])
+    start = FittedModel(nominal.effects, few.taken(nominal.effects, nominal.z))
+    found = first_pairs(part, start, stages(part)[k])
+    fitter.problem.listener.simulated += few.problem.listener.simulated
+    found = [on_all_runs(fitter, few, h, nominal) for h in found]
     best = found[0].copy()
     leads = best.loss - WHITE <= LEADS * (losses[k] - WHITE)
     return followed(fitter, found, k) if best.loss <= left else [], best if leads else None
@@ -83,11 +89,13 @@ def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
         field = evolved(part, field, stage, size, rng, of_each)
         say(part, "together", field)
     problem.listener.simulated += few.problem.listener.simulated
-    for h in field:
-        whole = fitter.with_effect(found.best, h.effects[-1]).z
-        h.z, h.r = few.put(h.effects, h.z, whole), None
-        fitter.tempered(h, S1, AGAIN)
-    return at_S2(fitter, field)
+    return at_S2(fitter, [fitter.tempered(on_all_runs(fitter, few, h, found.best), S1, AGAIN) for h in field])
+
+
+def on_all_runs(fitter: Fitter, few: FewRuns, h: FittedModel, base: FittedModel) -> FittedModel:
+    """Return a pair of few runs with the numbers that a hypothesis without its effect has of the other runs."""
+    whole = fitter.with_effect(base, h.effects[-1]).z
+    return FittedModel(h.effects, few.put(h.effects, h.z, whole), objective=h.objective, loss=h.loss)
 
 
 def followed(fitter: Fitter, field: list[FittedModel], horizon: int) -> list[FittedModel]:
