@@ -95,7 +95,8 @@ def diagnose(
     record = plain(found.to_dict())
     text = in_json(record)
     say_remarks(found.experiment.notices)
-    words, then = lambda c: print_diagnosis(c, record, full), lambda: after_diagnosis(record, experiment, model, given)
+    following = after_diagnosis(record, experiment, model, given, page=folder is not None)
+    words, then = lambda c: print_diagnosis(c, record, full), lambda: following
     with kept(store), told(as_json, lambda written: text, words, then) as written:
         written += keep(text, output, found.model, save_model)
         if folder is not None:

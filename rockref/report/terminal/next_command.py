@@ -52,13 +52,20 @@ def after_comparison(experiment: object, names: Sequence[str], models: Sequence[
     return command("diagnose", experiment, *model_options(name, model), "--report", "report")
 
 
-def after_diagnosis(d: dict[str, Any], experiment: object, name: object = None, model: Model | None = None) -> str:
-    """Return what follows ``rockref diagnose`` from its JSON record: each effect is added; else the page is looked at.
+def after_diagnosis(
+    d: dict[str, Any], experiment: object, name: object = None, model: Model | None = None, page: bool = False
+) -> str:
+    """Return what follows ``rockref diagnose`` from its JSON record: each effect is added.
 
-    name, model : what the diagnosis began with; None for the baseline.
+    Without one the page is looked at; where it was written, a law that suffices is fitted, and one that does not is
+    compared with the runs.
+
+    name, model : what the diagnosis began with; None for the baseline.  page : whether it was written.
     """
     if not d["effects"]:
-        return command("diagnose", experiment, *model_options(name, model), "--report", "report")
+        verb = "diagnose" if not page else "fit" if d["verdict"] == "none" else "compare"
+        report = [] if verb == "fit" else ["--report", "compared" if page else "report"]
+        return command(verb, experiment, *model_options(name, model), *report)
     # Members of a class exclude one another: the first of them is tried.
     effects = d["effects"][:1] if d["verdict"] == "class" else d["effects"]
     steps, own = [], own_effects(model)

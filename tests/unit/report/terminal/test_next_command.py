@@ -67,3 +67,9 @@ def test_a_plan_keeps_its_candidates():
     plan = SimpleNamespace(outlook=SimpleNamespace(runs=["0.117"]), further=[{"run": "0.1t"}])
     said = next_command.after_plan(plan, "table_3_1", ["gyro_scale"])
     assert said == "rockref plan --runs 0.117,0.1t --effect gyro_scale"
+
+
+def test_where_the_page_was_written_the_next_command_is_another():
+    then = next_command.after_diagnosis
+    assert then(verdict("none"), "e", page=True) == "rockref fit e"
+    assert then(verdict("something_else"), "e", page=True) == "rockref compare e --report compared"
