@@ -20,8 +20,9 @@ from rockref.discover.fit.stages import S1, S2, Stage
 from rockref.discover.fit.starts import AGAIN, GlobalFit, stages
 from rockref.discover.selection.halving import MARGIN, SECOND, proposed, say, sized_at_release, within
 
-#: Mean loss of the law alone from which a horizon tells effects apart (decided: above what white noise leaves).
-TELLING = 1.2
+#: Mean loss of the law alone from which a horizon tells effects apart: beside the stated law, where few pairs go on,
+#: and in a population, where many do (decided: the second is what white noise hardly leaves).
+TELLING, TELLING_MANY = 1.5, 1.2
 #: Starts of the law that are tried with every effect, of those that went far without one, and of those that took one
 #: step; and the effects that go on from each (decided: the first bend, the others lie all over the prior).
 STARTS, WIDE = (6, 16), (12, 9)
@@ -44,12 +45,12 @@ ROUNDS = ((16, 2, 4.0, 1), (16, 2, 2.5, 1), (4, 1, 1.5, 3))
 FARTHER = ((12, 1.5, 3, 4), (5, 1.3, 3, 4))
 
 
-def telling(losses: Sequence[float]) -> int:
-    """Return the first horizon over which effects are told apart, by the mean losses of the law alone over each.
+def telling(losses: Sequence[float], least: float) -> int:
+    """Return the first horizon over which the law alone leaves more than `least`, by its mean losses over each.
 
     Feet and releases explain a short stretch by themselves, whatever is missing.
     """
-    return next((k for k, loss in enumerate(losses) if loss > TELLING), len(losses) - 1)
+    return next((k for k, loss in enumerate(losses) if loss > least), len(losses) - 1)
 
 
 def from_statement(
@@ -64,7 +65,7 @@ def from_statement(
     part = Fitter(few.problem)
     alone = FittedModel(null.effects, few.taken(null.effects, null.z))
     losses = [part.evaluate(alone, stage).loss for stage in stages(part)]
-    k = telling(losses)
+    k = telling(losses, TELLING)
     start = FittedModel(nominal.effects, few.taken(nominal.effects, nominal.z))
     found = first_pairs(part, start, stages(part)[k])
     fitter.problem.listener.simulated += few.problem.listener.simulated
@@ -78,7 +79,7 @@ def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
     """Return the best pairs of an effect and a law, fitted at S2, from starts of the law over the whole prior."""
     problem, few = fitter.problem, FewRuns(fitter.problem)
     part, rng = Fitter(few.problem), np.random.default_rng(problem.seed)
-    k = telling([field[0].loss for field in found.fields])
+    k = telling([field[0].loss for field in found.fields], TELLING_MANY)
     field = []
     bent = [found.best, *(h for h in found.fields[k] if h is not found.best)]
     for starts, (most, effects) in ((bent, STARTS), (found.wide, WIDE)):

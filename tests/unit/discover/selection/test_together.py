@@ -19,6 +19,6 @@ def test_of_each_effect_the_best_starts_go_on():
 
 def test_effects_are_told_apart_where_the_law_alone_leaves_something():
     little, much = TELLING - 0.1, TELLING + 0.1
-    assert telling([much, little, much]) == 0
-    assert telling([little, much, 2 * much]) == 1
-    assert telling([little] * 3) == 2, "where the law alone explains all, whole runs tell effects apart"
+    assert telling([much, little, much], TELLING) == 0
+    assert telling([little, much, 2 * much], TELLING) == 1
+    assert telling([little] * 3, TELLING) == 2, "where the law alone explains all, whole runs tell effects apart"
