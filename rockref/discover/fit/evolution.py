@@ -119,8 +119,3 @@ def is_near(fitter: Fitter, h: FittedModel, k: FittedModel) -> bool:
     """Return whether two fits stand in one valley, by their laws."""
     law = [i for i, p in enumerate(fitter.problem.parameters()) if p.run is None]
     return bool(np.abs(h.z[law] - k.z[law]).max(initial=0.0) <= DISTINCT)
-
-
-def distinct(fitter: Fitter, field: Sequence[FittedModel]) -> list[FittedModel]:
-    """Return those of a field whose law is not that of a better one with the same effects, best first."""
-    return survivors(fitter, field, len(field))

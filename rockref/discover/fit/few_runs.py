@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from rockref.discover.fit.fitter import FittedModel
 from rockref.discover.fit.problem import FitProblem
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.discover.listening.listener import Listener
@@ -32,6 +33,10 @@ class FewRuns:
         """Return the numbers of these runs out of those of all."""
         known = {p.name: k for k, p in enumerate(self.whole.parameters(effects))}
         return np.array([z[known[self._name(p)]] for p in self.problem.parameters(effects)])
+
+    def start(self, h: FittedModel) -> FittedModel:
+        """Return a hypothesis of the whole problem, to be fitted to these runs."""
+        return FittedModel(h.effects, self.taken(h.effects, h.z))
 
     def put(self, effects: Sequence[str], own: np.ndarray, z: np.ndarray) -> np.ndarray:
         """Return the numbers z of all runs with those of these runs."""

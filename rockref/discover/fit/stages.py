@@ -22,7 +22,8 @@ class Stage:
     """One stage: time constants of the memory, smoothing and jitter [s], steps in 0.5 ms.
 
     inflation : of the noise.  horizon [s] : how far runs are followed, None for all of it.
-    rate : samples in a second of which a faster record is thinned, None where all are heard.
+    rate [Hz] : faster records are thinned as long as so many samples a second are left, None where all are heard
+    (decided for S1: eight samples in its smoothing).
     """
 
     name: str

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.discover.fit.evolution import best, distinct, evolved
+from rockref.discover.fit.evolution import best, evolved, survivors
 from rockref.discover.fit.few_runs import FewRuns
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import S1, F, Stage
@@ -139,6 +139,7 @@ def populations(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> Global
         fitter.evaluate_all(field, stage)
         before = [h.copy() for h in field]
         field = evolved(fitter, field, stage, members, rng)
-        found.fields.append([h.copy() for h in distinct(fitter, [*field, *before])])
+        there = [*field, *before]
+        found.fields.append([h.copy() for h in survivors(fitter, there, len(there))])
         fitter.problem.say(f"starts over the whole prior: mean loss {field[0].loss:.2f}")
     return found

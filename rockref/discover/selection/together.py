@@ -26,9 +26,11 @@ TELLING, TELLING_MANY = 1.5, 1.2
 #: Starts of the law that are tried with every effect, of those that went far without one, and of those that took one
 #: step; and the effects that go on from each (decided: the first bend, the others lie all over the prior).
 STARTS, WIDE = (6, 16), (12, 9)
-#: Steps of a pair at S2 after the first three, as long as each takes off a fiftieth.
+#: Steps of a pair at S2 after the first three, as long as each takes off a fiftieth (decided: few stand in their valley
+#: after three).
 SETTLED = 5
-#: Members of the population over each horizon, and how many of one effect among them.
+#: Members of the population over each horizon, and how many of one effect, or in one valley, among them (decided on
+#: simulated blocks of other feet: half as many again find no more).
 MEMBERS = ((16, 3), (8, 2), (4, 1))
 #: Part of the misfit of the law alone that an effect may leave and lead by far (decided: it is there, whatever the
 #: feet).
@@ -63,11 +65,10 @@ def from_statement(
     """
     few = FewRuns(fitter.problem)
     part = Fitter(few.problem)
-    alone = FittedModel(null.effects, few.taken(null.effects, null.z))
+    alone = few.start(null)
     losses = [part.evaluate(alone, stage).loss for stage in stages(part)]
     k = telling(losses, TELLING)
-    start = FittedModel(nominal.effects, few.taken(nominal.effects, nominal.z))
-    found = first_pairs(part, start, stages(part)[k])
+    found = first_pairs(part, few.start(nominal), stages(part)[k])
     fitter.problem.listener.simulated += few.problem.listener.simulated
     found = [on_all_runs(fitter, few, h, nominal) for h in found]
     best = found[0].copy()
@@ -83,8 +84,7 @@ def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
     field = []
     bent = [found.best, *(h for h in found.fields[k] if h is not found.best)]
     for starts, (most, effects) in ((bent, STARTS), (found.wide, WIDE)):
-        own = [FittedModel(h.effects, few.taken(h.effects, h.z)) for h in starts[:most]]
-        field += pairs(part, own, stages(part)[k], effects)
+        field += pairs(part, [few.start(h) for h in starts[:most]], stages(part)[k], effects)
     for stage, (size, of_each) in zip(stages(part)[k:], MEMBERS[k:], strict=True):
         part.evaluate_all(field, stage)
         field = evolved(part, field, stage, size, rng, of_each)

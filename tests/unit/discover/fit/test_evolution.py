@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from rockref.discover.fit.evolution import DISTINCT, children, descended, distinct, evolved, survivors
+from rockref.discover.fit.evolution import DISTINCT, children, descended, evolved, survivors
 from rockref.discover.fit.fitter import FittedModel
 from rockref.discover.fit.stages import S1
 from rockref.discover.hypotheses.parameter import Parameter
@@ -82,7 +82,7 @@ def test_fits_in_one_valley_count_once_whatever_their_releases():
     better, near, other = fits((0.0, 0.0), (0.9 * DISTINCT, 0.0), (1.1 * DISTINCT, 0.0))
     better.loss, near.loss, other.loss = 1.0, 1.1, 1.2
     near.z[2] = 2.0
-    assert distinct(Valleys(), [other, near, better]) == [better, other]
+    assert survivors(Valleys(), [other, near, better], 3) == [better, other]
 
 
 def test_neither_one_effect_nor_one_valley_crowds_a_population():
