@@ -26,7 +26,7 @@ import strangers
 FILE = Path(__file__).with_name("judged.csv")
 ROOT = FILE.parents[1]
 KEPT = FILE.with_suffix(".partial")
-ZOO_PAGE = ROOT / "docs/reference/zoo.md"
+ZOO = ROOT / "benchmarks/zoo.csv"
 COLUMNS = ("judged", "way", "when", "asked", "detected", "named", "top_two")
 OF_SCHEMES = {
     "scheme": strangers.of_schemes,
@@ -80,9 +80,9 @@ def of_list(part: str) -> Iterator[Row]:
 def of_zoo(_: str) -> Iterator[Row]:
     """Mistakes that the vectors were admitted by, and controls; by runs with the fingerprints, and without its own.
 
-    Writes the page of the zoo, too.
+    Writes the table of the zoo, too.
     """
-    command = [sys.executable, "-m", "rockref", "conform", "zoo", "--json", "--output", str(ZOO_PAGE)]
+    command = [sys.executable, "-m", "rockref", "conform", "zoo", "--json", "--output", str(ZOO)]
     found = json.loads(subprocess.run(command, capture_output=True, text=True).stdout)
     n = found["planted"]
     yield {"way": "pieces", "asked": n, "detected": found["detected"], "named": found["attributed"]}

@@ -1,4 +1,4 @@
-"""Judge every physics engine that is installed, and write the page of results.
+"""Judge every physics engine that is installed, and write the results as Markdown.
 
     pip install 'rockref[engines-all]'
     python benchmarks/physics_engines.py                 # all engines that rockref has an adapter for
@@ -19,7 +19,7 @@ from typing import Any
 from rockref.conformance.physics.adapter import KNOWN
 from rockref.conformance.physics.page import page
 
-PAGE = Path(__file__).resolve().parents[1] / "docs/reference/physics_engines.md"
+PAGE = Path(__file__).with_suffix(".md")
 
 
 def judged(engine: str) -> dict[str, Any] | str:

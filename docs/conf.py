@@ -43,12 +43,17 @@ def setup(app):
     from pathlib import Path
 
     sys.path.insert(0, str(app.srcdir))
+    import make_blind_history
     import make_checks
     import make_errors
+    import make_figures
     import make_gallery
     import make_reference
+    import make_review
+    import make_zoo
 
-    for maker in (make_checks, make_errors, make_gallery, make_reference):
+    makers = (make_blind_history, make_checks, make_errors, make_figures, make_gallery, make_reference, make_review)
+    for maker in (*makers, make_zoo):
         maker.write()
     Path(app.srcdir, "_lab").mkdir(exist_ok=True)  # sphinx asks for it before it builds anything
     app.connect("builder-inited", lambda app: make_gallery.write_pictures(Path(app.srcdir, "reference", "effects")))

@@ -31,8 +31,6 @@ METHODS = (
 )
 HEAD = """# The blind test, set by set
 
-*Written by `python docs/make_blind_history.py` from `benchmarks/blind_history.csv`.*
-
 Each row is a set of the [blind test](blind_test.md), or the part of one that one version of the discoverer diagnosed,
 in order. Verdicts stood before the truth of the row was opened. A set has the number of its seed; its blocks are `near`
 Table 3.1 or `other` ones. An interval is to hold nine numbers in ten. An empty cell was not measured, or nothing of the
@@ -100,5 +98,10 @@ def text() -> str:
     return "\n".join(part for part in (HEAD, *(section(*method) for method in METHODS)) if part)
 
 
-if __name__ == "__main__":
+def write() -> None:
+    """Write the page."""
     PAGE.write_text(text(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write()

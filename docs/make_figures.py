@@ -12,6 +12,11 @@ ROOT = Path(__file__).resolve().parents[1]
 README = ROOT / "README.md"
 PAGE = ROOT / "docs" / "reference" / "figures.md"
 SOURCE = ROOT / "docs" / "figures.toml"
+#: What the README links to as a table in the project, and the page that is made of it.
+MADE = {
+    "benchmarks/zoo.csv": "docs/reference/zoo.md",
+    "benchmarks/blind_history.csv": "docs/explanation/blind_history.md",
+}
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 
 
@@ -52,7 +57,7 @@ def readme(text: str) -> str:
     days = sorted(row["date"] for row in rows)
     lines += [
         "",
-        f"Measured from {days[0]} to {days[-1]}; [all figures, with day and machine](docs/reference/figures.md).",
+        f"Measured from {days[0]} to {days[-1]}; [all figures, with day and machine](docs/figures.toml).",
     ]
     return part.sub(lambda _: "\n".join(lines), text)
 
@@ -65,14 +70,20 @@ def page() -> str:
         "",
         "Each figure with the command that measures it again, the day on which it was measured, and the machine where",
         f"it depends on one: {machines(found, found['row'])}. `make bench` measures the speeds on yours.",
-        "",
-        "`python docs/make_figures.py` writes this page from `docs/figures.toml`.",
     ]
     for part, title in found["parts"].items():
         lines += ["", f"## {title}", "", *table(row for row in found["row"] if row["part"] == part)]
-    return "\n".join(lines).replace("](docs/reference/", "](").replace("](docs/", "](../") + "\n"
+    text = "\n".join(lines) + "\n"
+    for file, built in MADE.items():
+        text = text.replace(f"]({file})", f"]({built})")
+    return text.replace("](docs/reference/", "](").replace("](docs/", "](../")
+
+
+def write() -> None:
+    """Write the page."""
+    PAGE.write_text(page(), encoding="utf-8")
 
 
 if __name__ == "__main__":
     README.write_text(readme(README.read_text(encoding="utf-8")), encoding="utf-8")
-    PAGE.write_text(page(), encoding="utf-8")
+    write()

@@ -105,7 +105,7 @@ The source is chapter 3 of a thesis, known here as an excerpt (`CITATION.cff`). 
 like K1 and T5 are those of this project. Layers of vectors: L0 parameters and geometry, L1 one contact point, L2 sums
 and moments, L3 rotations, L4 single steps, L5s and L5 runs, L7 the measured channel.
 
-This page is made from the code by `docs/make_review.py`; a test compares the two."""
+This page is made from the code when the site is built."""
 
 
 def source_of(rule: Rule) -> tuple[str, str, str]:
@@ -230,5 +230,10 @@ def page() -> str:
     return "\n\n".join([HEAD, *map(section, RULES), decided_constants(), together()]) + "\n"
 
 
-if __name__ == "__main__":
+def write() -> None:
+    """Write the page."""
     PAGE.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write()

@@ -72,4 +72,4 @@ print(f"largest difference {difference:.1e} deg/s")
 assert difference < 1e-6
 
 # %% [markdown]
-# Each rule with its equation, its code and what holds the two together stands in `docs/review.md`.
+# Each rule with its equation, its code and what holds the two together stands on one page of the site (`make docs`).

@@ -237,12 +237,13 @@ def _example(rest: list[str], output: Path | None) -> None:
 
 
 def _zoo(as_json: bool, quick: bool, output: Path | None) -> None:
-    from rockref.conformance.faults.run import falls_short, in_words, page, run_zoo
+    from rockref.conformance.faults.run import falls_short, run_zoo
+    from rockref.conformance.faults.table import in_csv, in_words, page, rows
     from rockref.model.storage import write_text
 
     found = run_zoo(black_box=not quick, progress=_progress if sys.stderr.isatty() and not as_json else None)
     if output is not None:
-        write_text(output, page(found))
+        write_text(output, in_csv(rows(found)) if output.suffix == ".csv" else page(rows(found)))
     typer.echo(json.dumps(found, indent=1) if as_json else in_words(found))
     if falls_short(found):
         raise typer.Exit(1)

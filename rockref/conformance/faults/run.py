@@ -9,12 +9,10 @@ from rockref.conformance.backends.call import as_mapping
 from rockref.conformance.backends.side_by_side import grouped, simulate
 from rockref.conformance.faults.mistakes import BY_ID, CONTROLS, MISTAKES
 from rockref.conformance.judge.causes import fingerprints
-from rockref.conformance.judge.causes.wrong_base_motion import OF_BASE
 from rockref.conformance.judge.findings import finite, judge
-from rockref.conformance.judge.shaken import shaken_vectors
 from rockref.conformance.judge.trajectories import RunCheck, judge_rows
 from rockref.conformance.judge.verdict import verdict
-from rockref.conformance.vectors import manifest, trajectory, window_names
+from rockref.conformance.vectors import trajectory, window_names
 
 #: Small before long: the short runs are asked only where the pieces by themselves have nothing to object.
 LAYERS = ("L0", "L1", "L2", "L3", "L4", "L7")
@@ -158,111 +156,3 @@ def summary(cases: list[dict[str, Any]]) -> dict[str, Any]:
         "controls_rejected": sum(c["rejected"] for c in controls),
         "cases": cases,
     }
-
-
-def row(case: dict[str, Any]) -> list[str]:
-    """Return a case as cells of a table: id, rule, what, where caught, bars, named, as a black box."""
-    if case["kind"] == "control":
-        verdict_ = "REJECTED" if case["rejected"] else "passes"
-        return [case["id"], "", case["says"], "", _bars(case["bars"]), verdict_, "", ""]
-    box = case["black_box"]
-    near = "" if not box else ", ".join(n["mistake"] for n in box["neighbours"]) if box["visible"] else "not visible"
-    unseen = "" if not box else "yes" if box["attributed_without_itself"] else "no"
-    named = case["named"] or "none"
-    return [
-        case["id"],
-        case["rule"],
-        case["says"],
-        case["vector"] or "not caught",
-        _bars(case["bars"]),
-        named,
-        near,
-        unseen,
-    ]
-
-
-def _bars(value: float | None) -> str:
-    return "decision" if value is None else f"{value:.1e}" if value >= 1000 else f"{value:.2g}"
-
-
-HEAD = [
-    "id",
-    "rule",
-    "mistake",
-    "first vector",
-    "bars",
-    "named",
-    "nearest by runs alone",
-    "in the top two if it were new",
-]
-
-
-def in_words(found: dict[str, Any]) -> str:
-    """Return the zoo as lines."""
-    lines = ["  ".join(row(c)) for c in found["cases"]]
-    n = found["planted"]
-    lines.append(f"detected {found['detected']}/{n}, attributed {found['attributed']}/{n}")
-    if found["attributed_black_box"] is not None:
-        unknown = found["attributed_black_box_unknown"]
-        lines.append(
-            f"by runs alone, in the top two: {found['attributed_black_box']}/{n}; {unknown}/{n} if each were new"
-        )
-    lines.append(f"controls rejected {found['controls_rejected']}/{found['controls']}")
-    return "\n".join(lines)
-
-
-def resolving_rows() -> list[list[str]]:
-    """Return by rule: vectors, mistakes hunted, and the smallest deviation that one of them makes, from the
-    manifest."""
-    rows = [["rule", "vectors", "mistakes hunted", "smallest deviation [bars]"], ["---"] * 4]
-    for rule, facts in manifest()["resolving_power"].items():
-        rows.append([rule, str(facts["vectors"]), " ".join(facts["hunts"]), f"{facts['worst_bars']:.3g}"])
-    return rows
-
-
-def page(found: dict[str, Any]) -> str:
-    """Return the zoo and the resolving power of the vectors as a page of the documentation."""
-    totals = in_words(found).splitlines()[len(found["cases"]) :]
-    power = "\n".join("| " + " | ".join(r) + " |" for r in resolving_rows())
-    return (
-        "# The zoo: planted mistakes, and what the judge says of them\n\n"
-        "Written by `rockref conform zoo --output docs/reference/zoo.md`; not to be edited.\n\n"
-        "Every line is a backend that makes one mistake. *first vector* and *named* are what the judge says when the\n"
-        "backend shows its pieces; *bars* is the largest deviation in a vector of the planted rule. The last two\n"
-        "columns are for the same backend as a black box: up to two mistakes that leave similar traces, and whether\n"
-        "the planted rule would be among the two named if this mistake were not in the zoo, which is what a mistake\n"
-        "of your own meets.\n"
-        "Controls (C) are no mistakes and have to pass.\n\n"
-        + "".join(f"- {line}\n" for line in totals)
-        + misnamed(found)
-        + f"\n{in_markdown(found)}\n## Resolving power of the vectors\n\n"
-        "A vector is admitted only if every mistake that it is said to hunt moves it by a hundred bars.\n\n"
-        f"{power}\n" + of_a_moving_plate()
-    )
-
-
-def of_a_moving_plate() -> str:
-    """Return the part of the page on mistakes with a plate that moves, from the vectors LB."""
-    rows = [["", "mistake with a plate that moves (B1)", "least deviation in LB [bars]"], ["---"] * 3]
-    for mistake in OF_BASE:
-        least = min(v.resolving[mistake.id] for v in shaken_vectors())
-        rows.append([mistake.id, mistake.says, f"{least:.2g}"])
-    lines = "\n".join("| " + " | ".join(r) + " |" for r in rows)
-    return (
-        "\n## A plate that moves\n\n"
-        "Runs of LB, which a backend claims by the piece `shaken`. Each mistake is outside in every one of them, and\n"
-        f"the judge names it.\n\n{lines}\n"
-    )
-
-
-def misnamed(found: dict[str, Any]) -> str:
-    """Return a line of the page: the mistakes that have the name of another rule where pieces are shown."""
-    wrong = [c for c in found["cases"] if c["kind"] == "mistake" and not c["attributed"]]
-    said = ", ".join(f"{c['id']} ({c['named']} in place of {c['rule']})" for c in wrong)
-    return f"- named by another rule where pieces are shown: {said}\n" if wrong else ""
-
-
-def in_markdown(found: dict[str, Any]) -> str:
-    """Return the zoo as a table for the documentation."""
-    rows = [HEAD, ["---"] * len(HEAD), *map(row, found["cases"])]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in r) + " |" for r in rows) + "\n"

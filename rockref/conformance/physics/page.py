@@ -13,9 +13,9 @@ Profile = dict[str, Any]
 SIGNS = {"pass": "✓", "fail": "**✗**", "remark": "○", "not judged": "–"}
 HEAD = """# Do physics engines rock?
 
-Written by `python benchmarks/physics_engines.py`; not to be edited. A block on a plate is dropped, slid, tilted and
-balanced in each engine, and compared with closed forms and the theory of the rocking block.
-[Does your physics engine rock?](../howto/physics_engine.md) says what each check does, and how to ask your own engine.
+Written by `rockref conform physics` (of all engines at once: `python benchmarks/physics_engines.py`). A block on a
+plate is dropped, slid, tilted and balanced in each engine, and compared with closed forms and the theory of the rocking
+block.
 
 A failure says something about a setting, not about an engine: *default* changes nothing, *careful* is what rockref's
 adapter sets. A remark (○) is no fault; – was not judged, because the contact is too soft for the check.

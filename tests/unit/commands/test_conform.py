@@ -169,6 +169,8 @@ class TestZoo:
         code, out, err = run(capsys, "zoo", "--quick", "-o", tmp_path / "zoo.md")
         assert (code, err, calls) == (0, "", [False]) and "detected 1/1, attributed 1/1" in out
         assert "| Z01 | N1 | tension |" in (tmp_path / "zoo.md").read_text()
+        run(capsys, "zoo", "--quick", "-o", tmp_path / "zoo.csv")
+        assert (tmp_path / "zoo.csv").read_text().splitlines()[1].startswith("Z01,N1,tension,L1-0001,1.0e+09,N1")
 
     def test_a_control_that_is_rejected_ends_with_1(self, capsys, calls, monkeypatch):
         monkeypatch.setattr(self, "control", self.control | {"rejected": True})

@@ -9,11 +9,11 @@ import pytest
 
 from rockref.conformance import vectors
 from rockref.conformance.backends.law import RulesBackend
-from rockref.conformance.faults import run as zoo_run
+from rockref.conformance.faults import table
 from rockref.conformance.faults.controls import Permuted
 from rockref.conformance.faults.mistake import Mistake
 from rockref.conformance.faults.mistakes import BY_ID, CONTROLS, MISTAKES
-from rockref.conformance.faults.run import case_of_control, case_of_mistake, in_markdown, run_zoo, summary
+from rockref.conformance.faults.run import case_of_control, case_of_mistake, run_zoo, summary
 from rockref.conformance.judge.causes import fingerprints
 from rockref.conformance.judge.findings import judge
 from rockref.conformance.judge.trajectories import judge_runs
@@ -67,10 +67,25 @@ def test_the_summary_counts_the_cases():
     assert set(found) == {*keys, "attributed_black_box_unknown", "cases"}
     assert [found[k] for k in keys] == [1, 1, 1, 1, 1, 0]
     json.dumps(found, allow_nan=False)
-    assert "named by another rule" not in zoo_run.page(found)
+    assert "named by another rule" not in table.page(table.rows(found))
     wrong = summary([some[0] | {"named": "T5", "attributed": False}])
-    assert "named by another rule where pieces are shown: Z01 (T5 in place of N1)" in zoo_run.page(wrong)
-    assert "detected 1/1" in zoo_run.in_words(found) and "| Z01 | N1 |" in in_markdown(found)
+    assert "named by another rule where pieces are shown: Z01 (T5 in place of N1)" in table.page(table.rows(wrong))
+    assert "detected 1/1, attributed 1/1" in table.in_words(found) and "| Z01 | N1 |" in table.page(table.rows(found))
+    assert table.in_csv(table.rows(found)).splitlines()[1].startswith("Z01,N1,")
+
+
+def test_the_rows_add_up_to_the_summary():
+    """What is told of the rows alone is what the summary counts."""
+    some = [case_of_mistake(BY_ID["Z01"], black_box=True), case_of_control(CONTROLS[0], runs=False)]
+    wrong = some[0] | {"named": "T5", "attributed": False}
+    missed = some[0] | {"detected": False, "vector": None, "named": None, "attributed": False}
+    found = summary([*some, wrong, missed, some[1] | {"rejected": True}])
+    counts = [f"{found[k]}/3" for k in ("detected", "attributed", "attributed_black_box")]
+    assert table.totals(table.rows(found)) == [
+        f"detected {counts[0]}, attributed {counts[1]}",
+        f"by runs alone, in the top two: {counts[2]}; {found['attributed_black_box_unknown']}/3 if each were new",
+        "controls rejected 1/2",
+    ]
 
 
 NAMED_BY_RUNS = [*(f"Z{i}" for i in range(93, 102)), *(f"Z{i}" for i in range(123, 130))]
