@@ -109,7 +109,7 @@ def _by_name(log: Log, names: list[str]) -> Channels:
     # In another language than English the unit alone says that a column is a rate.
     gyro = _triple(names, _GYRO.search, log) or _triple(names, RATE_NAMES.unit_in, log)
     if gyro is None:
-        cure = "Name time and rates, as --columns t,gx,gy,gz: by the header's words or by their places."
+        cure = f"Name time and rates, as --columns {_proposal(names, times)}: by their places or by the header's words."
         what = f"no three rates are found among {shown(', '.join(log.names), 120)}"
         raise InputError("E-COLUMN-MISSING", f"{log.source}, line {log.header_line}", what, cure)
     time = times[0] if times else None
@@ -119,6 +119,14 @@ def _by_name(log: Log, names: list[str]) -> Channels:
     return Channels(
         "columns by name", time, gyro, _triple(names, _ACCELERATION.search, log, False), unit, ticks, _chip(log, gyro)
     )
+
+
+def _proposal(names: list[str], times: list[int]) -> str:
+    """Return what --columns may be: the places of a time and three rates where units tell them, else an example."""
+    rates = [i for i, name in enumerate(names) if RATE_NAMES.unit_in(name) and i not in times]
+    if len(rates) != 3:
+        return "t,gx,gy,gz"
+    return ",".join(str(i + 1) for i in [*times[:1], *rates])
 
 
 def _triple(names: list[str], is_kind: Callable[[str], object], log: Log, strict: bool = True) -> Three | None:
@@ -175,6 +183,9 @@ def _place(word: str, log: Log) -> int:
         return names.index(word.lower())
     if word.isdecimal() and 1 <= int(word) <= log.values.shape[1]:
         return int(word) - 1
+    having = [i for i, name in enumerate(names) if word.lower() in re.findall(r"\w+", name)]
+    if len(having) == 1:
+        return having[0]
     known = ", ".join(log.names) or f"places 1 to {log.values.shape[1]}"
     raise InputError(
         "E-COLUMN-MISSING", f"{log.source}, --columns", f"{shown(word)} is no column", f"There are {known}."

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from rockref.report.charts.figures import dressed, mark_impacts, new_figure, plain_ticks, rendered, titled
+from rockref.report.charts.shorten import shortened
 from rockref.report.charts.style import COLOURS, GREY, INK
 
 #: Pixels of a chart on a page: its width, what is above and below its panels, and between them.
@@ -175,17 +175,8 @@ def inside_page(figure: Any, title: str, kind: str) -> str:
     width, height = 72.0 * figure.get_size_inches()
     return (
         f'<svg class="{kind}" viewBox="0 0 {width:g} {height:g}" role="img" aria-label="{escape(title)}">'
-        f"<title>{escape(title)}</title>{_shortened(text[text.index('<g ') :])}"
+        f"<title>{escape(title)}</title>{shortened(text)}</svg>"
     )
-
-
-def _shortened(body: str) -> str:
-    """Return the drawing of an SVG without ids of groups, fonts, which the page has, and needless digits."""
-    body = re.sub(r'<g id="[^"]*"', "<g", body).replace("<g/>", "").replace("xlink:href", "href")
-    body = re.sub(r"font: ([\d.]+px)[^;\"]*", r"font-size: \1", body)
-    # decided: a tenth of a pixel is not seen.
-    body = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d)\d+", r"\1", d[0]).replace(" \nL ", " "), body)
-    return re.sub(r"\s*\n\s*", " ", body)
 
 
 def key_of(lines: Iterable[Line]) -> str:

@@ -70,10 +70,16 @@ def mark_impacts(ax: Any, times: Any, start: float, end: float) -> None:
             ax.axvline(float(time), color=style.IMPACT, lw=0.6)
 
 
+#: Decades that an axis can show with all its numbers; decided: beyond, numbers of 1e-3 and less run into each other.
+MANY_DECADES = 4.0
+
+
 def plain_ticks(axis: Any, at: tuple[float, ...] = (1.0, 2.0, 5.0)) -> None:
-    """Label a logarithmic axis with plain numbers, `at` of each decade."""
+    """Label a logarithmic axis with plain numbers, `at` of each decade; of many decades with powers of ten alone."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-    axis.set_major_locator(LogLocator(subs=at, numticks=15))
+    low, high = axis.get_data_interval()
+    many = low > 0.0 and np.log10(high / low) > MANY_DECADES
+    axis.set_major_locator(LogLocator(subs=(1.0,) if many else at, numticks=15))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())

@@ -57,5 +57,6 @@ def growth_figure(g: Growth) -> Any:
     until = arcs[g.per_impact**arcs < 3 * g.factors.max()]
     label = f"{g.per_impact:.3g} × per main impact (×/÷ {g.spread:.2g})"
     ax.semilogy(until, g.per_impact**until, color=style.COLOURS[0], lw=1.2, ls="--", label=label)
+    ax.xaxis.get_major_locator().set_params(integer=True)
     ax.legend(frameon=False, fontsize=9)
     return titled(figure, f"{len(g.factors)} releases that differ by 1e-9 rad")

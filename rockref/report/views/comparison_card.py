@@ -28,7 +28,7 @@ def card_of_comparison(c: Comparison) -> Card:
         sentence=" ".join(error_lines(c)),
         about=" ".join(found[:1]),
         facts=[fact(c, k) for k in range(len(c.names))],
-        next_step="Ask which effect the model lacks: rockref diagnose.",
+        next_step="rockref diagnose FOLDER --report report: which effect the model lacks.",
         picture=picture,
         keys=keys,
         caption=caption(shown),

@@ -31,7 +31,10 @@ def write_ensemble(rows: list[dict[str, Any]], model: Model, folder: Path, ensem
     if sizes.min() > 0:
         add_fragility(page, sizes, fell)
         add_spectrum(page, sizes, fell, in_a_plane(model))
-    page.add_section("Distributions of maxima", "A colour a factor, and a step where there are several.")
+    page.add_section(
+        "Distributions of maxima",
+        "Each factor, and each time step where there are several, has its colour and its dash.",
+    )
     factors = sorted({(row["factor"], row["step_s"]) for row in rows})
     # Evenly spread over what there is, both ends among them.
     shown = [factors[i] for i in np.unique(np.linspace(0, len(factors) - 1, CURVES).round().astype(int))]

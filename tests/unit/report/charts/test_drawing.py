@@ -20,12 +20,17 @@ def texts(svg):
 
 def paths(svg, colour=INK):
     """The d of every path drawn in a colour, in order."""
-    return [p.get("d") for p in ET.fromstring(svg).iter("path") if f"stroke: {colour}" in (p.get("style") or "")]
+    return [p.get("d") for p in ET.fromstring(svg).iter("path") if f"stroke:{colour}" in (p.get("style") or "")]
 
 
 def points(d):
     """The places that a path goes through, in pixels."""
-    return np.array(re.findall(r"-?\d+\.?\d*", d), float).reshape(-1, 2)
+    at, places = np.zeros(2), []
+    for kind, numbers in re.findall(r"([Mlhv])([^Mlhv]*)", d):
+        n = [float(word) for word in re.findall(r"-?(?:\d+\.?\d*|\.\d+)", numbers)]
+        at = np.array(n) if kind == "M" else at + {"h": [n[0], 0.0], "v": [0.0, n[0]], "l": n}[kind]
+        places.append(at)
+    return np.array(places)
 
 
 def of(y, **more):

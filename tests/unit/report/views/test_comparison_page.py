@@ -92,7 +92,7 @@ def test_housner_swings_with_the_block(c):
 
 def test_curves_are_thinned_before_a_run_is_left_out(c):
     whole, thin = Page("t"), Page("t")
-    assert add_runs(whole, c) == [] and add_runs(thin, c, room=260_000) == []
+    assert add_runs(whole, c) == [] and add_runs(thin, c, room=150_000) == []
     seen = [[b["curves"] for kind, b in page.sections[0].blocks if kind == "curves"] for page in (whole, thin)]
     assert [len(found) for found in seen] == [3, 3]
     a, b = (found[0].data["panels"][0]["lines"][0]["y"] for found in seen)
