@@ -157,3 +157,14 @@ def test_dates_with_points_begin_with_the_day(tmp_path):
     lines = ["time,gx_deg_s,gy_deg_s,gz_deg_s"]
     lines += [f"{stamps[k // 100]}{k % 100:02d}0000,{k}.5,2.5,3.5" for k in range(200)]
     assert recorded(tmp_path, "\n".join(lines)).t == pytest.approx(np.arange(200) / 100.0)
+
+
+def test_rates_without_axes_in_their_names_are_proposed_by_their_places_and_taken_by_a_word(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text(text(";", ",", header="Zeit,Drehrate quer [°/s],Drehrate kipp [°/s],Drehrate hoch [°/s]"))
+    with pytest.raises(InputError, match="as --columns 1,2,3,4:"):
+        find_channels(read_log(path))
+    found = find_channels(read_log(path), ("Zeit", "hoch", "quer", "kipp"))
+    assert (found.time, found.rates, found.rate_unit) == (0, (3, 1, 2), "deg_s")
+    with pytest.raises(InputError, match="'Drehrate' is no column"):
+        find_channels(read_log(path), ("Zeit", "Drehrate", "quer", "kipp"))
