@@ -9,7 +9,6 @@ import lanes
 
 from rockref.model.storage import write_bytes, write_text
 
-BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 NAMES = {
     "numba_one_core": "rockref, compiled, one core, one block",
     "numba_one_thread": "rockref, compiled, one core, many blocks abreast",
@@ -128,7 +127,5 @@ def write(found: dict, root: Path) -> None:
     """Put the figure and the table in their places under `root`."""
     (root / "docs/figures").mkdir(exist_ok=True)
     write_bytes(root / "docs/figures/bench.svg", picture(found))
-    page = root / "docs/reference/performance.md"
-    head, _, rest = page.read_text(encoding="utf-8").partition(BEGIN)
-    tail = rest.partition(END)[2]
-    write_text(page, f"{head}{BEGIN}\n{table(found)}\n{END}{tail}")
+    written = "Measured by `make bench`; not to be edited."
+    write_text(root / "benchmarks/performance.md", f"{written}\n\n{table(found)}\n")

@@ -48,12 +48,13 @@ def setup(app):
     import make_errors
     import make_figures
     import make_gallery
+    import make_judge_table
     import make_reference
     import make_review
     import make_zoo
 
-    makers = (make_blind_history, make_checks, make_errors, make_figures, make_gallery, make_reference, make_review)
-    for maker in (*makers, make_zoo):
+    makers = (make_blind_history, make_checks, make_errors, make_figures, make_gallery, make_reference)
+    for maker in (*makers, make_judge_table, make_review, make_zoo):
         maker.write()
     Path(app.srcdir, "_lab").mkdir(exist_ok=True)  # sphinx asks for it before it builds anything
     app.connect("builder-inited", lambda app: make_gallery.write_pictures(Path(app.srcdir, "reference", "effects")))

@@ -16,6 +16,7 @@ SOURCE = ROOT / "docs" / "figures.toml"
 MADE = {
     "benchmarks/zoo.csv": "docs/reference/zoo.md",
     "benchmarks/blind_history.csv": "docs/explanation/blind_history.md",
+    "benchmarks/judged.csv": "docs/reference/judged.md",
 }
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 

@@ -7,8 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCE = ROOT / "benchmarks" / "judged.csv"
-PAGE = ROOT / "docs" / "reference" / "judged.md"
-#: The table is the one that begins with this line; the line after it begins the rest of the page.
+TABLE = ROOT / "docs" / "reference" / "judged_table.inc"
 HEAD = "| what is judged | shown | asked | detected | named by the right rule | in the top two |"
 NAMES = {
     "first": "first list of mistakes", "second": "second list", "third": "third list", "fourth": "fourth list",
@@ -51,13 +50,10 @@ def table() -> list[str]:
     return lines
 
 
-def text() -> str:
-    """The page with its table made anew."""
-    lines = PAGE.read_text(encoding="utf-8").split("\n")
-    begin = lines.index(HEAD)
-    end = next(i for i in range(begin, len(lines)) if not lines[i].startswith("|"))
-    return "\n".join([*lines[:begin], *table(), *lines[end:]])
+def write() -> None:
+    """Write the table where the page takes it from."""
+    TABLE.write_text("\n".join(table()) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
-    PAGE.write_text(text(), encoding="utf-8")
+    write()
