@@ -90,7 +90,8 @@ def inside_the_cone(backend: Any, q: dict[str, Any]) -> None:
 
 def anchor_fits_the_force(backend: Any, q: dict[str, Any]) -> None:
     """Assert that after the step spring to the anchor and damper give the friction force, sticking or sliding."""
-    if q["xi"] < 0:
+    # A foot that is exactly at the plate may be held to be open: a conforming backend has > for >= there.
+    if q["xi"] <= 0:
         return
     p = point(q)
     out = as_mapping(backend.contact_law(**p), "contact_law")
