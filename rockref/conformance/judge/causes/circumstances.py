@@ -64,6 +64,7 @@ ALONE = {"I4": "turned", "I5": "displaced"}
 MOST, SOME = 0.9, 3
 VELOCITY = "Dampers of friction are right where {} alone: the sliding velocity is wrong."
 IN_COMMON = "Forces are wrong where {}, and hardly anywhere else."
+AFTER_A_STEP = IN_COMMON.format("a step comes before")
 BOTH = "What is wrong of open feet and of those that touch is the penetration."
 NORMAL = "The normal forces of the row are wrong already: where {}."
 
@@ -108,8 +109,10 @@ def right_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> str:
 
 
 def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[str, str]:
-    """Return the rule of the normal forces, where those of the row whose friction is told are wrong; and K1 where those
-    of open feet are, and of feet that touch."""
+    """Return the rule of the normal forces, where those of the row whose friction is told are wrong.
+
+    Where those of open feet are wrong, and of feet that touch: K1; S1 where none of them is in a first row.
+    """
     if not check.name.startswith("F_"):
         return rule, ""
     of_runs = by_run(answers, normal)
@@ -118,7 +121,8 @@ def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[st
     wrong, right = parted(of_runs)
     if rule == "N2":
         both = sum(bool(np.any(feet["touching"])) for feet in wrong) > 1
-        return ("K1", BOTH) if both else (rule, "")
+        late = all(np.all(feet["later"]) for feet in wrong)
+        return (rule, "") if not both else ("S1", AFTER_A_STEP) if late else ("K1", BOTH)
     if not check.name.startswith("F_T@"):
         return rule, ""
     best = max(OF_NORMAL_FORCES, key=lambda c: agreement(c[2], wrong, right))

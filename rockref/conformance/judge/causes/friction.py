@@ -58,7 +58,7 @@ def rule_of_friction(
         return rule_of_the_start(vector, out, check)
     if check.name.startswith("F_T@"):
         return ("S1", STALE) if of_the_row_before(vector, out, check) else (check.rule, "")
-    return ("A1", MOVES_ALONE) if moves_alone(answers, checks, check) else (check.rule, "")
+    return ("A1", MOVES_ALONE) if moves_alone(answers, checks, check, "F_T@0") else (check.rule, "")
 
 
 def shows_another_trial(q: dict[str, Any], out: dict[str, Any]) -> bool:
@@ -118,15 +118,17 @@ def of_the_row_before(vector: Vector, out: dict[str, Any], check: Check) -> bool
     return bool(np.any(off) and np.array_equal(got[off], before[off]))
 
 
-def moves_alone(answers: Sequence[tuple[Vector, dict[str, Any]]], checks: Sequence[Check], check: Check) -> bool:
-    """Return whether, where rows stand in for friction forces that are not shown, the block is moved wrongly by them
-    and never turned wrongly in the step after the start."""
+def moves_alone(
+    answers: Sequence[tuple[Vector, dict[str, Any]]], checks: Sequence[Check], check: Check, force: str
+) -> bool:
+    """Return whether, where rows stand in for forces that are not shown, the block is moved wrongly by them and never
+    turned wrongly in the step after the start. force : F_N@0 or F_T@0"""
     # Where the row after the start is several steps away, what moved the block has turned it, too.
     vectors = {v.id: v for v, _ in answers if v.piece == "simulate" and one_step_a_row(v.inputs)}
     standing = {"x@1": 0, "Lambda@1": 0}
     for c in checks:
         e = vectors[c.vector].expect.get(c.name) if c.vector in vectors else None
-        if c.failed and c.name in standing and e is not None and e.instead_of == "F_T@0":
+        if c.failed and c.name in standing and e is not None and e.instead_of == force:
             standing[c.name] += 1
     return check.name == "x@1" and standing["x@1"] > 1 and standing["Lambda@1"] == 0
 

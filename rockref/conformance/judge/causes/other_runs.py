@@ -7,9 +7,11 @@ from typing import Any
 
 from rockref.conformance.judge.causes.circumstances import rule_in_common, rule_of_normal_forces
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
-from rockref.conformance.judge.causes.friction import DAMPER, rule_of_friction
+from rockref.conformance.judge.causes.friction import DAMPER, moves_alone, rule_of_friction
 from rockref.conformance.judge.compare_answer import Check
 from rockref.conformance.vectors import Vector
+
+PUSHES_ALONE = "Normal forces turn the block as they should, and move it otherwise."
 
 
 def cause_of(
@@ -23,6 +25,8 @@ def cause_of(
     rule, words = rule_of_friction(answers, checks, check)
     if (words and words != DAMPER) or profile != "float64" or check.layer != "L5s":
         return rule, words
+    if rule == "N1" and moves_alone(answers, checks, check, "F_N@0"):
+        return "A1", PUSHES_ALONE
     for ask in (rule_of_normal_forces, rule_in_common):
         other, says = ask(answers, check, rule)
         if says:

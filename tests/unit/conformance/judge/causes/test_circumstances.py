@@ -89,7 +89,11 @@ def test_friction_of_feet_whose_normal_force_is_wrong_speaks_of_that(right):
     answers, told = changed_where(right, lambda f: f["touching"] & f["push"] & f["slid"], 2)
     check = Check(told[-1], "L5s", "T5", "F_T@1", "outside", float("inf"))
     assert rule_of_normal_forces(answers, check, "T5")[0] == "N1"
-    for meets, rule in ((lambda f: ~f["touching"], "N2"), (lambda f: f["push"] | ~f["touching"], "K1")):
+    for meets, rule in (
+        (lambda f: ~f["touching"], "N2"),
+        (lambda f: f["push"] | ~f["touching"], "K1"),
+        (lambda f: f["later"], "S1"),
+    ):
         answers, told = changed_where(right, meets, 2)
         assert rule_of_normal_forces(answers, replace(check, name="F_N@0", vector=told[0]), "N2")[0] == rule
 
