@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any
@@ -181,16 +181,17 @@ def inside_page(figure: Any, title: str, kind: str) -> str:
 
 def key_of(lines: Iterable[Line]) -> str:
     """Return the legend of lines, each name once."""
-    return key(list({line.name: (line.name, line.colour, line.dash) for line in lines}.values()))
+    once = list({line.name: line for line in lines}.values())
+    return key([(line.name, line.colour, line.dash) for line in once], {line.name for line in once if line.dots})
 
 
-def key(entries: Sequence[tuple[str, str, tuple[int, ...]]]) -> str:
-    """Return a legend as HTML: (name, colour, dash) with a piece of each line, or its dot where a model has no dash."""
+def key(entries: Sequence[tuple[str, str, tuple[int, ...]]], dots: Collection[str] = ()) -> str:
+    """Return a legend as HTML: (name, colour, dash) with a piece of each line, or the dot of those named in `dots`."""
     items = []
     for name, colour, dash in entries:
         dashes = f' stroke-dasharray="{" ".join(map(str, dash))}"' if dash else ""
         path = f'<path d="M1 4h28" stroke="{colour}" stroke-width="2"{dashes}/>'
-        if colour in COLOURS and not dash:
+        if name in dots:
             path = f'<path transform="translate(15 4)" d="{MARKERS[_letter(colour)]}" style="fill:{colour}"/>'
         sample = f'<svg viewBox="0 0 30 8" aria-hidden="true">{path}</svg>'
         items.append(f'<span class="key">{sample}{escape(name)}</span>')

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rockref.report.charts.dots import dots, level
-from rockref.report.charts.drawing import Line, Panel, chart, draw, key
+from rockref.report.charts.drawing import Line, Panel, chart, draw, key, key_of
 from rockref.report.charts.style import COLOURS
 
 X = np.linspace(0.0, 5.0, 1001)
@@ -97,8 +97,14 @@ def test_models_have_dots_of_their_own_and_the_legend_shows_them():
     lines = [Line(str(k), X[:3], X[:3] + k, colour, dots=True) for k, colour in enumerate(COLOURS)]
     (ax,) = draw([Panel("y", lines)], [(-1.0, 1.0)]).axes
     assert len({line.get_marker() for line in ax.lines}) == len(COLOURS)
-    shapes = {re.search(r' d="([^"]+)"', key([("1", colour, ())])).group(1) for colour in COLOURS}
+    shapes = {re.search(r' d="([^"]+)"', key([("1", colour, ())], {"1"})).group(1) for colour in COLOURS}
     assert len(shapes) == len(COLOURS)
+
+
+def test_a_whole_line_of_a_models_colour_is_a_line_in_the_legend():
+    lines = [Line("model", X, X, COLOURS[0]), Line("size", X, X, COLOURS[0], dots=True)]
+    curve, dot = re.findall(r"<span.*?</span>", key_of(lines))
+    assert "M1 4h28" in curve and "translate" not in curve and "translate" in dot
 
 
 def test_legend_escapes_names():

@@ -84,5 +84,5 @@ def test_shapes_need_what_was_measured_and_leave_out_a_model_without_them(short)
     page = Page("t")
     blocks.add_shapes(page, replace(short, results=bare), 0)
     text, figures = part(page)
-    # Its curves are gone: two of an envelope and one of a spectrum about each of two axes.
-    assert figures == 2 and whole.count("stroke-width: 1.2") - text.count("stroke-width: 1.2") == 6
+    # Its curves are gone: an envelope (upper and lower are one path) and a spectrum about each of two axes.
+    assert figures == 2 and whole.count("stroke-width:1.2") - text.count("stroke-width:1.2") == 4
