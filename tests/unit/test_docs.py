@@ -139,3 +139,13 @@ def test_the_compiled_engine_gives_the_bits_of_the_law_over_the_whole_response()
     law, compiled = (rockref.simulate(rockref.Model.table_3_1(), 1.4, engine=e) for e in ("numpy", "numba"))
     for key in ("t", "x", "v", "Lambda", "W", "F", "anchored", "sliding"):
         assert np.array_equal(getattr(law, key), getattr(compiled, key)), key
+
+
+@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/README.md"])
+def test_links_of_pages_outside_of_the_site_lead_to_files_that_are_kept(page):
+    """Sphinx looks after the others. What `make docs` makes is not kept."""
+    kept = (ROOT / ".gitignore").read_text(encoding="utf-8").splitlines()
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for link in re.findall(r"\]\((?!https?:)([^)#\s]+)", text):
+        target = (ROOT / page).parent.joinpath(link).resolve()
+        assert target.exists() and str(target.relative_to(ROOT)) not in kept, link
