@@ -13,6 +13,8 @@ LENGTH = {"": 1.0, "m": 1.0, "cm": 1e-2, "mm": 1e-3}
 ANGLE = {"deg": math.pi / 180.0, "°": math.pi / 180.0, "rad": 1.0, "mrad": 1e-3}
 RATE = {"deg/s": math.pi / 180.0, "dps": math.pi / 180.0, "rad/s": 1.0}
 FREQUENCY = {"": 1.0, "Hz": 1.0, "kHz": 1e3}
+#: Length of no block [m]; decided: larger ones are written with their unit.
+NO_BLOCK = 10.0
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 
 
@@ -35,8 +37,11 @@ def mass(text: str) -> float:
 
 
 def length(text: str) -> float:
-    """Return a length in m."""
-    return quantity(text, LENGTH, "100mm")
+    """Return a length in m; a number alone is metres, and one that no block has is asked for its unit."""
+    value = quantity(text, LENGTH, "100mm")
+    if value >= NO_BLOCK and re.fullmatch(r"[\d.+eE\s]+", str(text)):
+        raise typer.BadParameter(f"{text!r} has no unit, and metres are too many; write it as {str(text).strip()}mm.")
+    return value
 
 
 def angle(text: str) -> float:

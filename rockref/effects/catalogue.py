@@ -65,6 +65,9 @@ IN_STEP_ORDER: tuple[type[Effect], ...] = (
     GyroMisalignment, GyroScale, GyroBandwidth, GyroDrift, GyroSaturation, ClockError,
 )  # fmt: skip
 
+#: Ids that a message names; decided: more are not read.
+MOST_NAMED = 4
+
 #: Every effect by its id.
 EFFECTS: dict[str, type[Effect]] = {effect.id: effect for effect in IN_STEP_ORDER}
 
@@ -120,9 +123,15 @@ def find(id: str, where: str = "effect") -> type[Effect]:
     known = EFFECTS | OF_TOSSES | OWN
     if id in known:
         return known[id]
-    near = difflib.get_close_matches(id.lower(), known, 1)
-    cure = f"Did you mean {near[0]!r}?" if near else "`rockref effects` lists them."
+    near = difflib.get_close_matches(id.lower(), known, 1) or _holding(id.lower(), known)
+    cure = f"Did you mean {' or '.join(map(repr, near))}?" if near else "`rockref effects` lists them."
     raise InputError("E-EFFECT", where, f"there is no effect {short(id)!r}", cure)
+
+
+def _holding(word: str, known: Iterable[str]) -> list[str]:
+    """Return the ids that hold a word as one of their parts, if they are few enough to be read."""
+    found = [id for id in known if word in id.split("_")]
+    return found if len(found) <= MOST_NAMED else []
 
 
 def names_file(words: str) -> bool:

@@ -138,6 +138,9 @@ def load(target: str) -> Any:
             return found
         if target.endswith(".py"):
             raise InputError("E-BACKEND", target, "names no class", class_cure(Path(target)))
+        if Path(target).is_file():
+            cure = f"A program that speaks JSON lines is judged by: rockref conform exe {target}"
+            raise InputError("E-BACKEND", target, "is a file, and no Python", cure)
         known = [*ENGINES, *(p.name for p in entry_points(group=GROUP))]
         cure = f"Use one of {', '.join(known)}, path/to/file.py:Class, or package.module:Class."
         raise InputError("E-BACKEND", target, "is no backend", cure)

@@ -72,3 +72,10 @@ def test_a_terminal_is_asked(capsys, logs, tmp_path, monkeypatch):
 def test_an_angle_needs_its_unit(capsys, logs, tmp_path, text):
     code, _, err = run(capsys, "new", tmp_path / "block", logs, *SIDES, f"--tilt={text}")
     assert code == 2 and "deg" in err
+
+
+@pytest.mark.parametrize("width, told", [("80", "write it as 80mm"), ("80kg", "no number with a unit")])
+def test_a_length_that_no_block_has_is_asked_for_its_unit(capsys, logs, tmp_path, width, told):
+    sides = ("--mass", "54kg", "--width", width, "--height", "0.688")
+    code, _, err = run(capsys, "new", tmp_path / "block", logs, *sides, "--yes")
+    assert code == 2 and told in " ".join(err.split()) and not (tmp_path / "block").exists()

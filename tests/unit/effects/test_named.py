@@ -53,6 +53,8 @@ def test_an_id_finds_its_effect_and_a_strange_one_its_neighbour():
     assert find("adhesion") is EFFECTS["adhesion"] and find("tag_frame") is OF_TOSSES["tag_frame"]
     said = ("E-EFFECT", "effect", "there is no effect 'Adhesio'", "Did you mean 'adhesion'?")
     assert refusal(find, "Adhesio") == said
+    said = ("E-EFFECT", "effect", "there is no effect 'rolling'", "Did you mean 'rolling_resistance'?")
+    assert refusal(find, "rolling") == said
     said = ("E-EFFECT", "here", "there is no effect 'wind'", "`rockref effects` lists them.")
     assert refusal(find, "wind", "here") == refusal(named, "wind", "here") == said
     assert refusal(named, "wind")[1] == "effect"

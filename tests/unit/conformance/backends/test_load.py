@@ -145,3 +145,9 @@ def test_a_file_without_a_class_is_told_which_there_are_and_is_not_run(tmp_path,
     with pytest.raises(InputError) as refused:
         load(str(path))
     assert (refused.value.code, refused.value.cure) == ("E-BACKEND", cure.format(path))
+
+
+def test_a_program_is_told_how_programs_are_judged(tmp_path):
+    path = tmp_path / "mine"
+    path.write_bytes(b"\x7fELF")
+    assert f"rockref conform exe {path}" in refused(str(path))
