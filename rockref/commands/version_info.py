@@ -6,6 +6,10 @@ from typing import Annotated
 import typer
 
 
+PLAIN = "The arithmetic is plain IEEE 754: runs have the bits of the shipped vectors."
+OTHER = "The arithmetic is not plain IEEE 754: runs differ in their last bits; compare by error bars."
+
+
 def doctor(
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of lines.")] = False,
 ) -> None:
@@ -27,6 +31,7 @@ def doctor(
     else:
         for name, value in {**facts, **findings}.items():
             typer.echo(f"{name:24} {_text(value)}")
+        typer.echo(PLAIN if machine.is_sound(findings) else OTHER)
     if not machine.is_sound(findings):
         raise typer.Exit(1)
 
