@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-
 PLAIN = "The arithmetic is plain IEEE 754: runs have the bits of the shipped vectors."
 OTHER = "The arithmetic is not plain IEEE 754: runs differ in their last bits; compare by error bars."
 
