@@ -17,7 +17,7 @@ from rockref.identify.models import model_of
 from rockref.identify.target import Target
 from rockref.measure.gyroscope import record
 from rockref.model.errors import InputError
-from rockref.model.problem import Problem, stack
+from rockref.model.problem import Block, ContactPoints, Problem, stack
 from rockref.model.simulate import output_steps
 from rockref.model.simulate import simulate as law
 
@@ -56,18 +56,31 @@ def _by_the_law(problems: Sequence[Problem]) -> np.ndarray:
     return law(stack(list(problems)), keep_going=True).W
 
 
-def problem_for(model: Model, target: Target, tilt: float, step: float = STEP, start: dict | None = None) -> Problem:
-    """Return the release of `model` at `tilt` [rad] as the target's was, long enough to be compared with it."""
-    return model.problem(target.duration, step, OUTPUT_RATE, turned=target.turned, theta_0=tilt, **(start or {}))
+def problem_for(
+    model: Model,
+    target: Target,
+    tilt: float,
+    step: float = STEP,
+    start: dict | None = None,
+    body: tuple[Block, ContactPoints] | None = None,
+) -> Problem:
+    """Return the release of `model` at `tilt` [rad] as the target's was, long enough to be compared with it.
+
+    body : what `model.body()` returns, where it is known already.
+    """
+    how = {"turned": target.turned, "theta_0": tilt, "body": body, **(start or {})}
+    return model.problem(target.duration, step, OUTPUT_RATE, **how)
 
 
 class Releases(NamedTuple):
-    """Models to be released as the run of a target was: at tilts [rad], each with what its release needs beside."""
+    """Models to be released as the run of a target was: at tilts [rad], each with what its release needs beside, and
+    its body where that is known."""
 
     target: Target
     models: Sequence[Model]
     tilts: Sequence[float]
     starts: Sequence[dict]
+    bodies: Sequence[tuple[Block, ContactPoints] | None]
 
 
 def records(
@@ -80,9 +93,9 @@ def records(
     """
     problems: dict[tuple[int, int], Problem] = {}
     for k, (target, *each) in enumerate(asked):
-        for i, (model, tilt, start) in enumerate(zip(*each, strict=True)):
+        for i, (model, tilt, start, body) in enumerate(zip(*each, strict=True)):
             try:
-                problems[k, i] = problem_for(model, target, tilt, step, start)
+                problems[k, i] = problem_for(model, target, tilt, step, start, body)
             except InputError:
                 continue
     whole = rates(list(problems.values()), workers) if problems else np.zeros((0, 0, 3))
@@ -136,9 +149,23 @@ def releases(
 
     The gene theta_0 says how far the stated tilt is off, the same for every target.
     """
-    asked = []
+    asked, tilt_gene = [], space.names.index("theta_0")
+    bodies: dict[bytes, tuple[Block, ContactPoints] | None] = {}
     for target, own in zip(targets, chromosomes, strict=True):
         models = [model_of(space, u) for u in own]
         tilts = [target.tilt + (m.parameters.theta_0 - space.model.parameters.theta_0) for m in models]
-        asked.append(Releases(target, models, tilts, [start_of(space, u) for u in own]))
+        keys = [np.delete(u, tilt_gene).tobytes() for u in own]
+        for key, model in zip(keys, models, strict=True):
+            if key not in bodies:
+                bodies[key] = _body(model)
+        starts = [start_of(space, u) for u in own]
+        asked.append(Releases(target, models, tilts, starts, [bodies[key] for key in keys]))
     return records(asked, step, workers)
+
+
+def _body(model: Model) -> tuple[Block, ContactPoints] | None:
+    """Return block and points of a model, which its release angle does not change; None where they are refused."""
+    try:
+        return model.body()
+    except InputError:
+        return None

@@ -12,7 +12,7 @@ off everywhere near it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -87,18 +87,31 @@ class Descent:
         r = self.residuals(z[None])
         return Place(z, r[0], float(mean_squares(r)[0]))
 
-    def jacobian(self, z: np.ndarray, h: np.ndarray) -> np.ndarray:
+    def jacobian(self, at: Place, h: np.ndarray) -> np.ndarray:
         """Return (M, Z) by central differences over h (Z,), one-sided at the end of a range."""
+        z = at.z
         up, down = np.minimum(z + h, 1.0), np.maximum(z - h, 0.0)
-        rs = self.residuals(np.concatenate([z + np.diag(up - z), z - np.diag(z - down)]))
-        return np.nan_to_num((rs[: len(z)] - rs[len(z) :]) / (up - down)[:, None]).T
+        ups, downs = np.split(self.residuals(np.concatenate([self._moved(z, up), self._moved(z, down)])), 2)
+        J = np.zeros((len(z), len(at.r)))
+        for move, change in zip(self.unknowns.moves, ups - downs, strict=True):
+            for i, rows in move:
+                J[i, rows] = change[rows] / (up[i] - down[i])
+        return np.nan_to_num(J).T
 
-    def slopes(self, z: np.ndarray, change: float, h: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
+    def _moved(self, z: np.ndarray, to: np.ndarray) -> np.ndarray:
+        """Return z (Z,) once for each move of the unknowns, with what it moves at its place in `to` (Z,)."""
+        trials = np.repeat(z[None], len(self.unknowns.moves), axis=0)
+        for trial, move in zip(trials, self.unknowns.moves, strict=True):
+            for i, _ in move:
+                trial[i] += to[i] - z[i]
+        return trials
+
+    def slopes(self, at: Place, change: float, h: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Return Jacobian (M, Z) over steps that change the response by `change`, and those steps (Z,)."""
         if h is None:
-            h = np.full(len(z), FIRST)
-            h = _steps(self.jacobian(z, h), change)
-        J = self.jacobian(z, h)
+            h = np.full(len(at.z), FIRST)
+            h = _steps(self.jacobian(at, h), change)
+        J = self.jacobian(at, h)
         return J, _steps(J, change)
 
     def descend(self, at: Place, change: float, steps: int | None = None) -> Place:
@@ -106,8 +119,8 @@ class Descent:
         damping, J, h = DAMPING, None, None
         for _ in range(self.steps if steps is None else steps):
             if J is None:
-                J, h = self.slopes(at.z, change, h)
-            trials = np.array([damped_step(J, at.r, at.z, damping * f) for f in FACTORS])
+                J, h = self.slopes(at, change, h)
+            trials = damped_steps(J, at.r, at.z, [damping * f for f in FACTORS])
             rs = self.residuals(trials)
             chi2 = mean_squares(rs)
             k = int(np.argmin(chi2))
@@ -132,19 +145,29 @@ def _steps(J: np.ndarray, change: float) -> np.ndarray:
     return np.clip(change / np.where(size > 0, size, 1e-30), SMALLEST, LARGEST)
 
 
-def damped_step(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float) -> np.ndarray:
-    """Return damped step, along free directions only: an unknown that would leave its range stays at the end of it."""
+def damped_steps(J: np.ndarray, r: np.ndarray, z: np.ndarray, dampings: Sequence[float]) -> np.ndarray:
+    """Return where damped steps lead, (D, Z), along free directions only: an unknown that would leave its range stays
+    at the end of it."""
+    normal: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
+    return np.array([np.clip(z + _damped(J, r, z, damping, normal), 0.0, 1.0) for damping in dampings])
+
+
+def _damped(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float, normal: dict) -> np.ndarray:
+    """Return one step (Z,); normal : matrix and right side of the normal equations, by the directions that are free."""
     free = np.ones(len(z), bool)
     d = np.zeros(len(z))
     for _ in range(len(z)):
-        A = J[:, free].T @ J[:, free]
+        key = free.tobytes()
+        if key not in normal:
+            normal[key] = J[:, free].T @ J[:, free], -J[:, free].T @ r
+        A, b = normal[key]
         d = np.zeros(len(z))
-        d[free] = np.linalg.solve(A + damping * np.diag(np.diag(A)) + ridge(A), -J[:, free].T @ r)
+        d[free] = np.linalg.solve(A + damping * np.diag(np.diag(A)) + ridge(A), b)
         out = ((z + d < 0) & (z <= 0)) | ((z + d > 1) & (z >= 1))
         if not np.any(out & free):
             break
         free &= ~out
-    return np.clip(z + d, 0.0, 1.0)
+    return d
 
 
 def ridge(A: np.ndarray) -> np.ndarray:

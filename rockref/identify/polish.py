@@ -130,13 +130,13 @@ def polish(
         if at.chi2 > (1 - LEAST_ROUND_GAIN) * before:
             break
     alike = [end.z for end in descent.ends if end.chi2 < (1 + ALIKE) * at.chi2]
-    return _result(unknowns, at, descent.slopes(at.z, CHANGES[1])[0], np.array(alike))
+    return _result(unknowns, at, descent.slopes(at, CHANGES[1])[0], np.array(alike))
 
 
 def _long_moves(descent: Descent, at: Place) -> Place:
     """Return each unknown moved a long way, alone and with the others following; a short descent from the best
     places."""
-    J, _ = descent.slopes(at.z, CHANGES[1])
+    J, _ = descent.slopes(at, CHANGES[1])
     trials = np.array([z for i in range(len(at.z)) for shift in SHIFTS for z in _moved(J, at, i, shift)])
     chi2 = mean_squares(descent.residuals(trials))
     best = at

@@ -35,6 +35,17 @@ class Unknowns:
         """Return names of the unknowns."""
         return (*(self.space.names[i] for i in self.shared), *(f"theta_0 of {t.name}" for t in self.targets))
 
+    @property
+    def moves(self) -> list[list[tuple[int, slice]]]:
+        """Return which unknowns one simulation of each target moves for the slopes, with the rows that they change.
+
+        Each shared gene alone, all release angles together: a target has rows of its own (A. R. Curtis, M. J. D. Powell
+        and J. K. Reid, On the estimation of sparse Jacobian matrices, IMA J. Appl. Math. 13, 117-119, 1974).
+        """
+        edges = np.cumsum([0, *(3 * int(np.searchsorted(t.t, t.until)) for t in self.targets)])
+        n, rows = len(self.shared), map(slice, edges[:-1], edges[1:])
+        return [[(i, slice(None))] for i in range(n)] + [[(n + k, own) for k, own in enumerate(rows)]]
+
     def chromosome(self, z: np.ndarray, k: int) -> np.ndarray:
         """Return the chromosome (G,) of target k."""
         u = np.empty(len(self.space.genes))

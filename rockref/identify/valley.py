@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rockref.identify.descent import CHANGES, FACTORS, NEARLY, Descent, Place, damped_step, ridge
+from rockref.identify.descent import CHANGES, FACTORS, NEARLY, Descent, Place, damped_steps, ridge
 from rockref.identify.unknowns import mean_squares
 
 #: The unknown that is moved, and by how much of its range at a time. Decided: a hundredth, 0.11 mm, one last digit of
@@ -21,11 +21,12 @@ WALKED, STRIDE = "delta_diag", 0.01
 #: when that is walked: by the second), where so many strides brought nothing by the whole record, or after so many
 #: strides (decided: 0.3 of the range).
 LEFT, LEFT_WHOLE, PATIENCE, MOST = 1.25, 1.05, 4, 30
-#: Least squares after each stride: steps, most steps where the fit is lost, and what multiplies `FACTORS`;
-#: decided: with two a walk left the valley at a dent, and stopped eight last digits short.
+#: Least squares after each stride: steps, most steps where the fit is lost (fewer, where one gains less than
+#: `LEAST_GAIN`), and what multiplies `FACTORS`; decided: with two a walk left the valley at a dent, and stopped eight
+#: last digits short.
 REFITS, MOST_REFITS, DAMPING = 2, 6, 1e-3
 #: How many of the best places on the way are descended from, and the share that a round of walks must gain for another
-#: one. Decided: noise scatters the mean square by 2 %.
+#: one, or a refit of what is lost. Decided: noise scatters the mean square by 2 %.
 PLACES, LEAST_GAIN = 2, 0.02
 
 
@@ -74,14 +75,16 @@ def walk(short: Descent, whole: Descent, z: np.ndarray, stride: float, left: flo
         return []
     i, at, best, since = short.unknowns.names.index(WALKED), short.place(z), np.inf, 0
     limit, path = left * at.chi2, list[Place]()
-    J, h = short.slopes(at.z, CHANGES[1])
+    J, h = short.slopes(at, CHANGES[1])
     while len(path) < MOST and since < PATIENCE and 0.0 <= at.z[i] + stride <= 1.0:
         at = short.place(_moved(J, at, i, stride))
+        gain = np.inf
         for k in range(MOST_REFITS):
-            if k >= REFITS and at.chi2 < limit:
+            if k >= REFITS and (at.chi2 < limit or gain < LEAST_GAIN * at.chi2):
                 break
-            J, h = short.slopes(at.z, CHANGES[1], h)
+            before, (J, h) = at.chi2, short.slopes(at, CHANGES[1], h)
             at = _refitted(short, J, at, i)
+            gain = before - at.chi2
         if not at.chi2 < limit:
             break
         path.append(at if short is whole else whole.place(at.z))
@@ -104,7 +107,7 @@ def _refitted(short: Descent, J: np.ndarray, at: Place, i: int) -> Place:
     """Return one step of least squares of all unknowns but i."""
     held = J.copy()
     held[:, i] = 0.0
-    trials = np.array([damped_step(held, at.r, at.z, DAMPING * f) for f in FACTORS])
+    trials = damped_steps(held, at.r, at.z, [DAMPING * f for f in FACTORS])
     rs = short.residuals(trials)
     chi2 = mean_squares(rs)
     k = int(np.argmin(chi2))

@@ -5,8 +5,14 @@ import signal
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
+
+
+def alone(*names: str) -> SimpleNamespace:
+    """Unknowns of these names, each moved by itself for the slopes."""
+    return SimpleNamespace(names=names, moves=[[(i, slice(None))] for i in range(len(names))])
 
 
 def bowl(centre: float, chromosomes) -> list[float]:

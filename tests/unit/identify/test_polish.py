@@ -15,6 +15,7 @@ from rockref.identify.runs import run_error
 from rockref.identify.target import seen_until, target
 from rockref.identify.unknowns import Unknowns, residuals, signal_costs
 from rockref.model.parameters import TABLE_3_1
+from tests.unit.identify.analytic import alone
 
 PRECISION = np.array([given.precision for given in TABLE_3_1.values()])
 
@@ -140,6 +141,29 @@ def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monke
     np.testing.assert_array_equal(together[[0, 3, -1]], alone)
 
 
+def test_slopes_move_all_release_angles_in_one_simulation(space, truth, noisy_twin, monkeypatch):
+    """A target has rows of its own: eleven shared numbers and one row more give what thirteen rows would."""
+    asked = []
+    whole = unknowns.releases
+
+    def counted(space, targets, chromosomes, *more):
+        asked.extend(len(own) for own in chromosomes)
+        return whole(space, targets, chromosomes, *more)
+
+    descent = Descent(Unknowns(space, [seen_until(noisy_twin, 0.0)] * 2), workers=1)
+    # A release angle at the end of its range is moved inwards.
+    at, h = descent.place(np.append(descent.unknowns.z(truth)[:-1], 1.0)), np.linspace(1e-3, 2e-3, 13)
+    up, down = np.diag(np.append(h[:-1], 0.0)), np.diag(h)
+    one_by_one = (descent.residuals(at.z + up) - descent.residuals(at.z - down)) / np.diag(up + down)[:, None]
+    monkeypatch.setattr(unknowns, "releases", counted)
+    J = descent.jacobian(at, h)
+    assert asked == [24, 24] and J.shape == (len(at.r), 13)
+    # The same simulations; the steps that were taken differ from h by rounding of z.
+    np.testing.assert_allclose(J, one_by_one.T, rtol=1e-11, atol=0)
+    half = len(at.r) // 2
+    assert not J[half:, 11].any() and not J[:half, 12].any() and J[:half, 11].any() and J[half:, 12].any()
+
+
 def test_where_no_step_gains_the_slopes_are_not_taken_again():
     """At the bottom of a bowl: slopes over two step sizes, then dampings alone, each larger than those before."""
 
@@ -150,11 +174,11 @@ def test_where_no_step_gains_the_slopes_are_not_taken_again():
             self.tried += len(zs)
             return 1.0 + np.sum(np.square(zs - 0.5), axis=1, keepdims=True)
 
-        def jacobian(self, z, h):
+        def jacobian(self, at, h):
             self.slopes_taken += 1
-            return super().jacobian(z, h)
+            return super().jacobian(at, h)
 
-    bowl = Bowl(None)
+    bowl = Bowl(alone("a", "b", "c"))
     end = bowl.descend(bowl.place(np.full(3, 0.5)), 1.0)
     assert bowl.slopes_taken == 2 and bowl.tried == 1 + 2 * 6 + 3 * len(FACTORS)
     assert end.chi2 == 1.0 and FACTORS[0] * BEYOND_ALL > FACTORS[-1]
@@ -177,7 +201,7 @@ class Dents(Descent):
     """One unknown in a valley about 0.2 with a dent every fifth of the range, and one that is only a valley."""
 
     def __init__(self, noise=1.0):
-        super().__init__(None)
+        super().__init__(alone("a", "b"))
         self.noise = noise
 
     def residuals(self, zs):

@@ -1,12 +1,11 @@
 """Walks along the valley: where descents stop at dents, strides do not."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 from rockref.identify.descent import CHANGES, NEARLY, Descent
-from rockref.identify.valley import PATIENCE, STRIDE, along, walk
+from rockref.identify.valley import PATIENCE, REFITS, STRIDE, along, walk
+from tests.unit.identify.analytic import alone
 
 TRUTH = 0.2
 
@@ -21,7 +20,7 @@ class Ground(Descent):
     seen, grows away from the truth and has a dent every fiftieth of the range."""
 
     def __init__(self, end: bool, names=("delta_diag", "x"), mark=0.0):
-        super().__init__(SimpleNamespace(names=names))
+        super().__init__(alone(*names))
         self.end, self.mark = end, mark
 
     def _with_step(self, zs, step):
@@ -63,6 +62,26 @@ def test_a_walk_ends_where_nothing_is_gained_or_the_range_ends(grounds):
     assert len(walk(short, whole, START, STRIDE)) <= PATIENCE + 2
     assert max(p.z[0] for p in walk(short, whole, START, STRIDE)) > 0.6
     assert len(walk(short, short, np.array([0.975, bent(0.975)]), STRIDE)) == 2
+
+
+def test_a_stride_that_refits_cannot_mend_is_given_up():
+    """Behind a wall the record is ten times the noise whatever is refitted: the second refit gains nothing."""
+
+    class Walled(Ground):
+        asked = 0
+
+        def _with_step(self, zs, step):
+            behind = np.where(zs[:, :1] > START[0] + 2.5 * STRIDE, 10.0, 1.0)
+            return behind * super()._with_step(zs, step)
+
+        def jacobian(self, at, h):
+            self.asked += 1
+            return super().jacobian(at, h)
+
+    short = Walled(False)
+    assert len(walk(short, Ground(True), START, STRIDE)) == 2
+    # Of the start over two step sizes, and at each of three strides.
+    assert short.asked == 2 + 3 * REFITS
 
 
 def test_a_model_without_the_diagonal_is_left_as_it_is():
