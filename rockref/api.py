@@ -286,10 +286,12 @@ class Model(Shown):
         base: BaseMotion | None = None,
         standing: bool | None = None,
         heading: float = 0.0,
+        posture: State | None = None,
     ) -> Problem:
         """Return what the engines take. Without `start`, the release posture at theta_0 (by default the model's) [rad].
 
-        body : what `body()` returns, where it is known already.  base : how the plate moves.
+        body : what `body()` returns, posture : what `release_posture` does, where they are known already.
+        base : how the plate moves.
         standing : the block stands still on its feet, turned by `heading` [rad] about the vertical, and is not
         released; by default where the plate moves. Effects on the release are then left aside.
 
@@ -304,7 +306,7 @@ class Model(Shown):
             start = standing_posture(block, points, heading)
         elif start is None:
             tilt = self.parameters.theta_0 if theta_0 is None else theta_0
-            start = release_posture(block, points, tilt, turned, out_of_plane)
+            start = release_posture(block, points, tilt, turned, out_of_plane) if posture is None else posture
             for effect in effects:
                 start = effect.release(block, points, start)
         return Problem(block, points, start, step, duration, output_rate, effects, base=base)

@@ -52,12 +52,17 @@ def threads_left(items: int, workers: int | None) -> int:
 def on_threads(
     do: Callable[[Item], Found], items: Sequence[Item], threads: int, failed: Callable[[], None] = lambda: None
 ) -> list[Found]:
-    """Return [do(item) for item in items] on so many threads; failed : called at once where one fails."""
+    """Return [do(item) for item in items] on so many threads; on this one, where one is enough.
+
+    failed : called at once where one of several threads fails
+    """
 
     def done(item: Item) -> Found:
         with _crew.more(1):
             return do(item)
 
+    if threads == 1:
+        return [do(item) for item in items]
     with ThreadPoolExecutor(threads) as pool, _crew.more(-1):
         futures = [pool.submit(done, item) for item in items]
         try:

@@ -1,5 +1,7 @@
 """The block's inertia and its contact points: eight, four, or any set."""
 
+import math
+
 import numpy as np
 
 from rockref.model.errors import InputError
@@ -62,10 +64,11 @@ def check_number(key: str, value, least: float = 0.0, more_than_least: bool = Fa
     """Refuse what is no finite number (E-TYPE, E-RANGE), or too small (E-RANGE)."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise InputError("E-TYPE", key, f"is {value!r}"[:120], "Give one real number.")
-    if not np.isfinite(value) or value < least or (more_than_least and value == least):
+    finite = math.isfinite(value) if isinstance(value, float) else np.isfinite(value)
+    if not finite or value < least or (more_than_least and value == least):
         limit = f"{'above' if more_than_least else 'not below'} {least:g}"
         raise InputError("E-RANGE", key, f"is {value!r}", f"Give a finite number, {limit}.")
-    if np.isfinite(least) and (value > LARGEST or (more_than_least and value < SMALLEST)):
+    if math.isfinite(least) and (value > LARGEST or (more_than_least and value < SMALLEST)):
         raise InputError("E-RANGE", key, f"is {value!r}", "No block has such a number: check its unit.")
 
 

@@ -2,68 +2,81 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 
 from rockref.model.errors import InputError
 from rockref.model.problem import Block, ContactPoints, State
-from rockref.model.rotation import apply, exponential, product
+from rockref.model.rotation import apply, apply_to_points, exponential, product
 
 
-def tipping_angle(block: Block, points: ContactPoints, side: int = 1) -> float:
-    """Return tilt [rad] at which the centre of mass stands above the pivot points; released beyond it the block
-    overturns."""
-    P = points.P
-    return float(np.arctan2(np.max(P[:, 1] * side), -np.min(P[:, 2])))
+def tipping_angle(block: Block, points: ContactPoints, side=1):
+    """Return tilt (...) [rad] at which the centre of mass stands above the pivot points; released beyond it the block
+    overturns. side : (...) 1, or -1 of a turned block."""
+    y = points.P[..., 1] * np.asarray(side)[..., None]
+    return np.arctan2(np.max(y, axis=-1), -np.min(points.P[..., 2], axis=-1))
 
 
-def check_tilt(block: Block, points: ContactPoints, theta_0: float, side: int = 1) -> None:
-    """Refuse a release tilt [rad] that is not in (0, tipping angle) (E-TILT); side as in `tipping_angle`."""
+def check_tilt(block: Block, points: ContactPoints, theta_0, side=1) -> None:
+    """Refuse a release tilt (...) [rad] that is not in (0, tipping angle) (E-TILT); side as in `tipping_angle`."""
     limit = tipping_angle(block, points, side)
-    if not (np.isfinite(theta_0) and 0 < theta_0 < limit):
+    if not np.all(good := np.isfinite(theta_0) & (0 < np.asarray(theta_0)) & (theta_0 < limit)):
         raise InputError(
             "E-TILT",
             "theta_0",
-            f"is {theta_0!r} rad; the block tips over at {limit:.4g} rad",
+            f"is {refused(theta_0, good)!r} rad; the block tips over at {refused(limit, good):.4g} rad",
             "Give a release tilt in radians between 0 and the tipping angle.",
         )
 
 
-def check_roll(points: ContactPoints, out_of_plane: float) -> None:
-    """Refuse a further roll [rad] about Y with which the centre of mass stands beyond all points (E-TILT)."""
-    limit = float(np.arctan2(np.max(np.abs(points.P[:, 0])), -np.min(points.P[:, 2])))
-    if not abs(out_of_plane) < limit:
+def check_roll(points: ContactPoints, out_of_plane) -> None:
+    """Refuse a further roll (...) [rad] about Y with which the centre of mass stands beyond all points (E-TILT)."""
+    limit = np.arctan2(np.max(np.abs(points.P[..., 0]), axis=-1), -np.min(points.P[..., 2], axis=-1))
+    if not np.all(good := np.abs(out_of_plane) < limit):
         raise InputError(
             "E-TILT",
             "out_of_plane",
-            f"is {out_of_plane!r} rad; the block tips over sideways at {limit:.4g} rad",
+            f"is {refused(out_of_plane, good)!r} rad; the block tips over sideways at {refused(limit, good):.4g} rad",
             "Give a small roll in radians.",
         )
 
 
-def pivot_points(points: ContactPoints, theta_0: float, side: int) -> tuple[int, int]:
-    """Return the two points on which the tilted block rests: the lowest with x > 0 and the lowest with x < 0."""
-    P = points.P
-    height = -side * np.sin(theta_0) * P[:, 1] + np.cos(theta_0) * P[:, 2]
+def refused(values, good) -> float:
+    """Return the first of some numbers (...) for which `good` (...) does not hold."""
+    return float(np.broadcast_to(values, np.shape(good))[~good][0])
+
+
+def pivot_points(points: ContactPoints, theta_0, side) -> tuple:
+    """Return the two points (...) on which the tilted block rests: the lowest with x > 0 and the lowest with x < 0."""
+    x, y, z = (points.P[..., axis] for axis in range(3))
+    theta_0, side = np.asarray(theta_0)[..., None], np.asarray(side)[..., None]
+    height = -side * np.sin(theta_0) * y + np.cos(theta_0) * z
     found = []
-    for where, there in (("x > 0", P[:, 0] > 0), ("x < 0", P[:, 0] < 0)):
-        candidates = np.flatnonzero(there)
-        if not len(candidates):
+    for where, there in (("x > 0", x > 0), ("x < 0", x < 0)):
+        if not np.all(np.any(there, axis=-1)):
             raise InputError(
                 "E-RELEASE",
                 "contact points",
                 f"there is no point with {where}",
                 "A release needs a pivot point on either side; give a start state instead.",
             )
-        found.append(int(candidates[np.argmin(height[candidates])]))
+        found.append(np.argmin(np.where(there, height, np.inf), axis=-1))
     return found[0], found[1]
+
+
+def of_point(a: np.ndarray, k) -> np.ndarray:
+    """Return what belongs to point k (...), of numbers (..., n) or of vectors (..., n, 3)."""
+    return a[(*np.indices(np.shape(k), sparse=True), k)]
 
 
 def release_posture(
     block: Block,
     points: ContactPoints,
-    theta_0: float,
-    turned: bool = False,
-    out_of_plane: float = 0.0,
+    theta_0,
+    turned=False,
+    out_of_plane=0.0,
 ) -> State:
     """Return state at release: at rest, in equilibrium with the wire, half the weight on each of the two pivot points.
 
@@ -72,7 +85,7 @@ def release_posture(
 
     Parameters
     ----------
-    block, points : one block (no batch axes).
+    block, points : one block, or a batch of blocks; the leading axes (...) are those of what follows, too.
     theta_0 : tilt [rad], between 0 and the tipping angle.
     turned : the block is first turned by 180 degrees about its height, so that it leans on corners 3 and 4.
     out_of_plane : further roll [rad] about Y that an oblique wire gives the block; the pivot points then share the
@@ -86,39 +99,76 @@ def release_posture(
 
     Decided (the excerpt says only "released"): a start that tilts about X only would drop the block onto one corner.
     """
-    side = -1 if turned else 1
+    side = np.where(turned, -1, 1)
     check_tilt(block, points, theta_0, side)
     check_roll(points, out_of_plane)
     i, j = pivot_points(points, theta_0, side)
-    dtype = points.P.dtype
-    weight = block.mass * block.g
-    radius = np.zeros(points.n, dtype) if points.radius is None else points.radius
+    dtype, weight = points.P.dtype, np.asarray(block.mass * block.g)
+    radius = np.zeros(points.P.shape[:-1], dtype) if points.radius is None else points.radius
     centre = points.P.copy()
-    centre[:, 2] += radius
-
-    tilt = exponential(np.array([-theta_0, 0, 0], dtype))
-    if turned:
-        tilt = tilt * np.array([-1, -1, 1], dtype)  # exp(-theta_0 X) times a half turn about Z
-    roll = np.eye(3, dtype=dtype)
-    depth = weight / 2 / points.K_N
+    centre[..., 2] += radius
+    depth = weight[..., None] / 2 / points.K_N
     check_depth(points, depth, i, j)
+
+    centres, radii, depths = ([of_point(a, k) for k in (i, j)] for a in (centre, radius, depth))
+    Lambda = levelled(tilted(theta_0, turned, dtype), centres, radii, depths)
+    if np.any(out_of_plane):
+        Lambda = product(Lambda, exponential(about("Y", out_of_plane, dtype)))
+    heights = [apply(Lambda, at)[..., 2] - r for at, r in zip(centres, radii, strict=True)]
+    x = np.zeros(Lambda.shape[:-1], dtype)
+    x[..., 2] = settled_height(*heights, *(of_point(points.K_N, k) for k in (i, j)), weight)
+    check_clear(points, x, Lambda, np.max(depth, axis=-1))
+    return State.at_rest(x, Lambda, points.n)
+
+
+def release_postures(bodies: Sequence[tuple[Block, ContactPoints]], theta_0, turned, out_of_plane) -> list[State]:
+    """Return of each of B bodies, with as many points each, what `release_posture` does, from one batch.
+
+    theta_0, turned, out_of_plane : (B,)
+    """
+    (block, points), point_feet = bodies[0], np.zeros(bodies[0][1].n)
+    batch = release_posture(
+        replace(block, mass=np.stack([b.mass for b, _ in bodies]), g=np.stack([b.g for b, _ in bodies])),
+        replace(
+            points,
+            P=np.stack([p.P for _, p in bodies]),
+            K_N=np.stack([p.K_N for _, p in bodies]),
+            radius=np.stack([point_feet if p.radius is None else p.radius for _, p in bodies]),
+        ),
+        *(np.asarray(a) for a in (theta_0, turned, out_of_plane)),
+    )
+    return [State.at_rest(x, Lambda, points.n) for x, Lambda in zip(batch.x, batch.Lambda, strict=True)]
+
+
+def about(axis: str, angle, dtype) -> np.ndarray:
+    """Return the rotation vector (..., 3) of an angle (...) [rad] about the body's X or Y axis."""
+    Theta = np.zeros((*np.shape(angle), 3), dtype)
+    Theta[..., "XY".index(axis)] = angle
+    return Theta
+
+
+def tilted(theta_0, turned, dtype) -> np.ndarray:
+    """Return the attitude (..., 3, 3) of a block that leans to +y, first turned about its height or not."""
+    half_turn = np.where(np.asarray(turned)[..., None, None], np.array([-1, -1, 1], dtype), np.ones(3, dtype))
+    return exponential(about("X", -np.asarray(theta_0), dtype)) * half_turn
+
+
+def levelled(tilt: np.ndarray, centres, radii, depths) -> np.ndarray:
+    """Return the attitude (..., 3, 3) after the roll about Y that presses both pivot points in by their depths.
+
+    centres (..., 3), radii (...), depths (...) [m] : of the feet at the two points.
+    """
     # Heights above the plate, row e_z of the tilt times the rolled points, must be -depth_i and -depth_j:
     # a cos - b sin = d, with the roll's sine and cosine as unknowns.
-    a = tilt[2, 2] * (centre[i, 2] - centre[j, 2])
-    b = tilt[2, 2] * (centre[i, 0] - centre[j, 0])
-    d = -tilt[2, 1] * (centre[i, 1] - centre[j, 1]) + (radius[i] - radius[j]) - (depth[i] - depth[j])
+    apart = centres[0] - centres[1]
+    a, b = tilt[..., 2, 2] * apart[..., 2], tilt[..., 2, 2] * apart[..., 0]
+    d = -tilt[..., 2, 1] * apart[..., 1] + (radii[0] - radii[1]) - (depths[0] - depths[1])
     root = np.sqrt(a * a + b * b - d * d)
     cos, sin = (a * d + b * root) / (a * a + b * b), (a * root - b * d) / (a * a + b * b)
-    roll[0, 0], roll[0, 2], roll[2, 0], roll[2, 2] = cos, sin, -sin, cos
-    Lambda = product(tilt, roll)
-    if out_of_plane:
-        Lambda = product(Lambda, exponential(np.array([0, out_of_plane, 0], dtype)))
-
-    height_i, height_j = apply(Lambda, centre[i])[2] - radius[i], apply(Lambda, centre[j])[2] - radius[j]
-    z = settled_height(height_i, height_j, points.K_N[i], points.K_N[j], weight)
-    x = np.array([0, 0, z], dtype)
-    check_clear(points, x, Lambda, np.max(depth))
-    return State.at_rest(x, Lambda, points.n)
+    roll = np.zeros_like(tilt)
+    roll[..., 0, 0], roll[..., 0, 2], roll[..., 2, 0], roll[..., 2, 2] = cos, sin, -sin, cos
+    roll[..., 1, 1] = 1
+    return product(tilt, roll)
 
 
 #: How far half the weight may press a pivot point in, in distances between the two; decided: no foot gives way by half
@@ -126,14 +176,17 @@ def release_posture(
 SOFTEST = 0.5
 
 
-def check_depth(points: ContactPoints, depth, i: int, j: int) -> None:
-    """Refuse pivot points i and j that half the weight presses in by `depth` (n,) [m] as no foot is (E-RELEASE)."""
-    k = i if depth[i] >= depth[j] else j
-    if depth[k] >= SOFTEST * abs(points.P[i, 0] - points.P[j, 0]):
+def check_depth(points: ContactPoints, depth, i, j) -> None:
+    """Refuse pivot points i and j (...) that half the weight presses in by `depth` (..., n) [m] as no foot is
+    (E-RELEASE)."""
+    k = np.where(of_point(depth, i) >= of_point(depth, j), i, j)
+    apart = np.abs(of_point(points.P, i)[..., 0] - of_point(points.P, j)[..., 0])
+    if not np.all(good := of_point(depth, k) < SOFTEST * apart):
+        K, deep = (refused(of_point(a, k), good) for a in (points.K_N, depth))
         raise InputError(
             "E-RELEASE",
-            f"K_N of point {points.names[k]}",
-            f"is {points.K_N[k]:.4g} N/m, so that half the weight presses it in by {depth[k] * 1e3:.3g} mm",
+            f"K_N of point {points.names[int(refused(k, good))]}",
+            f"is {K:.4g} N/m, so that half the weight presses it in by {deep * 1e3:.3g} mm",
             "No foot gives way that far: give the stiffness in N/m.",
         )
 
@@ -146,27 +199,26 @@ DEEPEST = 1e-4
 def check_clear(points: ContactPoints, x, Lambda, depth) -> None:
     """Refuse a posture in which a point that is no pivot is deep inside the plate (E-RELEASE); a foot at x = 0 may be.
 
-    x (3,) [m] of the centre of mass, Lambda (3, 3), depth [m] to which the pivot points are pressed in.
+    x (..., 3) [m] of the centre of mass, Lambda (..., 3, 3), depth (...) [m] to which the pivot points are pressed in.
     """
-    height = x[2] + apply(Lambda, points.P)[:, 2]
-    k = int(np.argmin(height))
-    if height[k] < -depth - DEEPEST:
+    height = x[..., 2, None] + apply_to_points(Lambda, points.P)[..., 2]
+    k, lowest = np.argmin(height, axis=-1), np.min(height, axis=-1)
+    if np.any(bad := lowest < -depth - DEEPEST):
+        deep = -refused(lowest, ~bad) * 1e3
         raise InputError(
             "E-RELEASE",
             "contact points",
-            f"point {points.names[k]} would start {-height[k] * 1e3:.3g} mm inside the plate",
+            f"point {points.names[int(refused(k, ~bad))]} would start {deep:.3g} mm inside the plate",
             "A release leans on one point with x > 0 and one with x < 0; give a start state instead.",
         )
 
 
 def settled_height(height_i, height_j, K_i, K_j, weight):
-    """Return height of the centre of mass [m] at which the springs of two points carry the weight [N], without tension.
+    """Return height (...) of the centre of mass [m] at which the springs of two points carry the weight [N], without
+    tension.
 
-    height_i, height_j : heights of the points from the centre of mass [m] (negative).
+    height_i, height_j : heights (...) of the points from the centre of mass [m] (negative).
     """
     z = -(weight + K_i * height_i + K_j * height_j) / (K_i + K_j)
-    if z + height_i > 0:
-        z = -height_j - weight / K_j
-    elif z + height_j > 0:
-        z = -height_i - weight / K_i
-    return z
+    j_alone, i_alone = -height_j - weight / K_j, -height_i - weight / K_i
+    return np.where(z + height_i > 0, j_alone, np.where(z + height_j > 0, i_alone, z))

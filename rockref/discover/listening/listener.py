@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.listening.released import released
 from rockref.discover.listening.target import Grid, Target, grid, target_of, zero_offset
 from rockref.discover.threads import on_threads, threads_left
 from rockref.effects.base import Effect
@@ -29,8 +30,6 @@ TICK = 0.5e-3
 LOST = 50.0
 #: Rows that are simulated at a time; decided: their rates at the ticks stay below 30 MB, which allocators keep at hand.
 ROWS = 128
-#: What the body of a model is made of: all but the notes.
-MADE_OF = tuple(f.name for f in fields(Model) if f.name not in ("uncertainty", "origin"))
 #: Innovations count no further than this many noise widths; decided: the robust loss is flat there.
 FARTHEST = 1e3
 #: Share by which measured and stated noise may differ and agree; decided: forty samples tell noise to a ninth.
@@ -142,8 +141,7 @@ class Listener:
         """Write what is seen of some rows (job, run, model) to `out`; return the number of block-steps."""
         last = max(float(t[min(N, len(t)) - 1]) for t in self.t)
         ticks = Grid(self.ticks.interval, min(self.ticks.count, int(last / self.ticks.interval * 1.03) + 40))
-        bodies: dict[tuple[int, ...], tuple] = {}
-        problems = [released(model, self.runs[i], bodies) for _, i, model in rows]
+        problems = released([model for _, _, model in rows], [self.runs[i] for _, i, _ in rows])
         zeros = [zero_offset(model) for _, _, model in rows]
         rates, steps = self.listened([i for _, i, _ in rows], problems, memory, ticks, zeros)
         groups: dict[tuple[Effect, ...], list[int]] = {}
@@ -261,19 +259,3 @@ def steepest(crv: np.ndarray, sigma: np.ndarray, rate: float) -> np.ndarray:
 def sensor_effects(thing) -> tuple[Effect, ...]:
     """Return the effects of a model or problem that act on the sensor."""
     return tuple(e for e in thing.effects if type(e).sensor is not Effect.sensor and not e.is_absent())
-
-
-def released(model: Model, run: Run, bodies: dict[tuple[int, ...], tuple]):
-    """Return the problem of a run's release: stated tilt and roll with the offsets that the model's origin notes.
-
-    bodies : block and points of the models so far, by what they are made of; models of one job share them.
-    """
-    key = tuple(id(getattr(model, name)) for name in MADE_OF)
-    if key not in bodies:
-        bodies[key] = model.body()
-    tilt = float(run.release_tilt or 0.0) + float(model.origin.get("tilt_offset", 0.0))
-    roll = float(model.origin.get("roll_offset", 0.0))
-    problem = model.problem(
-        duration=1.0, theta_0=tilt, turned=bool(run.block_turned), out_of_plane=roll, body=bodies[key]
-    )
-    return pack.with_memory(problem)

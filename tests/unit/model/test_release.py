@@ -133,6 +133,23 @@ def test_posture_is_as_precise_as_the_points(dtype, turned):
     assert np.max(np.abs(product - np.eye(3, dtype=dtype))) < 10 * np.finfo(dtype).eps
 
 
+def test_many_bodies_at_once_have_the_bits_of_each_alone():
+    """Pivots inside and outside, tilted on either side, rounded feet, one pivot that carries all."""
+    models = [MODEL, MODEL.replace(mass=30.0, foot_radius=0.002), MODEL.replace(delta_long=(0.0, 2e-4, 1e-4, 0.0))] * 4
+    bodies = [model.body() for model in models]
+    tilts, rolls = np.linspace(0.001, 0.14, 12), np.array([0.0, 1e-3, -1e-6] * 3 + [0.0] * 3)
+    turned = np.arange(12) % 2 == 0
+    for k, state in enumerate(release.release_postures(bodies, tilts, turned, rolls)):
+        alone = release.release_posture(*bodies[k], tilts[k], turned[k], rolls[k])
+        assert np.array_equal(state.x, alone.x)
+        assert np.array_equal(state.Lambda, alone.Lambda)
+
+
+def test_one_bad_tilt_among_many_is_refused_with_its_number():
+    with pytest.raises(InputError, match=r"is 0.2 rad; the block tips over at 0\.1443"):
+        release.release_postures([MODEL.body()] * 3, [0.1, 0.2, 0.1], [False] * 3, [0.0] * 3)
+
+
 def test_the_centre_of_mass_starts_above_the_origin():
     state, _ = penetrations(MODEL, theta_0=0.1)
     assert np.array_equal(state.x[:2], [0, 0])
