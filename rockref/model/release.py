@@ -116,7 +116,8 @@ def release_posture(
         Lambda = product(Lambda, exponential(about("Y", out_of_plane, dtype)))
     heights = [apply(Lambda, at)[..., 2] - r for at, r in zip(centres, radii, strict=True)]
     x = np.zeros(Lambda.shape[:-1], dtype)
-    x[..., 2] = settled_height(*heights, *(of_point(points.K_N, k) for k in (i, j)), weight)
+    stiffness = [of_point(points.K_N, k) for k in (i, j)]
+    x[..., 2] = settled_height(heights[0], heights[1], stiffness[0], stiffness[1], weight)
     check_clear(points, x, Lambda, np.max(depth, axis=-1))
     return State.at_rest(x, Lambda, points.n)
 

@@ -2,9 +2,9 @@
 
 Wide differences of single numbers leave the valley: what they see of each number bends, and numbers that undo each
 other's change (a factor that all feet share, and the common damping) no longer cancel. The valley then looks narrower
-than it is, and a fit stops on its slope. Differences along the eigenvectors of the posterior's covariance, as long as
-the valley is wide in each, stay in it, and learn its directions anew each time. A number with a flat prior moves by its
-share of the prior's range: so the valley of factors that undo each other is straight.
+than it is, and a fit stops on its slope. Differences along directions in which the posterior's covariance falls apart,
+as long as the valley is wide in each, stay in it, and learn its directions anew each time. A number with a flat prior
+moves by its share of the prior's range: so the valley of factors that undo each other is straight.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.special import ndtr, ndtri
@@ -76,15 +77,65 @@ def spread_about(
     residuals: Residuals, parameters: Sequence[Parameter], z: np.ndarray, r: np.ndarray, covariance: np.ndarray
 ) -> Spread:
     """Return how innovations change about z (G,), where they are r, along the directions of a softened covariance."""
+    together: dict[tuple[bool, int], list[Axis]] = {}
+    for axis in axes(parameters, covariance):
+        together.setdefault((axis.run is None, axis.rank), []).append(axis)
+    ends = [np.sum([axis.end for axis in some], axis=0) for some in together.values()]
+    up = [moved(parameters, z, end) for end in ends]
+    down = [moved(parameters, z, -end) for end in ends]
+    there = residuals.at(parameters, [*up, *down])
+    moves: list[np.ndarray] = []
+    J = np.zeros((len(z), *r.shape))
+    for k, some in enumerate(together.values()):
+        difference, length = there[k] - there[len(ends) + k], way(parameters, z, up[k]) - way(parameters, z, down[k])
+        for axis in some:
+            rows = slice(None) if axis.run is None else axis.run
+            J[len(moves)][rows] = difference[rows]
+            moves.append(np.where(axis.end != 0.0, length, 0.0))
+    return Spread(np.array(moves).T, J, r)
+
+
+class Axis(NamedTuple):
+    """A direction: the change of z (G,) at its end, the run whose numbers alone it moves or None, its rank among
+    those."""
+
+    end: np.ndarray
+    run: int | None
+    rank: int
+
+
+def axes(parameters: Sequence[Parameter], covariance: np.ndarray) -> list[Axis]:
+    """Return G directions along which a covariance (G, G) falls apart, as long as the valley is wide.
+
+    Numbers of a run depend on those of another one by what all runs share alone. So the shared numbers move along the
+    eigenvectors of their own covariance, and the others follow; then those of a run move along the eigenvectors of what
+    is left of theirs, in all runs at once.
+    """
+    G, own = len(parameters), np.array([-1 if p.run is None else p.run for p in parameters])
+    shared = np.flatnonzero(own < 0)
+    follow = np.zeros((G, len(shared)))
+    if len(shared):
+        follow = np.linalg.solve(covariance[np.ix_(shared, shared)], covariance[shared]).T
+    found = [Axis(shortened(follow @ v), None, k) for k, v in enumerate(along(covariance[np.ix_(shared, shared)]))]
+    left = covariance - follow @ covariance[shared]
+    for run in np.unique(own[own >= 0]):
+        rows = np.flatnonzero(own == run)
+        for k, v in enumerate(along(left[np.ix_(rows, rows)])):
+            end = np.zeros(G)
+            end[rows] = v
+            found.append(Axis(shortened(end), int(run), k))
+    return found
+
+
+def along(covariance: np.ndarray) -> np.ndarray:
+    """Return the ends of the directions of a covariance, in rows."""
     lengths, directions = np.linalg.eigh(covariance)
-    ends = directions * np.sqrt(np.maximum(lengths, 0.0) * 2 * RISE / SOFTENED)
-    ends *= np.minimum(1.0, LONGEST_END / np.abs(ends).max(axis=0))
-    up = [moved(parameters, z, end) for end in ends.T]
-    down = [moved(parameters, z, -end) for end in ends.T]
-    found = residuals.at(parameters, [*up, *down])
-    G = len(z)
-    moves = [way(parameters, z, a) - way(parameters, z, b) for a, b in zip(up, down, strict=True)]
-    return Spread(np.array(moves).T, found[:G] - found[G:], r)
+    return (directions * np.sqrt(np.maximum(lengths, 0.0) * 2 * RISE / SOFTENED)).T
+
+
+def shortened(end: np.ndarray) -> np.ndarray:
+    """Return an end whose longest component is no longer than LONGEST_END."""
+    return end * min(1.0, LONGEST_END / np.abs(end).max())
 
 
 def moved(parameters: Sequence[Parameter], z: np.ndarray, d: np.ndarray) -> np.ndarray:

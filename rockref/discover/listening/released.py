@@ -50,7 +50,7 @@ def postures(bodies: Sequence[tuple], tilts: np.ndarray, turned: np.ndarray, rol
     numbers = np.array([points.n for _, points in bodies])
     found: dict[int, State] = {}
     for n in np.unique(numbers):
-        rows = np.flatnonzero(numbers == n)
+        rows = np.flatnonzero(numbers == n).tolist()
         of_rows = release_postures([bodies[b] for b in rows], tilts[rows], turned[rows], rolls[rows])
-        found.update(zip(rows.tolist(), of_rows, strict=True))
+        found.update(zip(rows, of_rows, strict=True))
     return [found[b] for b in range(len(bodies))]

@@ -8,7 +8,7 @@ import pytest
 from rockref.discover.fit.directions import SOFTENED, moved, softened, spread_about, way
 from rockref.discover.hypotheses.parameter import Parameter
 
-FREE = SimpleNamespace(least=-np.inf, most=np.inf, scale="linear")
+FREE = SimpleNamespace(least=-np.inf, most=np.inf, scale="linear", run=None)
 SAMPLES = 6000
 
 
@@ -56,6 +56,29 @@ def test_across_it_the_width_is_that_of_the_data():
 def test_the_matrix_is_the_inverse_of_the_covariance():
     spread = found(1)
     assert np.allclose(spread.matrix() @ spread.covariance(1.0), np.eye(3), atol=1e-8)
+
+
+def test_numbers_of_a_run_move_in_all_runs_at_once():
+    """One number that two runs share, and one of each: two directions, of which the second moves both runs' own."""
+    patterns = np.random.default_rng(7).choice([-1.0, 1.0], size=(2, SAMPLES, 1))
+    asked = []
+
+    class Runs:
+        def at(self, parameters, points):
+            asked.append(len(points))
+            return np.array(
+                [[(z[0] + z[1 + i]) * patterns[0] + 0.5 * z[0] * patterns[1] for i in (0, 1)] for z in points]
+            )
+
+    parameters = [FREE, *(SimpleNamespace(**{**vars(FREE), "run": i}) for i in (0, 1))]
+    # of one unit of each: the sums of squares of what each number does in the two runs, and of its prior
+    H = SAMPLES * np.array([[2.5, 1.0, 1.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0]]) + np.eye(3)
+    z = np.zeros(3)
+    spread = spread_about(Runs(), parameters, z, Runs().at(parameters, [z])[0], softened(H))
+    assert asked == [1, 4]
+    assert np.count_nonzero(np.abs(spread.J).sum(axis=(2, 3)), axis=1).tolist() == [2, 1, 1]
+    # the patterns are orthogonal within 1/sqrt(SAMPLES); robust weights of innovations of zero are one
+    assert np.allclose(spread.matrix(), H, rtol=1e-9, atol=2 * SAMPLES**0.5)
 
 
 FLAT = Parameter("beta", lambda model, value: model, 0.0, scale="log_uniform", low=0.02, high=0.7)
