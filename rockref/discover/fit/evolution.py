@@ -15,7 +15,7 @@ from rockref.discover.fit.stages import Stage
 
 #: Generations at least and at most, the steps of a member in each, and the factors on the difference of two members by
 #: which a child leaps (decided on simulated blocks of other feet, as the numbers below).
-GENERATIONS, STEPS, LEAPS = (2, 4), 2, (0.5, 1.0, 1.5)
+GENERATIONS, STEPS, LEAPS = (2, 4), 1, (0.5, 1.0, 1.5)
 #: Part of the members, the best, from which children leap, two at least, and whose loss tells whether all have arrived.
 PARENTS = 1 / 3
 #: Share of the children that take the effects of any member, and leave its law.

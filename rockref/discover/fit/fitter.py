@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rockref.discover.fit.differences import NARROWER, WIDEST, Residuals, jacobian
-from rockref.discover.fit.directions import SOFTENED, Spread, moved, softened, spread_about, wider
+from rockref.discover.fit.directions import SOFTENED, Spread, moved, softened, spread_about, way, wider
 from rockref.discover.fit.objective import inflation_for, loss, mean_loss, objective, weight
 from rockref.discover.fit.problem import FitProblem
 from rockref.discover.fit.stages import Stage
@@ -25,6 +25,8 @@ from rockref.discover.hypotheses.parameter import Parameter
 #: Dampings of a Gauss-Newton step that are tried at once, and its longest component in prior deviations (decided).
 DAMPINGS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
 LONGEST = 1.5
+#: Steps that follow one, by slopes that learn from it; decided: one costs a sixth of new slopes and gains half as much.
+FOLLOWING = 1
 #: Nats that a step must gain for another one to follow (decided: neighbouring valleys differ by more).
 LEAST_GAIN = 3.0
 #: Mean loss that inflated noise leaves, and the move [prior deviations] below which a tempered fit has arrived
@@ -104,12 +106,33 @@ class Fitter:
         absent : numbers of effects that h does not have, which follow its own.
         """
         assert h.r is not None
+        z = np.concatenate([h.z, np.zeros(len(absent))])
+        return normal_equations(self.slopes(h, stage, absent), h.r, z)
+
+    def slopes(self, h: FittedModel, stage: Stage, absent: Sequence[Parameter] = ()) -> np.ndarray:
+        """Return the change of the innovations with each number of h, and of `absent` ones, (G, samples)."""
+        assert h.r is not None
         parameters = (*self.parameters(h), *absent)
         z = np.concatenate([h.z, np.zeros(len(absent))])
-        J = jacobian(self.residuals(stage), parameters, z, h.r, len(absent)).reshape(len(z), -1)
-        r = h.r.ravel()
-        weighted = J * weight(r)
-        return weighted @ J.T + np.eye(len(z)), weighted @ r + z
+        return jacobian(self.residuals(stage), parameters, z, h.r, len(absent)).reshape(len(z), -1)
+
+    def descend(self, h: FittedModel, stage: Stage, J: np.ndarray, moves: np.ndarray | None = None) -> float:
+        """Take a step by slopes J (G, samples), and more by what each tells of them; return what they gained [nat].
+
+        moves : (G, G), the change of z along the directions of J, if these are not z itself
+        """
+        gained = 0.0
+        for left in range(FOLLOWING, -1, -1):
+            assert h.r is not None
+            r, z = h.r, h.z
+            H, g = normal_equations(J, r, z, moves)
+            gain = self.step(h, stage, H, g, moves)
+            gained += max(gain, 0.0)
+            if gain <= 0 or left == 0:
+                break
+            step = h.z - z if moves is None else np.linalg.solve(moves, way(self.parameters(h), z, h.z))
+            J = learned(J, step, (h.r - r).ravel())
+        return gained
 
     def step(
         self, h: FittedModel, stage: Stage, H: np.ndarray, g: np.ndarray, moves: np.ndarray | None = None
@@ -133,8 +156,10 @@ class Fitter:
         """Take at most so many Gauss-Newton steps at a stage."""
         self.evaluate(h, stage)
         for _ in range(most):
-            h.H, g = self.linearise(h, stage)
-            if self.step(h, stage, h.H, g) < least_gain:
+            J = self.slopes(h, stage)
+            assert h.r is not None
+            h.H, _ = normal_equations(J, h.r, h.z)
+            if self.descend(h, stage, J) < least_gain:
                 break
         self.problem.refined(h, stage)
         return h
@@ -153,10 +178,7 @@ class Fitter:
         for _ in range(most):
             assert h.r is not None
             h.spread = spread = spread_about(self.residuals(stage), self.parameters(h), h.z, h.r, known)
-            J = spread.J.reshape(len(h.z), -1)
-            gradient = J @ (weight(h.r) * h.r).ravel() + spread.moves.T @ h.z
-            H = spread.information() + spread.prior()
-            gain = self.step(h, stage, H, gradient, spread.moves)
+            gain = self.descend(h, stage, spread.J.reshape(len(h.z), -1), spread.moves)
             before, known = known, spread.covariance(SOFTENED)
             if gain < least_gain and not wider(known, before):
                 break
@@ -186,8 +208,7 @@ class Fitter:
             before, warm = h.z, stage.inflated(inflation)
             self.widen()
             h.r, h.objective = true / inflation, objective(true / inflation, h.z)
-            H, g = self.linearise(h, warm)
-            self.step(h, warm, H, g)
+            self.descend(h, warm, self.slopes(h, warm))
             h.r = h.r * inflation
             h.objective = objective(h.r, h.z)
             moved = float(np.abs(h.z - before).max())
@@ -214,6 +235,25 @@ class Fitter:
         assert h.r is not None
         n = self.problem.listener.valid[:, : h.r.shape[1]].sum(axis=1)
         return loss(h.r).sum(axis=1) / n[:, None]
+
+
+def normal_equations(
+    J: np.ndarray, r: np.ndarray, z: np.ndarray, moves: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return Gauss-Newton matrix (G, G) and gradient (G,) of the objective, with the prior, by slopes J (G, samples).
+
+    moves : as in `Fitter.descend`
+    """
+    weighted, moves = J * weight(r.ravel()), np.eye(len(z)) if moves is None else moves
+    return weighted @ J.T + moves.T @ moves, weighted @ r.ravel() + moves.T @ z
+
+
+def learned(J: np.ndarray, step: np.ndarray, change: np.ndarray) -> np.ndarray:
+    """Return slopes J (G, samples) with which a step (G,) gives the change (samples,) that it gave, else as they were.
+
+    C. G. Broyden (1965), Math. Comput. 19:577-593, doi:10.1090/S0025-5718-1965-0198670-6.
+    """
+    return J + np.outer(step, change - step @ J) / (step @ step)
 
 
 def damped(

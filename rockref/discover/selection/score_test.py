@@ -79,16 +79,21 @@ def score_test(fitter: Fitter, h: FittedModel, stage: Stage) -> ScoreTest:
 def proposals(
     fitter: Fitter, h: FittedModel, stage: Stage, most: int, test: ScoreTest | None = None
 ) -> list[FittedModel]:
-    """Return the `most` best additions of one effect to h: a step from h each, or a finite start that is lower."""
+    """Return the `most` best additions of one effect to h, a step from h each, and those that start from far.
+
+    The longer memories take those of them alone that are among the best.
+    """
     test = score_test(fitter, h, stage) if test is None else test
-    found = finite_starts(fitter, h, stage, tuple(test.places))
+    far = finite_starts(fitter, h, stage, tuple(test.places))
+    found = list(far)
     for p in test.gains()[: EVALUATED * most]:
         k = fitter.with_effect(h, p.effect)
         k.r, k.objective, k.loss = h.r, h.objective, h.loss
         k.H, gradient = test.with_effect(p.effect)
         fitter.step(k, stage, k.H, gradient)
         found.append(k)
-    return sorted(best_of_each(found), key=lambda k: k.objective)[:most]
+    best = sorted(best_of_each(found), key=lambda k: k.objective)[:most]
+    return best + [k for k in far if stage.name == S1.name and not any(k is b for b in best)]
 
 
 def finite_starts(fitter: Fitter, h: FittedModel, stage: Stage, effects: Sequence[str]) -> list[FittedModel]:

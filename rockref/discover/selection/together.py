@@ -40,7 +40,7 @@ TRIED = 16
 #: Rounds over the first horizon: pairs that go on, how many of one effect among them, the factor on the best loss up to
 #: which they do, and their steps. The last ones stand in their valley before runs are followed farther (decided: a step
 #: takes off three quarters at most).
-ROUNDS = ((16, 2, 4.0, 1), (16, 2, 2.5, 1), (4, 1, 1.5, 3))
+ROUNDS = ((24, 2, 4.0, 1), (16, 2, 2.5, 1), (4, 1, 1.5, 3))
 #: Over each longer horizon: effects that go on, the factor on the best loss up to which they do, steps, and how many of
 #: them take as many again along the directions of the posterior (decided: what a step more would change is within the
 #: factor).
