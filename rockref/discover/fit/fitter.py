@@ -171,19 +171,22 @@ class Fitter:
         h : refined, so that its valley is known.
         """
         self.evaluate(h, stage)
+        for _ in range(most):
+            if not self.polished(h, stage, least_gain):
+                break
+        self.problem.refined(h, stage)
+        return h
+
+    def polished(self, h: FittedModel, stage: Stage, least_gain: float = LEAST_GAIN) -> bool:
+        """Take one step of `polish` from h, evaluated at the stage; return whether another one may gain."""
         if h.spread is not None:
             known = h.spread.covariance(SOFTENED)
         else:
             known = softened(self.linearise(h, stage)[0] if h.H is None else h.H)
-        for _ in range(most):
-            assert h.r is not None
-            h.spread = spread = spread_about(self.residuals(stage), self.parameters(h), h.z, h.r, known)
-            gain = self.descend(h, stage, spread.J.reshape(len(h.z), -1), spread.moves)
-            before, known = known, spread.covariance(SOFTENED)
-            if gain < least_gain and not wider(known, before):
-                break
-        self.problem.refined(h, stage)
-        return h
+        assert h.r is not None
+        h.spread = spread_about(self.residuals(stage), self.parameters(h), h.z, h.r, known)
+        gain = self.descend(h, stage, h.spread.J.reshape(len(h.z), -1), h.spread.moves)
+        return gain >= least_gain or wider(h.spread.covariance(SOFTENED), known)
 
     def settle(self, h: FittedModel, stage: Stage, most: int, share: float = 0.02) -> FittedModel:
         """Go on while a step gains more than a share of the objective."""

@@ -305,17 +305,35 @@ class Search:
         """
         finalists = sorted((h for h in beam if h.objective <= CLOSE * self.best(beam).objective), key=penalised)
         finalists = finalists[:FINALISTS]
-        for h in finalists:
-            self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
-            self.problem.say(f"finalist {h.name}")
-            self.fitter.polish(h, F, CONVERGED)
+        self.race(finalists, beam)
         for _ in range(EXCHANGES):
             best = min(beam, key=penalised)
-            others = [h for h in finalists if not self.holds(h, best)]
-            beam += [self.fitter.polish(self.beside(best, h), F, CONVERGED) for h in others]
+            others = [self.beside(best, h) for h in finalists if not self.holds(h, best)]
+            beam += others
+            self.race(others, beam)
             if set(min(beam, key=penalised).effects) == set(best.effects):
                 break
         return sorted(best_of_each(beam), key=lambda h: h.objective)
+
+    def race(self, field: Sequence[FittedModel], beam: Sequence[FittedModel]) -> None:
+        """Let fits take steps as long as they gain; one stops that at its pace does not come near the best of a beam.
+
+        Near is what an effect has to gain: what stays farther away has no say in the evidence.
+        """
+        going = list(field)
+        if going:
+            self.fitter.evaluate_all(going, F)
+        for left in range(CONVERGED - 1, -1, -1):
+            for h in list(going):
+                self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
+                before = h.objective
+                goes_on = self.fitter.polished(h, F)
+                reached = penalised(h) - left * (before - h.objective)
+                if not goes_on or reached > min(map(penalised, beam)) + WORTH:
+                    going.remove(h)
+        for h in field:
+            self.problem.say(f"finalist {h.name} {h.objective:.0f}")
+            self.problem.refined(h, F)
 
     def holds(self, h: FittedModel, best: FittedModel) -> bool:
         """Return whether h has all effects of the best, and is as low: from the same law it ends where it is."""
