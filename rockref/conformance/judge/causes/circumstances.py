@@ -23,6 +23,7 @@ CLEAR, LESS = 0.8, 0.7
 
 Circumstance = Callable[[Feet], np.ndarray]
 Circumstances = tuple[tuple[str, str, Circumstance], ...]
+Parts = tuple[tuple[str, str, str], ...]
 Answers = Sequence[tuple[Vector, dict[str, Any]]]
 #: Circumstances of friction by rule, in words and as flags (n,) of feet; the first of those that agree equally well is
 #: believed.
@@ -63,6 +64,10 @@ ALONE = {"I4": "turned", "I5": "displaced"}
 #: ones whose damper works by the other part alone, for the velocity (K1) to be wrong and not the damper. Decided.
 MOST, SOME = 0.9, 3
 VELOCITY = "Dampers of friction are right where {} alone: the sliding velocity is wrong."
+RATE = "Normal dampers are right where {} alone: the rate of penetration is wrong."
+#: The two parts of a velocity, along the plate and across it: that which is asked, the other, and the other in words.
+ALONG: Parts = (("drift", "spin", "the block turns"), ("spin", "drift", "the block drifts"))
+ACROSS: Parts = (("fall", "tilt", "the block turns"), ("tilt", "fall", "the block falls"))
 IN_COMMON = "Forces are wrong where {}, and hardly anywhere else."
 AFTER_A_STEP = IN_COMMON.format("a step comes before")
 BOTH = "What is wrong of open feet and of those that touch is the penetration."
@@ -78,7 +83,7 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
     wrong, right = parted(of_runs)
     if len(wrong) < 2 or not (rule not in ALONE or any(np.any(feet.get(ALONE[rule], False)) for feet in wrong)):
         return rule, ""
-    if rule == "T1" and (words := right_alone(wrong, right)):
+    if rule == "T1" and (words := right_alone(wrong, right, sticking_damper, ALONG)):
         return "K1", VELOCITY.format(words)
     scores = [agreement(meets, wrong, right) for _, _, meets in CIRCUMSTANCES]
     own = max((s for s, (r, _, _) in zip(scores, CIRCUMSTANCES, strict=True) if r == rule),
@@ -90,16 +95,18 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
     return (believed, IN_COMMON.format(words)) if clear else (rule, "")
 
 
-def right_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> str:
-    """Return the part of the sliding velocity, in words, by which alone dampers of sticking feet are right, and by the
-    other part wrong; "" where there is none."""
-    for part, other, words in (("drift", "spin", "the block turns"), ("spin", "drift", "the block drifts")):
+def right_alone(wrong: Sequence[Feet], right: Sequence[Feet], works: Circumstance, parts: Parts) -> str:
+    """Return the part of the velocity, in words, by which alone dampers are right, and by the other part wrong.
+
+    works : feet whose damper is asked. Returns "" where there is no such part.
+    """
+    for part, other, words in parts:
 
         def by_part(f: Feet, part: str = part) -> np.ndarray:
-            return f["damper"] & ~f["slides"] & f[part]
+            return works(f) & f[part]
 
         def by_other(f: Feet, part: str = part, other: str = other) -> np.ndarray:
-            return f["damper"] & ~f["slides"] & f[other] & ~f[part]
+            return works(f) & f[other] & f[f"no {part}"]
 
         counts = [[sum(bool(np.any(meets(f))) for f in of) for of in (wrong, right)] for meets in (by_part, by_other)]
         (guilty, innocent), (blamed, free) = counts
@@ -113,6 +120,8 @@ def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[st
 
     Where those of open feet are wrong, and of feet that touch: K1; S1 where none of them is in a first row.
     """
+    if rule == "N1" and (words := right_alone(*parted(by_run(answers, pushes(check))), normal_damper, ACROSS)):
+        return "K1", RATE.format(words)
     if not check.name.startswith("F_"):
         return rule, ""
     of_runs = by_run(answers, normal)
@@ -127,6 +136,21 @@ def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[st
         return rule, ""
     best = max(OF_NORMAL_FORCES, key=lambda c: agreement(c[2], wrong, right))
     return best[0], NORMAL.format(best[1])
+
+
+def pushes(check: Check) -> Callable[..., Any]:
+    """Return what is looked at of a row to see its normal forces: themselves, or what stands in for them."""
+    return normal if check.name.startswith("F_N@") else friction
+
+
+def sticking_damper(f: Feet) -> np.ndarray:
+    """Return which feet stick, with a damper of friction that works."""
+    return f["damper"] & ~f["slides"]
+
+
+def normal_damper(f: Feet) -> np.ndarray:
+    """Return which feet touch, with a normal damper that works."""
+    return f["touching"] & f["push"]
 
 
 def by_run(answers: Answers, seen: Callable[..., Any]) -> dict[str, list[tuple[Feet, bool]]]:

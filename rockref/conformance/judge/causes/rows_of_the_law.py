@@ -75,23 +75,33 @@ def predicted(problem: Any, r: Any, i: int) -> tuple[np.ndarray, np.ndarray]:
 def what_feet_do(problem: Any, r: Any, i: int, before: Any, v: np.ndarray, W: np.ndarray) -> Feet:
     """Return what the feet of the i-th row of a response do.
 
+    A part of the velocity that works in a damper (drift and spin along the plate, fall and tilt across it) has a share
+    of the force; one that does not ("no drift") is too small to make the force wrong.
+
     before : what they remember; v [m/s], W [rad/s] : velocities of the evaluation
     """
     p, here = problem.points, (r.x[i], r.Lambda[i])
     k = point_kinematics(*here, v, W, p.P)
     s, touching = touch(k.xi, k.u[:, :2], before.s, before.anchored)
     whole = trial_force(k.u[:, :2], s, k.v_slide, p.K_T, p.C_T)
-    spin = norm(p.C_T[:, None] * point_kinematics(*here, 0 * v, W, p.P).v_slide)
     size, damper = norm(whole), norm(p.C_T[:, None] * k.v_slide)
     spring, F_N = norm(p.K_T[:, None] * (k.u[:, :2] - s)), r.F[i][:, 2]
     slid, new = np.asarray(before.sliding, bool), ~np.asarray(before.anchored, bool)
     found = {
         "touching": touching, "new": touching & new, "company": touching & ~new & np.any(new & touching),
         "spring": spring > SHARE * size, "damper": damper > SHARE * size, "slides": r.sliding[i], "slid": slid & ~new,
-        "drift": p.C_T * np.hypot(v[0], v[1]) > SHARE * size, "spin": spin > SHARE * size,
         "moved": slid & ~new & (i > 0), "between": (p.mu * F_N < size) & (size <= p.mu_0 * F_N),
         "later": np.full(len(F_N), i > 0), "push": np.abs(p.C_N * k.xi_rate) > SHARE * np.abs(p.K_N * k.xi),
     }  # fmt: skip
+    turn = point_kinematics(*here, 0 * v, W, p.P)
+    parts = {
+        "drift": (p.C_T * np.hypot(v[0], v[1]), size), "spin": (norm(p.C_T[:, None] * turn.v_slide), size),
+        "fall": (np.abs(p.C_N * v[2]), np.abs(p.K_N * k.xi)),
+        "tilt": (np.abs(p.C_N * turn.xi_rate), np.abs(p.K_N * k.xi)),
+    }  # fmt: skip
+    least = WRONG / 2 * max(float(np.max(np.abs(r.F[i]))), 1.0)
+    for name, (force, of) in parts.items():
+        found |= {name: force > np.maximum(SHARE * of, least), f"no {name}": force <= least}
     return {name: np.asarray(a, bool) for name, a in found.items()}
 
 

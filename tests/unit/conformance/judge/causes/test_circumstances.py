@@ -77,12 +77,22 @@ def changed_where(answers, meets, component):
 
 def test_dampers_that_are_right_where_the_block_turns_alone_speak_of_the_velocity(right):
     for meets, rule in (
-        (lambda f: f["touching"] & f["damper"] & f["drift"] & ~f["slides"], "K1"),
+        (lambda f: f["touching"] & f["damper"] & ~f["no drift"] & ~f["slides"], "K1"),
         (lambda f: f["touching"] & f["damper"] & ~f["slides"], "T1"),
     ):
         answers, told = changed_where(right, meets, 0)
         check = Check(told[0], "L5s", "T1", "F_T@0", "outside", float("inf"))
         assert rule_in_common(answers, check, "T1")[0] == rule
+
+
+def test_normal_dampers_that_are_right_where_the_block_turns_alone_speak_of_the_rate_of_penetration(right):
+    for meets, rule in (
+        (lambda f: f["touching"] & f["push"] & ~f["no fall"], "K1"),
+        (lambda f: f["touching"] & f["push"], "N1"),
+    ):
+        answers, told = changed_where(right, meets, 2)
+        check = Check(told[0], "L5s", "N1", "F_N@0", "outside", float("inf"))
+        assert rule_of_normal_forces(answers, check, "N1")[0] == rule
 
 
 def test_friction_of_feet_whose_normal_force_is_wrong_speaks_of_that(right):
