@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
+from rockref.conformance.judge.causes.flags import without_flags_in_company, without_late_flags
 from rockref.conformance.judge.causes.other_runs import cause_of
 from rockref.conformance.judge.causes.whole_steps import rule_of_a_step
 from rockref.conformance.judge.compare_answer import ELSEWHERE, OTHERWISE, Check
@@ -157,6 +158,7 @@ def all_asked(findings: Findings) -> bool:
 def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
     """Return the first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
     checks, pieces = without_late_flags(findings.checks), findings.pieces
+    checks = without_flags_in_company(checks, findings.answers)
     good = {r for r, s in status_of_rules([c for c in checks if c.layer in SMALL]).items() if s in ("pass", "look")}
     if findings.profile == "scheme":
         good -= NOT_BY_PIECES
@@ -185,13 +187,6 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
             return check.rule, check, STEP_OF_THE_RUN
         return ("S2", check, LOOP) if all_asked(findings) else (None, check, UNASKED)
     return None, None, ""
-
-
-def without_late_flags(checks: list[Check]) -> list[Check]:
-    """Return the checks without flags of later rows (S2) where normal forces of later rows are wrong, too: flags that
-    are handed out late leave the forces as they are."""
-    late = [c for c in checks if c.failed and c.layer in SHORT and c.name.startswith("F_N@") and c.name[-2:] != "@0"]
-    return [c for c in checks if not (late and c.rule == "S2" and c.name.startswith("anchored@"))]
 
 
 def in_company(checks: Sequence[Check]) -> tuple[str, Check, str] | None:

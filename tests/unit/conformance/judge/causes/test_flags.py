@@ -1,0 +1,56 @@
+"""Flags of contact that speak of no rule of their own."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from rockref.conformance import vectors
+from rockref.conformance.backends.call import ask
+from rockref.conformance.backends.law import NumpyEngine
+from rockref.conformance.judge.causes.flags import one_foot, without_flags_in_company, without_late_flags
+from rockref.conformance.judge.compare_answer import Check, compare
+
+
+def test_flags_that_follow_from_wrong_forces_name_no_rule():
+    """Flags of the row before alone are handed out late (S2); where the contact is late, forces are wrong, too."""
+    flag = Check("L5s-S2-0159", "L5s", "S2", "anchored@2", "outside")
+    force = Check("L5s-S1-0031", "L5s", "S1", "F_N@1", "outside")
+    assert without_late_flags([flag]) == [flag] and without_late_flags([flag, force]) == [force]
+    assert without_late_flags([flag, replace(force, name="F_N@0")])[0] == flag
+
+
+def failed_with(change):
+    """The rules of the failures that are left, by what is wrong: `change` gives the answer to a run from the law's."""
+    answers = [(v, change(v, dict(ask(NumpyEngine(), v)))) for v in vectors.layer("L5s") if wanted(v)]
+    checks = [c for v, out in answers for c in compare(v, out)]
+    return {(c.rule, c.name) for c in without_flags_in_company(checks, answers) if c.failed}
+
+
+def wanted(vector):
+    return one_foot(vector) or "anchored@0" in vector.expect or vector.id.startswith("L5s-N1-002")
+
+
+def open_in_company(vector, out):
+    """The last of several feet that touch is flagged as open."""
+    down = np.flatnonzero(out["anchored"][0])
+    if len(down) > 1:
+        out["anchored"] = np.array(out["anchored"])
+        out["anchored"][0, down[-1]] = False
+    return out
+
+
+def test_flags_that_are_wrong_where_forces_are_right_are_handed_out_otherwise():
+    assert failed_with(open_in_company) == {("S2", "anchored@0")}
+
+
+def test_flags_that_are_wrong_in_company_leave_the_word_to_the_forces():
+    def pushes_half(vector, out):
+        return open_in_company(vector, out) | {"F": out["F"] * (1.0 if one_foot(vector) else 0.5)}
+
+    assert {rule for rule, name in failed_with(pushes_half) if name.startswith("F_N")} == {"N1"}
+    assert not any(name == "anchored@0" for _, name in failed_with(pushes_half))
+
+
+def test_flags_speak_of_the_penetration_where_forces_of_one_foot_are_wrong():
+    found = failed_with(lambda v, out: open_in_company(v, out) | {"F": out["F"] * 0.5})
+    assert ("K1", "anchored@0") in found
