@@ -46,10 +46,7 @@ class Residuals:
     def of(self, jobs: Sequence[Job], fine: float) -> np.ndarray:
         """Return innovations (J, R, n, 3) of jobs, smoothed and in inflated noise widths."""
         problem, stage, listener = self.problem, self.stage, self.listener
-        before = listener.simulated
         predicted = listener.predict(jobs, stage.memory(problem.time_scale, fine), stage.horizon)
-        if listener is not problem.listener:
-            problem.listener.simulated += listener.simulated - before
         r = listener.innovations(predicted, stage.jitter)
         return smoothed(r, stage.smoothing * listener.gyro.sample_rate) / stage.inflation
 

@@ -25,7 +25,7 @@ class FewRuns:
         self.whole, self.chosen = whole, unlike(whole.runs)
         listener = whole.listener
         runs = [listener.runs[i] for i in self.chosen]
-        part = Listener(whole.experiment, runs, listener.end, listener.workers)
+        part = Listener(whole.experiment, runs, listener.end, listener.workers, whole=listener)
         part.sigma = listener.sigma[list(self.chosen)]
         self.problem = replace(whole, listener=part, _known={})
 

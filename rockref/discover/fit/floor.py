@@ -47,10 +47,8 @@ def _in_own_record(fitter: Fitter, h: FittedModel, stage: Stage, seed: int) -> t
         for i, (run, t) in enumerate(zip(listener.runs, listener.t, strict=True))
     ]
     own = replace(
-        problem, listener=Listener(problem.experiment, runs, listener.end, listener.workers),
+        problem, listener=Listener(problem.experiment, runs, listener.end, listener.workers, whole=listener),
         progress=StageCounter({}), refined=lambda h, stage: None,
     )  # fmt: skip
     again = Fitter(own)
-    evaluated = again.evaluate(FittedModel(h.effects, h.z.copy()), stage)
-    listener.simulated += own.listener.simulated
-    return again, evaluated
+    return again, again.evaluate(FittedModel(h.effects, h.z.copy()), stage)

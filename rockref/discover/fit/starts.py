@@ -116,7 +116,6 @@ def global_fit(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> GlobalF
     """
     few = FewRuns(fitter.problem)
     found = populations(Fitter(few.problem), effects, few.taken(effects, z))
-    fitter.problem.listener.simulated += few.problem.listener.simulated
     for h in (h for field in [*found.fields, found.wide] for h in field):
         h.z, h.r, h.objective = few.put(effects, h.z, z), None, np.inf
     fitter.tempered(found.best, S1, AGAIN)

@@ -65,10 +65,13 @@ class Listener:
     ----------
     measured : (R, N, 3) records [rad/s], padded;  valid : (R, N) bool, which samples there are
     sigma : (R, 3) noise of a sample [rad/s];  slope : (R, N, 3) steepest change of the record nearby [rad/s^2]
-    simulated : number of block-steps so far
+    whole : the listener of which this one is a part, and which counts its block-steps, too
     """
 
-    def __init__(self, experiment: Experiment, runs: Sequence[Run], end: float, workers: int | None = None):
+    def __init__(
+        self, experiment: Experiment, runs: Sequence[Run], end: float, workers: int | None = None,
+        whole: Listener | None = None,
+    ):  # fmt: skip
         if experiment.gyro is None:
             raise InputError("E-GYRO", f"{experiment.path}", "has no [gyro]", "State the gyroscope in experiment.toml.")
         self.experiment, self.gyro, self.runs = experiment, experiment.gyro, tuple(runs)
@@ -90,7 +93,12 @@ class Listener:
         self._targets: dict[tuple, Target] = {}
         self._undone: dict[tuple[int, int], dict] = {}
         self._thinned: dict[int, Listener] = {}
-        self.simulated = 0
+        self._steps: list[int] = whole._steps if whole else []
+
+    @property
+    def simulated(self) -> int:
+        """Return the number of block-steps so far."""
+        return sum(self._steps)
 
     def thinned(self, most: float) -> Listener:
         """Return a listener to every second or further sample of faster records, so that `most` [Hz] or more are left.
@@ -104,7 +112,7 @@ class Listener:
             gyro = replace(self.gyro, sample_rate=self.gyro.sample_rate / factor)
             records = [(run, *record_of(run)) for run in self.runs]
             runs = [replace(run, t=t[::factor], crv=crv[::factor]) for run, t, crv in records]
-            few = Listener(replace(self.experiment, gyro=gyro), runs, self.end, self.workers)
+            few = Listener(replace(self.experiment, gyro=gyro), runs, self.end, self.workers, whole=self)
             few.sigma = self.sigma
             self._thinned[factor] = few
         return self._thinned[factor]
@@ -134,7 +142,7 @@ class Listener:
         size = min(ROWS, LANES * math.ceil(len(rows) / (LANES * threads)))
         pieces = [rows[k : k + size] for k in range(0, len(rows), size)]
         steps = on_threads(lambda piece: self._predict_rows(piece, memory, N, out), pieces, threads)
-        self.simulated += sum(steps)
+        self._steps += steps
         return out
 
     def _predict_rows(self, rows, memory: Memory, N: int, out: np.ndarray) -> int:

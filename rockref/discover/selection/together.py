@@ -69,7 +69,6 @@ def from_statement(
     losses = [part.evaluate(alone, stage).loss for stage in stages(part)]
     k = telling(losses, TELLING)
     found = first_pairs(part, few.start(nominal), stages(part)[k])
-    fitter.problem.listener.simulated += few.problem.listener.simulated
     found = [on_all_runs(fitter, few, h, nominal) for h in found]
     best = found[0].copy()
     leads = best.loss - WHITE <= LEADS * (losses[k] - WHITE)
@@ -89,7 +88,6 @@ def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
         part.evaluate_all(field, stage)
         field = evolved(part, field, stage, size, rng, of_each)
         say(part, "together", field)
-    problem.listener.simulated += few.problem.listener.simulated
     return at_S2(fitter, [fitter.tempered(on_all_runs(fitter, few, h, found.best), S1, AGAIN) for h in field])
 
 
