@@ -8,6 +8,9 @@ from dataclasses import dataclass
 
 #: Seconds from which the time left is said in minutes (decided), and the step to which it is rounded below.
 MINUTE, ROUNDED = 90.0, 5.0
+#: Share of the time that lies behind before the rest is foretold (decided: what is done once, as compiling, may take
+#: longer than a short first stage).
+FORETELLS = 0.1
 
 
 @dataclass(frozen=True)
@@ -100,8 +103,8 @@ class StageCounter:
             self._send()
 
     def seconds_left(self) -> float | None:
-        """Return the seconds that the present stage and those that follow will take; None in the first one."""
-        if self.passed <= 0.0:
+        """Return the seconds that the present stage and those that follow will take; None while too little is behind."""
+        if self.passed < FORETELLS * sum(self.shares.values()):
             return None
         rate = (self.began - self.started) / self.passed
         here = self.shares[self.keys[self.at]] * rate - (self.clock() - self.began)

@@ -50,3 +50,16 @@ def test_stages_never_go_back_and_the_best_is_reported_once(counted):
 @pytest.mark.parametrize("seconds, words", [(2, "about 5 s left"), (42, "about 40 s left"), (150, "about 2 min left")])
 def test_an_estimate_is_said_as_one(seconds, words):
     assert time_left(seconds) == words
+
+
+def test_nothing_is_foretold_from_a_short_first_stage():
+    """A minute of compiling within a stage of a twentieth would be twenty minutes."""
+    now, said = [0.0], []
+    counter = StageCounter({"first": 5.0, "second": 45.0, "third": 50.0}, said.append, lambda: now[0])
+    counter.begin("first")
+    now[0] = 60.0
+    counter.begin("second")
+    assert said[-1].seconds_left is None
+    now[0] = 100.0
+    counter.begin("third")
+    assert said[-1].seconds_left == pytest.approx(100.0)
