@@ -383,7 +383,9 @@ def undone(
 def heard(effects: Iterable[Effect], t: np.ndarray, crv: np.ndarray) -> np.ndarray:
     """Return which rates of a record crv (..., N, 3) [rad/s] tell the true ones, row by row along its own axes:
     truths."""
-    told = np.ones(np.shape(crv), bool)
+    told, effects = np.ones(np.shape(crv), bool), tuple(effects)
+    if all(type(effect).heard is Effect.heard for effect in effects):
+        return told
     for effect in reversed(at_stage(effects, *STAGES)):
         told &= effect.heard(t, crv)
         t, crv = effect.undo(t, crv)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,8 +26,12 @@ BEYOND = 0.1
 UNEVEN = 0.03
 
 
-#: Instants (N,) [s] and rates (N, 3) [rad/s].
-Rows = tuple[np.ndarray, np.ndarray]
+class Behind(NamedTuple):
+    """What is behind the electronics: instants t (N,) [s] of the record's rows, and rates (K, 3) [rad/s] at the
+    ticks."""
+
+    t: np.ndarray
+    rates: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -73,12 +78,13 @@ def zero_offset(model) -> tuple[float, ...]:
     return tuple(float(model.origin.get(name, 0.0)) for name in ZERO_OFFSETS)
 
 
-def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid, undone: dict[tuple, Rows]) -> Target:
+def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid, undone: dict[tuple, Behind]) -> Target:
     """Return what a record tells of the block if its sensor had these effects.
 
     The sensor is undone in reverse order: recorder, electronics, the data sheet's low-pass, mounting. Beyond the end of
     a record, and where it was cut flat, nothing is heard.
-    undone : what is behind the electronics, by their effects, of this run and these ticks; what is new is added
+    undone : what is behind the electronics, by their effects, of this run and these ticks; what is new is added. A
+    mounting turns and scales each instant by itself, so it is undone at the ticks alone
     """
     assert run.t is not None and run.crv is not None
     from rockref.effects import catalogue
@@ -88,12 +94,12 @@ def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid, undo
     heard = catalogue.heard(effects, t, crv)
     if gyro.range is not None:
         heard &= np.abs(crv) < gyro.range * (1 - 1e-6)
-    behind = tuple(e for e in effects if e.stage != "mounting")
+    at, behind = ticks.t, tuple(e for e in effects if e.stage != "mounting")
     if behind not in undone:
-        undone[behind] = catalogue.undone(behind, t, crv, gyro.bandwidth)
-    t, crv = catalogue.undone([e for e in effects if e.stage == "mounting"], *undone[behind])
-    at = ticks.t
-    rates = between(t, crv, at)
+        t, crv = catalogue.undone(behind, t, crv, gyro.bandwidth)
+        undone[behind] = Behind(t, between(t, crv, at))
+    t = undone[behind].t
+    _, rates = catalogue.undone([e for e in effects if e.stage == "mounting"], at, undone[behind].rates)
     seen = np.ones((len(at), 3), bool)
     for j in np.flatnonzero(~heard.all(axis=0)):
         seen[:, j] = np.interp(at, t, heard[:, j].astype(float)) > 0.999
