@@ -103,7 +103,7 @@ class StageCounter:
             self._send()
 
     def seconds_left(self) -> float | None:
-        """Return the seconds that the present stage and those that follow will take; None while too little is behind."""
+        """Return the seconds that the present stage and those that follow will take; None while little is behind."""
         if self.passed < FORETELLS * sum(self.shares.values()):
             return None
         rate = (self.began - self.started) / self.passed
