@@ -7,7 +7,8 @@ following, and the descent begins again from the best of these places.
 
 What is wrong early is wrong by much more later: the residual over the whole time has its valley only where everything
 is nearly right. So the first descents look at the record up to the first main impact, and then further and further.
-The last of these ends in a valley that only the end of the record cuts across; it is walked (`identify.valley`).
+The last of these ends in a valley that only the end of the record cuts across; it is walked (`identify.valley`), and
+again beside an end that long moves have found.
 """
 
 from __future__ import annotations
@@ -127,6 +128,8 @@ def polish(
         if before < NEARLY:
             break
         at = descent.descend(_long_moves(descent, at), CHANGES[2])
+        if at.chi2 < before and effort.walks:
+            at = beside(descent, at)
         if at.chi2 > (1 - LEAST_ROUND_GAIN) * before:
             break
     alike = [end.z for end in descent.ends if end.chi2 < (1 + ALIKE) * at.chi2]
