@@ -38,7 +38,7 @@ def diagnose(
     """Say which physical effect the model lacks, how large it is, and how sure that is; or what it could not tell.
 
     Fits the baseline and every candidate of the catalogue to the fit runs, confirms on the held-out runs. Takes a
-    minute on a block like the source's, up to ten where nobody knows the feet. An unchanged experiment with the same
+    minute on a block like the source's, up to five where nobody knows the feet. An unchanged experiment with the same
     options is answered from what was kept; --fresh computes anew. Exit code 0 if there is a verdict (that nothing is
     missing is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
 
