@@ -47,7 +47,3 @@ class Parameter:
         if self.log:
             return float(np.log(self.low / self.centre) / self.spread) if self.low > 0 else -np.inf
         return (self.low - self.centre) / self.spread
-
-    def step_from(self, z: float) -> float:
-        """Return the step of the finite difference at z: downwards where the upper bound leaves no room above."""
-        return self.step if z + self.step <= self.most else -self.step

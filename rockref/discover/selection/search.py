@@ -305,17 +305,17 @@ class Search:
         """
         finalists = sorted((h for h in beam if h.objective <= CLOSE * self.best(beam).objective), key=penalised)
         finalists = finalists[:FINALISTS]
-        self.race(finalists, beam)
+        self.settle_finalists(finalists, beam)
         for _ in range(EXCHANGES):
             best = min(beam, key=penalised)
             others = [self.beside(best, h) for h in finalists if not self.holds(h, best)]
             beam += others
-            self.race(others, beam)
+            self.settle_finalists(others, beam)
             if set(min(beam, key=penalised).effects) == set(best.effects):
                 break
         return sorted(best_of_each(beam), key=lambda h: h.objective)
 
-    def race(self, field: Sequence[FittedModel], beam: Sequence[FittedModel]) -> None:
+    def settle_finalists(self, field: Sequence[FittedModel], beam: Sequence[FittedModel]) -> None:
         """Let fits take steps as long as they gain; one stops that at its pace does not come near the best of a beam.
 
         Near is what an effect has to gain: what stays farther away has no say in the evidence.
