@@ -126,20 +126,25 @@ def test_every_run_has_its_own_release_angle(space, truth, table_3_1, noisy_twin
     assert np.mean(np.square(r[1])) > 10 * np.mean(np.square(r[0]))
 
 
-def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monkeypatch):
-    """Slopes of two runs with eleven shared numbers: two simulations for each of these, two for the own angle, one."""
-    asked = []
-    whole = unknowns.releases
+def counted_simulations(monkeypatch):
+    """The list to which the simulations of each target are counted from now on."""
+    asked, whole = [], unknowns.releases
 
     def counted(space, targets, chromosomes, *more):
         asked.extend(len(own) for own in chromosomes)
         return whole(space, targets, chromosomes, *more)
 
+    monkeypatch.setattr(unknowns, "releases", counted)
+    return asked
+
+
+def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monkeypatch):
+    """Slopes of two runs with eleven shared numbers: two simulations for each of these, two for the own angle, one."""
     seen = seen_until(noisy_twin, 0.0)
     z = Unknowns(space, [seen] * 2).z(truth)
     zs = np.array([z, *(z + s * 1e-3 * row for s in (1, -1) for row in np.eye(len(z)))])
     alone = [residuals(space, [seen] * 2, row[None])[0] for row in zs[[0, 3, -1]]]
-    monkeypatch.setattr(unknowns, "releases", counted)
+    asked = counted_simulations(monkeypatch)
     together = residuals(space, [seen] * 2, zs)
     assert asked == [25, 25] and len(zs) == 27
     np.testing.assert_array_equal(together[[0, 3, -1]], alone)
@@ -147,19 +152,12 @@ def test_another_run_s_angle_costs_no_simulation(space, truth, noisy_twin, monke
 
 def test_slopes_move_all_release_angles_in_one_simulation(space, truth, noisy_twin, monkeypatch):
     """A target has rows of its own: eleven shared numbers and one row more give what thirteen rows would."""
-    asked = []
-    whole = unknowns.releases
-
-    def counted(space, targets, chromosomes, *more):
-        asked.extend(len(own) for own in chromosomes)
-        return whole(space, targets, chromosomes, *more)
-
     descent = Descent(Unknowns(space, [seen_until(noisy_twin, 0.0)] * 2), workers=1)
     # A release angle at the end of its range is moved inwards.
     at, h = descent.place(np.append(descent.unknowns.z(truth)[:-1], 1.0)), np.linspace(1e-3, 2e-3, 13)
     up, down = np.diag(np.append(h[:-1], 0.0)), np.diag(h)
     one_by_one = (descent.residuals(at.z + up) - descent.residuals(at.z - down)) / np.diag(up + down)[:, None]
-    monkeypatch.setattr(unknowns, "releases", counted)
+    asked = counted_simulations(monkeypatch)
     J = descent.jacobian(at, h)
     assert asked == [24, 24] and J.shape == (len(at.r), 13)
     # The same simulations; the steps that were taken differ from h by rounding of z.

@@ -7,7 +7,7 @@ import pytest
 
 from rockref import Model
 from rockref.discover.fit.differences import jacobian
-from rockref.discover.fit.fitter import FittedModel, Fitter, damped
+from rockref.discover.fit.fitter import FittedModel, Fitter, damped, learned
 from rockref.discover.fit.objective import WHITE, inflation_for, loss, mean_loss, objective, smoothed, weight
 from rockref.discover.fit.problem import fit_problem
 from rockref.discover.fit.stages import S1, S3, fineness, time_scale
@@ -114,3 +114,11 @@ def test_slower_blocks_remember_longer_and_stiffer_ones_take_finer_steps():
     assert time_scale(NOMINAL) == pytest.approx(1.0)
     assert time_scale(NOMINAL.replace(width=0.4, height=4 * 0.688)) == pytest.approx(2.0)
     assert fineness(6e7, 54.0) == 1.0 < fineness(1.5e8, 54.0) <= 1.8
+
+
+def test_slopes_that_learn_give_the_last_change_and_keep_what_is_across_it():
+    rng = np.random.default_rng(3)
+    J, change, step = rng.standard_normal((4, 9)), rng.standard_normal(9), np.array([1.0, 2.0, 0.0, -1.0])
+    across = np.array([2.0, -1.0, 5.0, 0.0])
+    assert step @ learned(J, step, change) == pytest.approx(change, rel=1e-12)
+    assert across @ learned(J, step, change) == pytest.approx(across @ J, rel=1e-12)
