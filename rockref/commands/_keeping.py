@@ -6,17 +6,12 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from rockref.model.errors import Interrupted
 
 if TYPE_CHECKING:
     from rockref.discover.fit_store import FitStore
-
-#: What every command takes that starts from kept fits.
-Fresh = Annotated[bool, typer.Option("--fresh", help="Compute anew, whatever an earlier command has kept.")]
 
 
 @contextmanager

@@ -7,9 +7,7 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from rockref.commands._results import remark
 
@@ -17,11 +15,6 @@ if TYPE_CHECKING:
     from rockref.api import Model
     from rockref.effects.base import Effect
 
-#: What every command that reads a model file takes, where its own ``--effect`` does not stand for it.
-OwnEffects = Annotated[
-    list[str] | None,
-    typer.Option("--effect", "-e", help="An effect of your own that a model has, path/to/file.py:Class."),
-]
 NAMED = ("table_3_1", "four_points")
 #: Errors of a run that come from what the model says, as much as from how it is run.
 OF_THE_MODEL = frozenset("E-STEP E-NAN E-ANGLE E-TILT E-RELEASE E-FEET E-MOOT".split())
@@ -60,6 +53,23 @@ def spec_of(words: str) -> str:
     """Return the "file.py:Class" of the words of an effect, without its parameters."""
     head, marker, rest = words.strip().partition(".py:")
     return f"{head}.py:{rest.partition(':')[0]}" if marker else words.strip()
+
+
+def given_model(text: str | None, effects: Iterable[str] | None) -> Model | None:
+    """Return the model that is named, or None for the baseline. Raises as :func:`named_models`."""
+    return next(iter(named_models([] if text is None else [text], effects)), None)
+
+
+def given_and_others(text: str | None, effects: Iterable[str] | None) -> tuple[Model | None, list[str]]:
+    """Return the model that is named, None for the baseline, and the effects that are none of its own."""
+    models, others = models_and_others([] if text is None else [text], effects)
+    return next(iter(models), None), others
+
+
+def model_with(text: str, effects: Sequence[str] | None) -> Model:
+    """Return the model that is named, with effects added (see :func:`with_effects`)."""
+    known_files(effects)
+    return with_effects(named_model(text), effects or ())
 
 
 def models_and_others(texts: Iterable[str], effects: Iterable[str] | None) -> tuple[list[Model], list[str]]:

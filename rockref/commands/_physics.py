@@ -53,11 +53,7 @@ def example(output: Path | None) -> None:
     """Write the adapter to start from."""
     import inspect
 
+    from rockref.commands._results import write_or_print
     from rockref.conformance.physics.adapters import own_engine
-    from rockref.model.storage import write_text
 
-    source = inspect.getsource(own_engine)
-    if output is None:
-        typer.echo(source, nl=False)
-    else:
-        write_text(output, source)
+    write_or_print(inspect.getsource(own_engine), output)

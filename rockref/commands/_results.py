@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -12,32 +12,6 @@ if TYPE_CHECKING:
 
     from rockref.api import Model
     from rockref.measure.records.notice import Notice
-
-
-def folder_name(text: str | Path) -> Path:
-    """Return the folder that an argument names; an empty word, which would be the current folder, is refused."""
-    if not str(text).strip():
-        raise typer.BadParameter("is empty; name a folder, or . for the current one.")
-    return Path(text)
-
-
-def folder_option(*names: str, help: str) -> Any:
-    """Return the option for a folder that a command writes into."""
-    return typer.Option(*names, parser=folder_name, metavar="FOLDER", help=help)
-
-
-#: Where a command that shows much writes its page.
-PageFolder = Annotated[
-    Path | None, folder_option("--report", help="Folder for the page (index.html); made if it is not there.")
-]
-
-#: What every command on an experiment takes.
-ExperimentFolder = Annotated[
-    Path,
-    typer.Argument(
-        parser=folder_name, metavar="EXPERIMENT", help="Folder with experiment.toml and the tables of the runs."
-    ),
-]
 
 
 def only_for(what: str, **given: bool) -> None:
@@ -90,6 +64,16 @@ def keep(text: str, output: Path | None, model: "Model", save_model: Path | None
     if save_model is not None:
         model.save(save_model)
     return [path for path in (output, save_model) if path is not None]
+
+
+def write_or_print(text: str, output: Path | None) -> None:
+    """Write a text to a file, or print it where no file is named."""
+    from rockref.model.storage import write_text
+
+    if output is None:
+        typer.echo(text, nl=False)
+    else:
+        write_text(output, text)
 
 
 def with_files(record: Callable[[], dict[str, Any]]) -> Callable[[list[Path]], str]:

@@ -37,7 +37,7 @@ def simulate_shaken(
     """
     from dataclasses import asdict
 
-    from rockref.commands._models import known_files, named_model, of_file, with_effects
+    from rockref.commands._models import model_with, of_file
     from rockref.commands._results import in_json
     from rockref.engines import run
     from rockref.report.tables.response_table import check_name, write_response
@@ -46,8 +46,7 @@ def simulate_shaken(
     refuse_options({key: value for key, value in others.items() if value not in (None, False, "auto")})
     if rows["output"] is not None:
         check_name(rows["output"])
-    known_files(effects)
-    chosen, base = with_effects(named_model(model), effects), motion(record, scale, rotate)
+    chosen, base = model_with(model, effects), motion(record, scale, rotate)
     duration = base.end + AFTER if rows["duration"] is None else rows["duration"]
     with of_file(model):
         problem = chosen.problem(duration, rows["step"], rows["rate"], base=base)

@@ -47,7 +47,7 @@ def diagnose_tosses(
     save_model: Path | None, verbose: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Print what is missing in the model of tosses; exit code 1 if a gate fails."""
-    from rockref.commands._models import models_and_others
+    from rockref.commands._models import given_and_others
     from rockref.commands._progress import stages
     from rockref.discover.tosses.diagnose import diagnose
     from rockref.model.errors import InputError
@@ -57,10 +57,9 @@ def diagnose_tosses(
     usable_files(output, save_model)
     folder = usable_folder(report)
     tosses = read(path)
-    models, others = models_and_others([model] if model else [], effects)
+    given, others = given_and_others(model, effects)
     if others:
         raise InputError("E-EFFECT", "--effect", "of tosses only the catalogue is tried", "Leave it out.")
-    given = models[0] if models else None
     with stages(f"diagnosing {path}", verbose=verbose) as say:
         found = diagnose(tosses, given, progress=say)
     record = found.to_dict()
@@ -79,15 +78,14 @@ def fit_to_tosses(
     path: Path, output: Path, effects: Sequence[str], model: str | None, verbose: bool, as_json: bool
 ) -> None:
     """Fit the law and effects to the fit tosses, print the numbers, write the model; exit code 1 if a gate fails."""
-    from rockref.commands._models import models_and_others
+    from rockref.commands._models import given_and_others
     from rockref.commands._progress import stages
     from rockref.discover.tosses.fitting import fit_tosses
     from rockref.report.terminal.toss_text import print_toss_fit
 
     usable_files(output)
     tosses = read(path)
-    models, more = models_and_others([model] if model else [], effects)
-    given = models[0] if models else None
+    given, more = given_and_others(model, effects)
     with stages(f"fitting {path}", verbose=verbose) as say:
         found = fit_tosses(tosses, tuple(more), given, progress=say)
     with told(as_json, with_files(found.to_dict), lambda c: print_toss_fit(c, found.to_dict())) as written:
@@ -108,7 +106,7 @@ def add_to_model_of_tosses(
     as_json: bool,
 ) -> None:
     """Fit an effect into a model of tosses, print the errors before and after, write the model."""
-    from rockref.commands._models import known_files, named_models
+    from rockref.commands._models import given_model, known_files
     from rockref.commands._progress import stages
     from rockref.discover.tosses.fitting import add_to_tosses
     from rockref.report.output import usable_folder
@@ -118,7 +116,7 @@ def add_to_model_of_tosses(
     folder = usable_folder(report)
     tosses = read(path)
     known_files([effect])
-    given = next(iter(named_models([model] if model else [], own)), None)
+    given = given_model(model, own)
     with stages(f"adding {effect}", verbose=verbose) as say:
         found = add_to_tosses(effect, tosses, given, progress=say)
     with told(as_json, with_files(found.to_dict), lambda c: print_toss_addition(c, found.to_dict())) as written:

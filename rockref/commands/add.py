@@ -5,35 +5,34 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._keeping import Fresh
-from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_option, only_for
+from rockref.commands import _options as options
+from rockref.commands._results import only_for
 
 
 def add(
-    experiment: ExperimentFolder,
+    experiment: options.ExperimentFolder,
     effect: Annotated[str, typer.Argument(help="Id of the effect, as in `rockref effects`, or file.py:Class.")],
     model: Annotated[
         str | None,
-        typer.Option("--model", "-m", help="Model that gets the effect, a model.toml. Default: the baseline."),
+        typer.Option("--model", "-m", help="Model to which the effect is added, a model.toml. Default: the baseline."),
     ] = None,
-    own: OwnEffects = None,
-    output: Annotated[Path, typer.Option("--output", "-o", help="Where the new model goes.")] = Path(
+    own: options.OwnEffects = None,
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the new model, a .toml.")] = Path(
         "with_effect.toml"
     ),
-    report: Annotated[Path | None, folder_option("--report", help="Folder for page and figure.")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
-    workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
-    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
-    fresh: Fresh = False,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage and the optimiser's lines.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+    report: options.PageFolder = None,
+    seed: options.RestartSeed = 0,
+    workers: options.Threads = None,
+    full: options.Full = False,
+    fresh: options.Fresh = False,
+    verbose: options.Verbose = False,
+    as_json: options.AsJson = False,
 ) -> None:
-    """Fit an effect into a model together with all that it has, and show the error before and after.
+    """Add an effect to a model, fit all its numbers together, and show the error before and after.
 
-    On fit and on held-out runs, beside the noise floor; by axis with --full. What rockref diagnose has found is not
-    computed again. The new model keeps the history, so that a second effect shows the error fall again. Exit code 0, or
-    2 if the input cannot be used.
+    The error is that of the fit runs and of the held-out runs, beside the noise floor; --full shows it by axis. A fit
+    that rockref diagnose has kept is not computed again. The new model file keeps the history of the errors. Exit code
+    0, or 2 if the input cannot be used.
 
     \b
     Example:
@@ -42,7 +41,7 @@ def add(
       rockref add data/experiments/mystery-10 gyro_scale --model with_cable.toml -o with_both.toml --report report
       rockref compare data/experiments/mystery-05 --model table_3_1 --model with_rolling.toml
 
-    An effect is added to a model of tosses too, with --model, -o, -v and --json; the page is that of `rockref compare`.
+    For a folder of tosses, --model, --effect, -o, --report, -v and --json apply; the page is that of `rockref compare`.
     """
     from rockref.commands._results import say_old_spelling
     from rockref.measure.tosses.load import is_toss_folder
@@ -56,7 +55,7 @@ def add(
         only_for("releases", seed=seed != 0, workers=workers is not None, full=full, fresh=fresh)
         return add_to_model_of_tosses(effect, experiment, model, own, output, report, verbose, as_json)
     from rockref.commands._keeping import keeping, kept
-    from rockref.commands._models import carried_by, check_step, known_files, named_models, say_idle
+    from rockref.commands._models import carried_by, check_step, given_model, known_files, say_idle
     from rockref.commands._progress import stages
     from rockref.commands._results import say_remarks, told, usable_files, with_files
     from rockref.discover import add_effect as engine
@@ -66,7 +65,7 @@ def add(
     from rockref.report.terminal.next_command import after_addition
 
     known_files([effect])
-    given = next(iter(named_models([model] if model else [], own)), None)
+    given = given_model(model, own)
     check_step(given, model)
     say_idle(given, model)
     folder = usable_folder(report)

@@ -7,9 +7,9 @@ from typing import Annotated
 import typer
 
 from rockref.commands._help import FullHelp
-from rockref.commands._results import folder_name
+from rockref.commands._options import AsJson, SharedDaskAddress, folder_name
 
-HELP = """Test the discoverer on sealed hidden effects.
+HELP = """Test rockref diagnose on experiments whose hidden effects are sealed until it has answered.
 
 \b
 Example:
@@ -26,24 +26,28 @@ def make(
             parser=folder_name, metavar="FOLDER", help="Folder to make; after an interruption the same command goes on."
         ),
     ],
-    seed: Annotated[int, typer.Option(min=0, help="Draws the plan and every case.")],
-    cases: Annotated[int, typer.Option(min=1, help="How many cases, a third of them of other blocks.")] = 120,
-    near: Annotated[int | None, typer.Option(min=0, help="How many cases near the source's block instead.")] = None,
-    other: Annotated[int | None, typer.Option(min=0, help="How many cases of other blocks instead.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the plan and of every case.")],
+    cases: Annotated[int, typer.Option(min=1, help="Number of cases, a third of them with other blocks.")] = 120,
+    near: Annotated[
+        int | None, typer.Option(min=0, help="Instead of --cases: number of cases near the source's block.")
+    ] = None,
+    other: Annotated[
+        int | None, typer.Option(min=0, help="Instead of --cases: number of cases with other blocks.")
+    ] = None,
     effects: Annotated[
         str | None,
-        typer.Option(help='Cases of your own instead: "none,gyro_scale:2,plate_tilt+gyro_drift,wrapped", "each:0.5".'),
+        typer.Option(help='The cases to make: "none,gyro_scale:2,plate_tilt+gyro_drift,wrapped", or "each:0.5".'),
     ] = None,
-    workers: Annotated[int | None, typer.Option(min=1, help="Processes; one a core by default.")] = None,
-    dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the manifest.")] = False,
+    workers: Annotated[int | None, typer.Option(min=1, help="Processes; default: one per core.")] = None,
+    dask: SharedDaskAddress = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the manifest, as JSON.")] = False,
 ) -> None:
     """Make experiments with hidden effects, by a simulator that shares no code with the model, and seal the truth.
 
-    A fifth are controls with nothing hidden, half have one effect at half, once or twice its typical size, the others
-    two effects, effects that are in no list, matched pairs that the runs cannot tell apart, and faulty records. A third
-    are of blocks of any mass, size, feet, stiffness and friction. MANIFEST.json holds the digest of the truth. Some
-    seconds a case with numba, an hour a case without.
+    A fifth of the cases are controls with nothing hidden. Half have one effect, at half, once or twice its typical
+    size. The others have two effects, effects that are in no list, matched pairs that the runs cannot tell apart, or
+    faulty records. A third of all cases have blocks of any mass, size, feet, stiffness and friction. MANIFEST.json
+    holds the digest of the truth. A case takes some seconds with numba, an hour without.
 
     \b
     Example:
@@ -91,15 +95,16 @@ def score(
     folder: Annotated[
         Path, typer.Argument(parser=folder_name, metavar="FOLDER", help="Folder made by `rockref blind make`.")
     ],
-    workers: Annotated[int | None, typer.Option(min=1, help="Cases at a time; one a core by default.")] = None,
-    dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler whose workers see the folder.")] = None,
-    check: Annotated[bool, typer.Option("--check", help="End with 1 if a goal is not met.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+    workers: Annotated[int | None, typer.Option(min=1, help="Cases at a time; default: one per core.")] = None,
+    dask: SharedDaskAddress = None,
+    check: Annotated[bool, typer.Option("--check", help="End with exit code 1 if a goal is not met.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Diagnose the cases that have no verdict yet, then open the truth and print the table of scores.
 
-    Verdicts are kept in the case folders (verdict.json), so an interrupted run goes on, and verdicts of another tool
-    can be scored. Their digests are written to VERDICTS.json before the truth is opened; all goes to scores.json.
+    Verdicts are kept in the folders of the cases (verdict.json): an interrupted run goes on, and verdicts of another
+    tool can be scored. The digests of the verdicts are written to VERDICTS.json before the truth is opened. The scores
+    are written to scores.json.
 
     \b
     Example:
@@ -122,13 +127,13 @@ def judge(
     folder: Annotated[
         Path, typer.Argument(parser=folder_name, metavar="FOLDER", help="Folder scored by `rockref blind score`.")
     ],
-    check: Annotated[bool, typer.Option("--check", help="End with 1 if a goal is not met.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+    check: Annotated[bool, typer.Option("--check", help="End with exit code 1 if a goal is not met.")] = False,
+    as_json: AsJson = False,
 ) -> None:
-    """Decide every case again from its stored evidence, by today's rules and calibration, and print the scores.
+    """Decide every case again from its stored evidence, by the present rules and calibration, and print the scores.
 
     Nothing is fitted and nothing is written: hundreds of cases take seconds. A case without evidence.json keeps its
-    stored verdict. Probabilities are compared with how often verdicts are right.
+    stored verdict. The stated probabilities are compared with the share of right verdicts.
 
     \b
     Example:

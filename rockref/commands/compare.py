@@ -1,13 +1,12 @@
 """`rockref compare`: models beside measured runs."""
 
 from functools import partial
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, folder_option, only_for
+from rockref.commands._options import AsJson, Engine, ExperimentFolder, Full, OwnEffects, PageFolder, ShakenStep
+from rockref.commands._results import only_for
 
 
 def compare(
@@ -19,31 +18,33 @@ def compare(
         ),
     ] = None,
     effect: OwnEffects = None,
-    report: Annotated[
-        Path | None, folder_option("--report", help="Folder for the page and the figures; made if it is not there.")
-    ] = None,
-    engine: Annotated[str, typer.Option(help="auto, numpy (the law itself) or numba (compiled).")] = "auto",
+    report: PageFolder = None,
+    engine: Engine = "auto",
     check: Annotated[
         bool,
         typer.Option(
-            "--check", help="End with 1 if a model leaves the band, or falls over, before the second main impact."
+            "--check",
+            help="End with exit code 1 if a model leaves the band, or falls over, before the second main impact.",
         ),
     ] = False,
-    full: Annotated[bool, typer.Option("--full", help="All tables and sentences, not only the answer.")] = False,
-    runs: Annotated[int | None, typer.Option(min=1, help="Of tests on a shake table: runs of each; 20.")] = None,
-    step: Annotated[float | None, typer.Option(help="Of tests on a shake table: time step in seconds; 1e-5.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
+    full: Full = False,
+    runs: Annotated[
+        int | None, typer.Option(min=1, help="For tests on a shake table: simulated runs of each test; default: 20.")
+    ] = None,
+    step: ShakenStep = None,
+    as_json: AsJson = False,
 ) -> None:
-    """Show how far models are from measured runs, from when on, and with which feet on the plate.
+    """Compare models with measured runs: how large the error is, when it begins, and which feet touch then.
 
-    Shows fit and held-out runs and says which is which; names no cause. Exit code 0, or 2 if the input cannot
-    be used; with --check, 1 if a model leaves the band of noise and run-to-run spread before the second main impact.
+    Fit runs and held-out runs are shown apart. No cause is named; that is what rockref diagnose does. Exit code 0, or 2
+    if the input cannot be used; with --check, 1 if a model leaves the band of noise and run-to-run spread before the
+    second main impact.
 
-    Of a folder of tosses: errors of position and rotation over the frames, where they grow, and what needs no contact
-    model; with --model, --report and --json.
+    For a folder of tosses: the errors of position and rotation over the frames, where they grow, and what the tosses
+    tell without a contact model; --model, --report and --json apply.
 
-    Of tests on a shake table (kind = "shaken"): scores of predicted probabilities, held out by motion, beside the
-    best that repeats allow, and distributions of maxima; with --model, --runs, --step, --report and --json.
+    For tests on a shake table (kind = "shaken"): scores of the predicted probabilities of falling on held-out motions,
+    beside the best that repeats allow, and distributions of maxima; --model, --runs, --step, --report and --json apply.
 
     \b
     Example:

@@ -9,6 +9,8 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand
 
+from rockref.commands._options import AsJson
+
 ACTIONS = ("exe", "export", "answer", "serve", "judge", "zoo", "example", "physics")
 
 
@@ -35,28 +37,33 @@ def parted(args: list[str], own: set[str]) -> list[str]:
 
 
 def conform(
-    target: Annotated[str, typer.Argument(help="What is judged, or what is done; see above.")] = "numpy",
-    rest: Annotated[list[str] | None, typer.Argument(help="Program and its arguments, or files.")] = None,
+    target: Annotated[str, typer.Argument(help="A backend, or one of the actions above.")] = "numpy",
+    rest: Annotated[
+        list[str] | None, typer.Argument(help="What the action takes: a program with its arguments, files, names.")
+    ] = None,
     layers: Annotated[
-        str | None, typer.Option(help="Some of L0,L1,L2,L3,L4,L5s,LS,L5,L6,L7,LE; all by default.")
+        str | None, typer.Option(help="Layers to judge, of L0,L1,L2,L3,L4,L5s,LS,L5,L6,L7,LE. Default: all.")
     ] = None,
     profile: Annotated[
-        str | None, typer.Option(help="float64, float32, scheme (another integrator); default: the backend's own.")
+        str | None,
+        typer.Option(help="float64, float32 or scheme (another integrator). Default: what the backend states."),
     ] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Small layers only, no trajectories, no properties.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-    junit: Annotated[Path | None, typer.Option(help="Write JUnit XML there.")] = None,
-    badge: Annotated[Path | None, typer.Option(help="Write a badge (SVG) there.")] = None,
-    html: Annotated[Path | None, typer.Option(help="Write a page with the divergence drawn there.")] = None,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Leave out the long trajectories and the properties (L5, L6).")
+    ] = False,
+    as_json: AsJson = False,
+    junit: Annotated[Path | None, typer.Option(help="Write JUnit XML to this file.")] = None,
+    badge: Annotated[Path | None, typer.Option(help="Write a badge (SVG) to this file.")] = None,
+    html: Annotated[Path | None, typer.Option(help="Write a page that shows where the trajectories part.")] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="export, answer, zoo, example, physics: the file to write.")
+        Path | None, typer.Option("--output", "-o", help="File that export, answer, zoo, example or physics writes.")
     ] = None,
     timeout: Annotated[
-        float, typer.Option(help="exe: seconds for a run; a sixtieth of it for a small question.")
+        float, typer.Option(help="Seconds that a program (exe) has for a run; for a small question it has a sixtieth.")
     ] = 600.0,
     examples: Annotated[int, typer.Option(min=1, help="Examples drawn for each property of L6.")] = 50,
     colour: Annotated[
-        bool | None, typer.Option("--colour/--no-colour", help="By default where a terminal reads.")
+        bool | None, typer.Option("--colour/--no-colour", help="Colour the verdict. Default: on a terminal.")
     ] = None,
 ) -> None:
     """Judge a simulator of the block (a backend) by test vectors; name the first wrong rule and its equation.
@@ -72,7 +79,7 @@ def conform(
       physics ENGINE     judge an engine with a contact law of its own, by mechanics: mujoco, pybullet, ..., or a file
       zoo                test the judge itself with seeded faults
 
-    Options of PROGRAM itself come after --. Exit code 1 where the backend falls short.
+    Options of PROGRAM itself come after --. Exit code 1 if the backend falls short.
 
     \b
     Example:
@@ -88,7 +95,8 @@ def conform(
       rockref conform physics mujoco
     """
     from rockref.commands._physics import physics
-    from rockref.commands._results import usable_files
+    from rockref.commands._results import usable_files, write_or_print
+    from rockref.conformance.backends.examples import source
     from rockref.conformance.judge.findings import LAYERS
     from rockref.model.errors import InputError
 
@@ -108,7 +116,7 @@ def conform(
     if target == "zoo":
         _zoo(as_json, quick, output)
     elif target == "example":
-        _example(rest, output)
+        write_or_print(source(rest[0] if rest else "python"), output)
     elif target == "physics":
         physics(rest, as_json, quick, output, _progress if sys.stderr.isatty() and not as_json else None)
     elif target in ("export", "answer", "serve"):
@@ -200,11 +208,11 @@ def _progress(layer: str, share: float) -> None:
 
 
 def _files(action: str, rest: list[str], layers: list[str], profile: str, output: Path | None) -> None:
+    from rockref.commands._results import write_or_print
     from rockref.conformance.backends import json_lines
     from rockref.conformance.backends.load import load
     from rockref.conformance.judge import offline
     from rockref.model.errors import InputError
-    from rockref.model.storage import write_text
 
     if action == "serve":
         json_lines.serve(load(rest[0] if rest else "numpy"))
@@ -218,22 +226,7 @@ def _files(action: str, rest: list[str], layers: list[str], profile: str, output
             )
         backend = load(rest[0])
         made = "".join(json_lines.line(json_lines.answer(backend, q)) for q in offline.requests_in(Path(rest[1])))
-    if output is None:
-        typer.echo(made, nl=False)
-    else:
-        write_text(output, made)
-
-
-def _example(rest: list[str], output: Path | None) -> None:
-    """Write one of the backends to start from."""
-    from rockref.conformance.backends.examples import source
-    from rockref.model.storage import write_text
-
-    text = source(rest[0] if rest else "python")
-    if output is None:
-        typer.echo(text, nl=False)
-    else:
-        write_text(output, text)
+    write_or_print(made, output)
 
 
 def _zoo(as_json: bool, quick: bool, output: Path | None) -> None:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_name, folder_option
+from rockref.commands._options import Engine, folder_name, folder_option
 
 
 def demo(
@@ -14,13 +14,16 @@ def demo(
         "demo_out"
     ),
     old: Annotated[Path | None, typer.Option("--out", parser=folder_name, hidden=True)] = None,
-    data: Annotated[Path | None, typer.Option("--data", help="Folder of the shipped experiments.")] = None,
-    engine: Annotated[str, typer.Option(help="auto, numpy (the law itself, minutes) or numba (compiled).")] = "auto",
+    data: Annotated[
+        Path | None,
+        typer.Option("--data", help="Folder of the shipped experiments, where the command does not find them."),
+    ] = None,
+    engine: Engine = "auto",
 ) -> None:
     """Find the effect that a model of a shipped experiment lacks, and show the error fall.
 
-    Writes one page about it, prints the lines that matter and where the page is. Takes about a minute and a half, the
-    first time a minute more for compiling the engine.
+    Writes one page, and prints its main lines and its place. Takes about a minute and a half; the first time, compiling
+    the engine takes a minute more.
 
     \b
     Example:

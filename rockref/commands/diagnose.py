@@ -5,49 +5,49 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._keeping import Fresh
-from rockref.commands._results import ExperimentFolder, PageFolder, only_for
+from rockref.commands import _options as options
+from rockref.commands._results import only_for
 
 
 def diagnose(
-    experiment: ExperimentFolder,
+    experiment: options.ExperimentFolder,
     model: Annotated[
         str | None,
         typer.Option(
-            "--model", "-m", help="What to start from: table_3_1, four_points or a model.toml. Default: the baseline."
+            "--model", "-m", help="Model to start from: table_3_1, four_points or a model.toml. Default: the baseline."
         ),
     ] = None,
     effect: Annotated[
         list[str] | None,
-        typer.Option("--effect", "-e", help="An effect of your own, path/to/file.py:Class, to be tried, too."),
+        typer.Option("--effect", "-e", help="Try an effect of your own, too: path/to/file.py:Class."),
     ] = None,
-    report: PageFolder = None,
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
-    save_model: Annotated[Path | None, typer.Option("--save-model", help="Write the best model there.")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
-    workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
-    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
-    fresh: Fresh = False,
+    report: options.PageFolder = None,
+    output: options.JsonFile = None,
+    save_model: Annotated[Path | None, typer.Option("--save-model", help="Write the best model to this file.")] = None,
+    seed: options.RestartSeed = 0,
+    workers: options.Threads = None,
+    full: options.Full = False,
+    fresh: options.Fresh = False,
     runs: Annotated[
-        int | None, typer.Option(min=3, help="Of tests on a shake table: runs of each at each size; 12.")
+        int | None, typer.Option(min=3, help="For tests on a shake table: runs of each test at each size; default: 12.")
     ] = None,
-    step: Annotated[float | None, typer.Option(help="Of tests on a shake table: time step in seconds; 1e-5.")] = None,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage and the optimiser's lines.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
+    step: options.ShakenStep = None,
+    verbose: options.Verbose = False,
+    as_json: options.AsJson = False,
 ) -> None:
     """Say which physical effect the model lacks, how large it is, and how sure that is; or what it could not tell.
 
-    Fits the baseline and every candidate of the catalogue to the fit runs, confirms on the held-out runs. Takes a
-    minute on a block like the source's, up to five where nobody knows the feet. An unchanged experiment with the same
-    options is answered from what was kept; --fresh computes anew. Exit code 0 if there is a verdict (that nothing is
-    missing is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
+    Fits the baseline and the effects of the catalogue to the fit runs, and confirms the best on the held-out runs.
+    Takes about a minute on a block like the source's, up to five where the heights of the feet are unknown. An
+    unchanged experiment with the same options is answered from the kept verdict; --fresh computes anew. Exit code 0 if
+    there is a verdict (that nothing is missing is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
 
-    Of a folder of tosses: effects added one after the other, each with what it takes off the held-out error; without
-    effects of your own, --seed and --workers.
+    For a folder of tosses: effects are added one after the other, each with the fall of the held-out error; effects of
+    your own, --seed, --workers, --full and --fresh do not apply.
 
-    Of tests on a shake table (kind = "shaken"): which of damping, friction, feet, and faults of the table the outcomes
-    ask for; with --model, --output, --runs, --step, --seed, --workers and --json. A test is simulated 40 times as often
-    as --runs says.
+    For tests on a shake table (kind = "shaken"): which of damping, friction, feet, and faults of the table the outcomes
+    point to; --model, --output, --runs, --step, --seed, --workers and --json apply. A test is simulated 40 times as
+    often as --runs says.
 
     \b
     Example:
@@ -74,7 +74,7 @@ def diagnose(
         return diagnose_shaken(experiment, model, output, runs, step, seed, workers, as_json)
     only_for("tests on a shake table", runs=runs is not None, step=step is not None)
     from rockref.commands._keeping import keeping, kept
-    from rockref.commands._models import check_step, models_and_others, say_idle
+    from rockref.commands._models import check_step, given_and_others, say_idle
     from rockref.commands._progress import stages
     from rockref.commands._results import in_json, keep, say_remarks, told, usable_files
     from rockref.discover import diagnose as engine
@@ -84,8 +84,7 @@ def diagnose(
     from rockref.report.terminal.diagnosis_text import print_diagnosis
     from rockref.report.terminal.next_command import after_diagnosis
 
-    models, candidates = models_and_others([model] if model else [], effect)
-    given = models[0] if models else None
+    given, candidates = given_and_others(model, effect)
     check_step(given, model)
     say_idle(given, model)
     folder = usable_folder(report)

@@ -15,7 +15,10 @@ def effects(
         str | None, typer.Argument(help="An effect: id, id:key=value, or path/to/file.py:Class. Without it, the list.")
     ] = None,
     picture: Annotated[
-        Path | None, typer.Option("--picture", "-p", help="Draw the body rates with and without it, .png or .svg.")
+        Path | None,
+        typer.Option(
+            "--picture", "-p", help="Draw the body rates with and without the effect, to a .png or .svg file."
+        ),
     ] = None,
     duration: Annotated[float, typer.Option(help="Seconds that the picture shows.")] = 1.5,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON instead of lines.")] = False,

@@ -6,36 +6,37 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._keeping import Fresh
-from rockref.commands._results import ExperimentFolder, folder_option, only_for
+from rockref.commands import _options as options
+from rockref.commands._results import only_for
 
 
 def fit(
-    experiment: ExperimentFolder,
-    output: Annotated[Path, typer.Option("--output", "-o", help="Where the model goes, a .toml.")] = Path("model.toml"),
+    experiment: options.ExperimentFolder,
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the model, a .toml.")] = Path("model.toml"),
     effect: Annotated[
         list[str] | None,
-        typer.Option("--effect", "-e", help="An effect to fit too, id or file.py:Class; may be repeated."),
+        typer.Option("--effect", "-e", help="Fit this effect, too: id or file.py:Class. May be repeated."),
     ] = None,
     model: Annotated[
-        str | None, typer.Option("--model", "-m", help="Start from this model.toml, effects and all.")
+        str | None, typer.Option("--model", "-m", help="Start from this model.toml, its effects included.")
     ] = None,
     report: Annotated[
-        Path | None, folder_option("--report", help="Folder for the page: the runs before and after the fit.")
+        Path | None, options.folder_option("--report", help="Folder for the page: the runs before and after the fit.")
     ] = None,
-    gates: Annotated[bool, typer.Option("--gates/--no-gates", help="Check the fit; takes as long again.")] = True,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of the random restarts.")] = 0,
-    workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
-    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
-    fresh: Fresh = False,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage and the optimiser's lines.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+    gates: Annotated[
+        bool, typer.Option("--gates/--no-gates", help="Check the fit by its gates; this takes as long as the fit.")
+    ] = True,
+    seed: options.RestartSeed = 0,
+    workers: options.Threads = None,
+    full: options.Full = False,
+    fresh: options.Fresh = False,
+    verbose: options.Verbose = False,
+    as_json: options.AsJson = False,
 ) -> None:
     """Fit the baseline to the fit runs of an experiment, check the fit, write the model with its uncertainty.
 
-    No fit sees a held-out run. Exit code 0, also where an effect is missing, which the fit and its model say; 1 if a
-    gate (a check of the fit) was not passed: the model is written all the same and says so; 2 if the input cannot be
-    used.
+    No fit sees a held-out run. Exit code 0 if every gate (a check of the fit) is passed, also where an effect is
+    missing; 1 if a gate is not passed: the model is written all the same, and says so; 2 if the input cannot be used.
 
     \b
     Example:
@@ -44,7 +45,7 @@ def fit(
       rockref fit data/experiments/mystery-08 --effect examples/my_effect.py:EddyBrake
       rockref fit data/experiments/mystery-08 --json > fit.json
 
-    A folder of tosses is fitted too, with --effect, --model, -o, -v and --json.
+    For a folder of tosses, --effect, --model, -o, -v and --json apply.
     """
     from rockref.measure.tosses.load import is_toss_folder
 

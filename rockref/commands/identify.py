@@ -6,42 +6,45 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._models import OwnEffects
-from rockref.commands._results import ExperimentFolder, PageFolder, folder_option, in_json
+from rockref.commands import _options as options
+from rockref.commands._results import in_json
 
 # decided: of a hundred thousand runs of 3e5 steps, at 27 million steps a second, a generation takes twenty minutes.
 MOST = 100_000
 
 
 def identify(
-    experiment: ExperimentFolder,
+    experiment: options.ExperimentFolder,
     output: Annotated[
-        Path, folder_option("--output", "-o", help="Folder for the result, the model and the checkpoints.")
+        Path, options.folder_option("--output", "-o", help="Folder for the result, the model and the checkpoints.")
     ] = Path("identified"),
     model: Annotated[
-        str, typer.Option("--model", "-m", help="table_3_1 or a model.toml: block and what is not searched.")
+        str,
+        typer.Option(
+            "--model", "-m", help="table_3_1 or a model.toml: the block, and the parameters that are not searched."
+        ),
     ] = "table_3_1",
-    effect: OwnEffects = None,
-    report: PageFolder = None,
-    genes: Annotated[int, typer.Option(help="12 or 54 parameters.")] = 12,
+    effect: options.OwnEffects = None,
+    report: options.PageFolder = None,
+    genes: Annotated[int, typer.Option(help="How many parameters are searched: 12 or 54.")] = 12,
     search_runs: Annotated[
-        str | None, typer.Option("--search-runs", help="Runs of the evolutionary search, as 01,06; default: the first.")
+        str | None,
+        typer.Option("--search-runs", help="Runs that the evolutionary search reads, as 01,06. Default: the first."),
     ] = None,
     generations: Annotated[int, typer.Option(min=1, help="Generations of the search.")] = 250,
-    population: Annotated[int, typer.Option(min=4, max=MOST, help="Chromosomes a generation.")] = 40,
+    population: Annotated[int, typer.Option(min=4, max=MOST, help="Chromosomes per generation.")] = 40,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the search.")] = 0,
-    workers: Annotated[int | None, typer.Option(min=1, help="Local processes; default: one per core.")] = None,
-    dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler instead (extra `distributed`).")] = None,
+    workers: options.Processes = None,
+    dask: options.DaskAddress = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the checkpoints in the output folder.")] = False,
-    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A line for every generation.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")] = False,
+    full: options.Full = False,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Print a line for every generation.")] = False,
+    as_json: options.AsJson = False,
 ) -> None:
     """Find the parameters of the law from the fit runs: evolutionary search, then least squares on the signals.
 
-    Every run has a release angle of its own. Held-out runs are compared only after the parameters are found; the table
-    shows them, too. After an interruption --resume goes on to the same end. Exit code 1 if the fit is not at the noise
-    floor.
+    Every run gets a release angle of its own. Held-out runs are looked at only after the parameters are found. After an
+    interruption --resume goes on and finds the same numbers. Exit code 1 if the fit is above the noise floor.
 
     \b
     Example:

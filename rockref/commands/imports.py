@@ -5,17 +5,17 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_name, folder_option
+from rockref.commands._options import folder_name, folder_option
 
 
 def imports(
-    kind: Annotated[str, typer.Argument(help="What is imported: contactnets or planardrops.")],
+    kind: Annotated[str, typer.Argument(help="Which data: contactnets or planardrops.")],
     source: Annotated[
         Path,
         typer.Argument(
             parser=folder_name,
             metavar="SOURCE",
-            help="A clone of github.com/DAIRLab/contact-nets or ImpactModeling, or the folder of its files.",
+            help="A clone of the repository of the data (contact-nets, ImpactModeling), or its folder of files.",
         ),
     ],
     output: Annotated[Path, folder_option("--output", "-o", help="Folder for the tosses; a new or empty one.")],
@@ -24,6 +24,7 @@ def imports(
 
     contactnets: tosses of a cube. The .pt files are read without PyTorch, and nothing in them is run. Tosses that are
     turned copies of others are marked in the column `group`.
+
     planardrops: drops of a square in a plane, as an experiment of kind toss.
 
     \b

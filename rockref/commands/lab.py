@@ -8,17 +8,17 @@ import typer
 
 def lab(
     experiment: Annotated[
-        Path | None, typer.Argument(help="Folder with experiment.toml. Default: runs with a hidden effect.")
+        Path | None, typer.Argument(help="Folder with experiment.toml. Default: simulated runs with a hidden effect.")
     ] = None,
     model: Annotated[
-        str | None, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml. Default: baseline.")
+        str | None, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml. Default: the baseline.")
     ] = None,
-    output: Annotated[Path, typer.Option("--output", "-o", help="The page.")] = Path("lab.html"),
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for the page.")] = Path("lab.html"),
 ) -> None:
-    """Write a page on which the law runs: sliders, effects, measured runs under modelled ones, a fit.
+    """Write an interactive page on which the model runs, with sliders, effects, measured runs and a fit.
 
-    The page is one file that needs neither network nor server. The law in it, in WebAssembly, has the bits of the
-    NumPy text; a click computes the proof again.
+    The page is one file that needs neither network nor server. The model in it runs in WebAssembly with the bits of the
+    NumPy code; a click on the page proves it again.
 
     \b
     Example:

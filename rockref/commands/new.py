@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from rockref.commands import _quantities as typed
-from rockref.commands._results import folder_name
+from rockref.commands._options import AsJson, folder_name
 
 if TYPE_CHECKING:
     from rockref.measure.importing import Campaign, Choices
@@ -20,20 +20,22 @@ def new(
         Path, typer.Argument(parser=folder_name, metavar="FOLDER", help="The experiment folder to make.")
     ],
     logs: Annotated[
-        list[Path], typer.Argument(metavar="LOGS", help="Files of the logger, one a run; or a folder of them.")
+        list[Path], typer.Argument(metavar="LOGS", help="Files of the logger, one per run, or a folder of them.")
     ],
     mass: Annotated[
-        float | None, typer.Option(parser=typed.mass, metavar="MASS", help="Of the block, as 54kg or 800g.")
+        float | None, typer.Option(parser=typed.mass, metavar="MASS", help="Mass of the block, as 54kg or 800g.")
     ] = None,
     width: Annotated[
         float | None, typer.Option(parser=typed.length, metavar="LENGTH", help="Side of the square base, as 100mm.")
     ] = None,
     height: Annotated[
-        float | None, typer.Option(parser=typed.length, metavar="LENGTH", help="Of the block, as 0.688m.")
+        float | None, typer.Option(parser=typed.length, metavar="LENGTH", help="Height of the block, as 0.688m.")
     ] = None,
     tilt: Annotated[
         list[str] | None,
-        typer.Option(help="Of all runs, as 6.7deg, or of run 05, as 05=6.2deg. Default: what the rates add up to."),
+        typer.Option(
+            help="Release tilt of all runs, as 6.7deg, or of run 05, as 05=6.2deg. Default: the integral of the rates."
+        ),
     ] = None,
     turned: Annotated[
         str | None,
@@ -49,32 +51,33 @@ def new(
         str | None, typer.Option(help="Columns of time and rates, by name or place, as t,gx,gy,gz or 1,5,6,7.")
     ] = None,
     unit: Annotated[
-        str | None, typer.Option(help="Of the rates: rad_s, deg_s, mrad_s, mdeg_s. Default: as written, or measured.")
+        str | None,
+        typer.Option(help="Unit of the rates: rad_s, deg_s, mrad_s, mdeg_s. Default: as written, or measured."),
     ] = None,
     rate: Annotated[
         float | None,
-        typer.Option(parser=typed.frequency, metavar="HZ", help="Samples a second, where the files hold no time."),
+        typer.Option(parser=typed.frequency, metavar="HZ", help="Samples per second, where the files hold no time."),
     ] = None,
     bandwidth: Annotated[
         float | None,
         typer.Option(
             parser=typed.frequency,
             metavar="HZ",
-            help="Of the gyroscope, from its data sheet, as 100Hz. Default: three tenths of the sample rate.",
+            help="Bandwidth of the gyroscope, from its data sheet, as 100Hz. Default: three tenths of the sample rate.",
         ),
     ] = None,
     four_points: Annotated[
         bool, typer.Option("--four-points", help="The baseline stands on its four corners, not on eight points.")
     ] = False,
-    yes: Annotated[bool, typer.Option("--yes", "-y", help="Take what is proposed; ask nothing.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of words.")] = False,
+    yes: Annotated[bool, typer.Option("--yes", "-y", help="Ask nothing; take what is proposed.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Make an experiment folder from the files of a logger.
 
     Finds delimiter, decimal mark, header, units, sample rate, the release, the zero of the gyroscope and its noise,
-    which axis is which, the tilts and the turned runs; holds out one run in four. Reads exports of phyphox, Sensor
-    Logger, Xsens, Arduino with an MPU, and tables with a header. On a terminal it asks for what is not stated; mass and
-    sides are all that it needs. What it found stands in the experiment.toml, to be changed there.
+    which axis is which, the tilts and the turned runs. Holds out one run in four. Reads exports of phyphox, Sensor
+    Logger, Xsens, Arduino with an MPU, and tables with a header. Only mass and sides must be stated; on a terminal the
+    command asks for them. All that it found is written to experiment.toml, and can be changed there.
 
     \b
     Example:

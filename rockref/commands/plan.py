@@ -1,39 +1,46 @@
 """`rockref plan`: what a campaign could show before it is made."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from rockref.commands._results import PageFolder, only_for
+from rockref.commands._options import AsJson, Full, JsonFile, PageFolder, StartModel, Threads, Verbose
+from rockref.commands._results import only_for
 
 
 def plan(
-    model: Annotated[str, typer.Option("--model", "-m", help="table_3_1, four_points or a model.toml.")] = "table_3_1",
+    model: StartModel = "table_3_1",
     runs: Annotated[
-        str, typer.Option("--runs", help="Tilts in rad; x3 repeats, t turns the block: 0.117x3,0.098,0.117t.")
+        str, typer.Option("--runs", help="Planned releases, by tilt in rad: x3 repeats a release, t turns the block.")
     ] = "0.117x3,0.098,0.117t",
     effect: Annotated[
         list[str] | None,
-        typer.Option("--effect", "-e", help="Candidate, id or file.py:Class; may be repeated. Default: the catalogue."),
+        typer.Option(
+            "--effect",
+            "-e",
+            help="An effect to detect, id or file.py:Class; may be repeated. Default: the whole catalogue.",
+        ),
     ] = None,
     outcomes: Annotated[
-        str | None, typer.Option("--outcomes", help="Two probabilities of falling that tests are to tell: 0.5,0.6.")
+        str | None,
+        typer.Option("--outcomes", help="Two probabilities of falling that tests should tell apart, as 0.5,0.6."),
     ] = None,
-    tests: Annotated[int | None, typer.Option(min=1, help="With --outcomes: tests a side that there can be.")] = None,
-    output: Annotated[Path | None, typer.Option("--output", "-o", help="Write the JSON object there too.")] = None,
+    tests: Annotated[
+        int | None, typer.Option(min=1, help="With --outcomes: how many tests of either kind are possible.")
+    ] = None,
+    output: JsonFile = None,
     report: PageFolder = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the simulated noise.")] = 0,
-    workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
-    full: Annotated[bool, typer.Option("--full", help="All tables, not only the answer.")] = False,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Every stage and the optimiser's lines.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of tables.")] = False,
+    workers: Threads = None,
+    full: Full = False,
+    verbose: Verbose = False,
+    as_json: AsJson = False,
 ) -> None:
-    """Foretell, by simulation, which effects a planned campaign could detect and which it would confuse.
+    """Predict by simulation which effects planned runs could detect, and which they would confuse.
 
-    Says which further run would help most, and whether repeats of one release or varied releases would show more.
-    With --outcomes: how many tests on a shake table tell two probabilities of falling apart, and nothing else.
-    Exit code 0, or 2 if the input cannot be used.
+    Says which further run would help most, and whether repeats of one release or varied releases would show more. With
+    --outcomes it says only how many tests on a shake table tell two probabilities of falling apart. Exit code 0, or 2
+    if the input cannot be used.
 
     \b
     Example:

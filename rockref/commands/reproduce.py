@@ -13,36 +13,42 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import folder_name, only_for
+from rockref.commands._options import AsJson, Processes, folder_name
+from rockref.commands._results import only_for
 
 
 def reproduce(
-    what: Annotated[str, typer.Argument(metavar="STUDY|FOLDER", help="The study, or the folder to make `source` in.")],
+    what: Annotated[
+        str, typer.Argument(metavar="STUDY|FOLDER", help="Name of the study; or the folder in which `source` is made.")
+    ],
     folder: Annotated[
         Path | None,
-        typer.Argument(parser=folder_name, metavar="FOLDER", help="The folder that a named study is made in."),
+        typer.Argument(parser=folder_name, metavar="FOLDER", help="Folder in which the named study is made."),
     ] = None,
     data: Annotated[
-        Path | None, typer.Option("--data", help="The measured input of the study; by default the shipped one.")
+        Path | None, typer.Option("--data", help="Measured input of the study. Default: the shipped one.")
     ] = None,
-    workers: Annotated[int | None, typer.Option(min=1, help="Local processes; default: one per core.")] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Every part with a tiny budget, to see it work.")] = False,
+    workers: Processes = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Run every part with a tiny budget, to try it.")] = False,
     only: Annotated[
         list[str] | None,
-        typer.Option("--only", help="A part of the study source, as twins, on a page of its own; may be repeated."),
+        typer.Option(
+            "--only", help="Study source: make only this part, as twins, on a page of its own. May be repeated."
+        ),
     ] = None,
     signals: Annotated[
-        int | None, typer.Option(min=20, help="Of the study earthquake: signals in all; by default 2000.")
+        int | None, typer.Option(min=20, help="Study earthquake: number of signals. Default: 2000.")
     ] = None,
-    step: Annotated[float | None, typer.Option(help="Of the study earthquake: time step in seconds; 2e-5.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    step: Annotated[float | None, typer.Option(help="Study earthquake: time step in seconds. Default: 2e-5.")] = None,
+    as_json: AsJson = False,
 ) -> None:
-    """Make every figure and table of a published study again, beside what it states, on one page.
+    """Reproduce the figures and tables of a published study on one page, beside the published values.
 
     Studies: source (the eight-point model: response, sensitivity, identification, twins, the models that failed);
     cube (measured tosses of a cube, from --data or the folder that ROCKREF_CUBE_TOSSES names); earthquake (the
     calibrated block beside its symmetric twin under artificial signals).
-    What is done is kept in the folder: interrupted at any moment, the same command goes on. `source` takes a quarter of
+
+    Finished parts are kept in the folder: after an interruption the same command goes on. `source` takes a quarter of
     an hour on two cores with the compiled engine.
 
     \b

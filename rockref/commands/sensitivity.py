@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._models import OwnEffects
-from rockref.commands._results import folder_option, in_json, say_written
+from rockref.commands._options import AsJson, OwnEffects, StartModel, Threads, folder_option
+from rockref.commands._results import in_json, say_written
 
 # decided: the rates of a thousand runs of 6 s at 2 kHz fill 0.3 GB, and a standard deviation is known to 2 %.
 MOST = 1_000
@@ -16,22 +16,22 @@ def sensitivity(
     output: Annotated[
         Path, folder_option("--output", "-o", help="Folder for the figures and the result; made if it is not there.")
     ] = Path("sensitivity"),
-    model: Annotated[str, typer.Option("--model", "-m", help="table_3_1 or a model.toml.")] = "table_3_1",
+    model: StartModel = "table_3_1",
     effect: OwnEffects = None,
     step: Annotated[
         list[float] | None,
-        typer.Option("--step", help="A time step in s; may be repeated. Default: 1e-5, 3e-6, 1e-6, 3e-7."),
+        typer.Option("--step", help="A time step in seconds; may be repeated. Default: 1e-5, 3e-6, 1e-6, 3e-7."),
     ] = None,
-    duration: Annotated[float, typer.Option(min=1.6, help="Length of the runs in s.")] = 6.0,
-    trials: Annotated[int, typer.Option(min=2, max=MOST, help="Chromosomes with changed last digits.")] = 10,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of what is drawn.")] = 0,
-    workers: Annotated[int | None, typer.Option(min=1, help="Threads; default: one per core.")] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the result as one JSON object.")] = False,
+    duration: Annotated[float, typer.Option(min=1.6, help="Length of the runs in seconds.")] = 6.0,
+    trials: Annotated[int, typer.Option(min=2, max=MOST, help="Parameter sets with changed last digits.")] = 10,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all random draws.")] = 0,
+    workers: Threads = None,
+    as_json: AsJson = False,
 ) -> None:
-    """Show how far responses agree when the time step, the last digits or the release angle change a little.
+    """Show how long responses agree when the time step, a last digit or the release angle changes a little.
 
-    Writes the figures in the manner of the source's 3.5 to 3.7, until when responses agree, the significant digits of
-    Table 3.1 by their definition, and by how much a small difference grows from one main impact to the next.
+    Writes figures like the source's 3.5 to 3.7, the times until which responses agree, the significant digits of Table
+    3.1, and the factor by which a small difference grows from one main impact to the next.
 
     \b
     Example:

@@ -5,40 +5,47 @@ from typing import Annotated
 
 import typer
 
-from rockref.commands._results import PageFolder, folder_option
+from rockref.commands._options import AddedEffects, AsJson, DaskAddress, PageFolder, Threads, folder_option
 
 
 def shake(
     model: Annotated[str, typer.Argument(metavar="MODEL", help="table_3_1, four_points, or a model.toml.")],
     records: Annotated[
-        list[str], typer.Argument(metavar="RECORDS", help="Files of motion; + joins the components of one.")
+        list[str],
+        typer.Argument(
+            metavar="RECORDS", help="Files of ground motion; + joins the components of one motion, as x.AT2+y.AT2."
+        ),
     ],
     output: Annotated[
-        Path, folder_option("--output", "-o", help="Folder for the table; the same command goes on there.")
+        Path,
+        folder_option("--output", "-o", help="Folder for the table; after an interruption the same command goes on."),
     ],
-    runs: Annotated[int, typer.Option(min=1, help="How many runs.")] = 1000,
+    runs: Annotated[int, typer.Option(min=1, help="Number of runs.")] = 1000,
     scale: Annotated[str, typer.Option(help="Factors on the records, separated by commas.")] = "1",
     rotate: Annotated[float, typer.Option(help="Turn of the records about z, from x to y, in degrees.")] = 0.0,
-    heading: Annotated[float, typer.Option(min=0, help="Placing: turn to either side, uniform, in degrees.")] = 0.0,
-    feet: Annotated[float, typer.Option(min=0, help="Heights of the feet: standard deviation in metres.")] = 0.0,
-    friction: Annotated[float, typer.Option(min=0, help="Friction: standard deviation of its logarithm.")] = 0.0,
+    heading: Annotated[
+        float,
+        typer.Option(min=0, help="Random heading of the block: at most this turn to either side, uniform, in degrees."),
+    ] = 0.0,
+    feet: Annotated[float, typer.Option(min=0, help="Random heights of the feet: standard deviation in metres.")] = 0.0,
+    friction: Annotated[float, typer.Option(min=0, help="Random friction: standard deviation of its logarithm.")] = 0.0,
     step: Annotated[str, typer.Option(help="Time step in seconds, or several, separated by commas.")] = "1e-5",
-    after: Annotated[float, typer.Option(min=0, help="Seconds after the record, unless a block rests before.")] = 10.0,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of all draws.")] = 0,
-    workers: Annotated[int | None, typer.Option(min=1, help="Threads; all cores by default.")] = None,
-    dask: Annotated[str | None, typer.Option(help="Address of a Dask scheduler instead (extra `distributed`).")] = None,
+    after: Annotated[
+        float, typer.Option(min=0, help="Seconds that a run goes on after the record, unless the block comes to rest.")
+    ] = 10.0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all random draws.")] = 0,
+    workers: Threads = None,
+    dask: DaskAddress = None,
     report: PageFolder = None,
-    effect: Annotated[
-        list[str] | None, typer.Option("--effect", help="Add an effect: id:key=value,key=value. May be repeated.")
-    ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of lines.")] = False,
+    effect: AddedEffects = None,
+    as_json: AsJson = False,
 ) -> None:
     """Run a block many times on a shaken plate and write the outcome of each run.
 
-    Every run starts at rest. Records and factors are taken in turn; placing, feet and friction are drawn for each run.
+    Every run starts at rest. Records and factors are taken in turn; heading, feet and friction are drawn for each run.
     The same seed gives the same table, whatever the workers and the interruptions. The table has a row for each run:
     whether the block fell, largest tilt, slide and twist, first uplift, impacts, and the displacement at the end. The
-    page of --report has fragility, maps of what fell, distributions, and a replay of chosen runs.
+    page of --report shows fragility, overturning maps, distributions of maxima, and a replay of chosen runs.
 
     \b
     Example:
@@ -46,7 +53,7 @@ def shake(
       rockref shake model.toml a.AT2+b.AT2 c.AT2+d.AT2 --runs 1000 --friction 0.1 -o shaken --workers 2
       rockref shake table_3_1 record.csv --runs 200 --step 1e-5,2e-5 -o shaken --report report
     """
-    from rockref.commands._models import known_files, named_model, of_file, with_effects
+    from rockref.commands._models import model_with, of_file
     from rockref.commands._progress import progress
     from rockref.commands._results import in_json
     from rockref.commands._shaking import motion, numbers
@@ -56,9 +63,8 @@ def shake(
     from rockref.shake.ensemble import BLOCK, Draws, Ensemble, run_ensemble
     from rockref.shake.ensemble_store import EnsembleFolder
 
-    known_files(effect)
     page = usable_folder(report)
-    chosen = with_effects(named_model(model), effect or [])
+    chosen = model_with(model, effect)
     motions = tuple(motion(record, rotate=rotate) for record in records)
     factors = tuple(numbers(scale, "--scale"))
     steps = tuple(numbers(step, "--step"))

@@ -5,7 +5,8 @@ from typing import Annotated, Any
 
 import typer
 
-from rockref.commands._results import PageFolder, in_json
+from rockref.commands._options import AddedEffects, AsJson, Engine, PageFolder, StartModel
+from rockref.commands._results import in_json
 
 # decided: with 50 rows a second the main impacts of the block of Table 3.1 are off by 1e-4 s, with 20 by 7e-4 s, and
 # with one they are others.
@@ -14,41 +15,39 @@ LEAST_RATE = 50.0
 
 def simulate(
     given: Annotated[str | None, typer.Argument(metavar="MODEL", hidden=True)] = None,
-    model: Annotated[str, typer.Option("--model", "-m", help="table_3_1, four_points, or a model.toml.")] = "table_3_1",
+    model: StartModel = "table_3_1",
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Table to write, .csv or .csv.gz; without it only the summary."),
+        typer.Option("--output", "-o", help="Table to write, .csv or .csv.gz. Without it only the summary is printed."),
     ] = None,
     out: Annotated[Path | None, typer.Option("--out", hidden=True)] = None,
     report: PageFolder = None,
     duration: Annotated[
         float | None,
-        typer.Option(
-            help="Seconds from the release (default: 1.5), or of a shaken run (default: the record and 10 s)."
-        ),
+        typer.Option(help="Seconds to simulate. Default: 1.5; with --base, the record and 10 s more."),
     ] = None,
     step: Annotated[float, typer.Option(help="Time step in seconds; the source's is 1e-5.")] = 1e-5,
-    rate: Annotated[float, typer.Option(help="Rows of the table a second.")] = 2000.0,
-    engine: Annotated[str, typer.Option(help="auto, numpy (the law itself) or numba (compiled).")] = "auto",
-    effect: Annotated[
-        list[str] | None, typer.Option("--effect", "-e", help="Add an effect: id:key=value,key=value. May be repeated.")
-    ] = None,
+    rate: Annotated[float, typer.Option(help="Rows of the table per second.")] = 2000.0,
+    engine: Engine = "auto",
+    effect: AddedEffects = None,
     base: Annotated[
         list[str] | None,
-        typer.Option("--base", help="Shake the plate on which the block stands: a file of its motion."),
+        typer.Option(
+            "--base", help="File of the motion of the plate on which the block stands; repeat it to join components."
+        ),
     ] = None,
     scale: Annotated[float, typer.Option(help="Factor on the record.")] = 1.0,
     rotate: Annotated[float, typer.Option(help="Turn of the record about z, from x to y, in degrees.")] = 0.0,
     turned: Annotated[bool, typer.Option("--turned", help="Turn the block by 180 degrees before the release.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of lines.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Simulate a release and write time, body rates, pose, point forces and contacts.
 
-    The columns carry their units. Rates are those of an ideal gyroscope, unless the model has sensor effects. A block
-    that overturns is no error: the summary says so.
+    The names of the columns carry the units. Rates are those of an ideal gyroscope, unless the model has sensor
+    effects. A block that overturns is no error: the summary says so.
 
-    With --base the block stands on a plate that moves. The summary then gives the extremes of the run, which ends when
-    the block has fallen or rests after the record. The rows of --output go on for the whole duration.
+    With --base the block stands on a plate that moves. The summary then gives the extremes of the run. The run ends
+    when the block has fallen, or rests after the record; the rows of --output go on for the whole duration.
 
     \b
     Example:
@@ -65,7 +64,7 @@ def simulate(
         return simulate_shaken(model, "+".join(base), scale, rotate, effect or [], rows, options, as_json)
     duration = 1.5 if duration is None else duration
     from rockref import api
-    from rockref.commands._models import known_files, named_model, of_file, with_effects
+    from rockref.commands._models import model_with, of_file
     from rockref.commands._progress import progress
     from rockref.report.output import usable_folder
     from rockref.report.tables.response_table import as_measured, check_name, overturned_at, write_response
@@ -75,8 +74,7 @@ def simulate(
     if output is not None:
         check_name(output)
     folder = usable_folder(report)
-    known_files(effect)
-    chosen = with_effects(named_model(model), effect or [])
+    chosen = model_with(model, effect)
     with progress("simulating") as ahead, of_file(model):
         response = api.simulate(
             chosen, duration=duration, step=step, output_rate=rate, engine=engine, progress=ahead, turned=turned

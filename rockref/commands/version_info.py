@@ -1,18 +1,19 @@
 """`rockref doctor`: what this machine is, and whether its arithmetic is the one that the bits are promised for."""
 
 import json
-from typing import Annotated
 
 import typer
+
+from rockref.commands._options import AsJson
 
 PLAIN = "The arithmetic is plain IEEE 754: runs have the bits of the shipped vectors."
 OTHER = "The arithmetic is not plain IEEE 754: runs differ in their last bits; compare by error bars."
 
 
 def doctor(
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object instead of lines.")] = False,
+    as_json: AsJson = False,
 ) -> None:
-    """Print versions and machine, and test the arithmetic (a few seconds).
+    """Print the versions and the machine, and test its arithmetic (a few seconds).
 
     Exit code 1 if the arithmetic is not plain IEEE 754: then trajectories differ in bits from the shipped vectors.
 

@@ -222,6 +222,8 @@ def test_counts_that_fill_the_memory_are_refused(capsys, tmp_path, monkeypatch, 
         ("import", "contactnets", "", "-o", "tosses"),
         ("simulate", ""),
         ("plan", "--model", " "),
+        ("diagnose", "nowhere", "--model", ""),
+        ("add", "nowhere", "gyro_scale", "--model", ""),
     ],
     ids=" ".join,
 )
