@@ -13,6 +13,7 @@ from rockref import InputError, Model, cli
 from rockref.conformance.backends.json_lines import answer
 from rockref.conformance.backends.law import NumpyEngine
 from rockref.effects import catalogue
+from tests.refusal import refused
 from tests.shipped import two_runs
 from tests.tosses import write_tosses
 
@@ -173,9 +174,8 @@ def test_a_file_is_itself_by_whatever_path(capsys, folder):
 )
 def test_other_places_for_a_file_run_none_either(folder, line, code):
     (folder / "MODEL").write_text(f"[effects{line if line.startswith('.') else '.' + line[1:]}\n", encoding="utf-8")
-    with pytest.raises(InputError) as found:
-        Model.load("MODEL")
-    assert found.value.code == code and not (folder / "trace").exists()
+    error = refused(Model.load, "MODEL")
+    assert error.code == code and not (folder / "trace").exists()
 
 
 def test_an_effect_of_another_id_is_refused(folder):
@@ -192,9 +192,8 @@ def test_what_is_to_be_typed_is_one_word_of_a_shell(folder):
         shutil.copy(EXAMPLE, path)
         spec = json.dumps(f"{path}:EddyBrake")
         (folder / "MODEL").write_text(f"[effects.eddy_brake]\nfile = {spec}\n", encoding="utf-8")
-        with pytest.raises(InputError) as found:
-            Model.load("MODEL")
-        assert f"--effect {typed};" in found.value.cure
+        error = refused(Model.load, "MODEL")
+        assert f"--effect {typed};" in error.cure
 
 
 def test_in_python_it_is_an_argument_or_was_named_before(folder):

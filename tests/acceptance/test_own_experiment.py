@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rockref import InputError
 from rockref.measure import load_experiment
 from rockref.measure.signals.impacts import main_impacts
+from tests.refusal import refused
 from tests.shipped import program
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -179,9 +179,8 @@ def test_a_mistake_is_told_as_the_page_says(code, mistake, converted, tmp_path):
     shutil.copytree(converted, folder)
     mistake(folder)
     if code.startswith("E"):
-        with pytest.raises(InputError) as refused:
-            load_experiment(folder)
-        assert refused.value.code == code
+        error = refused(load_experiment, folder)
+        assert error.code == code
     else:
         assert code in {notice.code for notice in load_experiment(folder).notices}
 

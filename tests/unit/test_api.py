@@ -9,12 +9,12 @@ import rockref
 from rockref import InputError, Model
 from rockref.model.parameters import PROPERTIES, chromosome_54, point_properties
 from tests import physics
+from tests.refusal import refused
 
 
 def code_of(call):
-    with pytest.raises(InputError) as refused:
-        call()
-    return refused.value.code, refused.value.where
+    error = refused(call)
+    return error.code, error.where
 
 
 #: One model for every kind of array that a model may have.
@@ -199,14 +199,12 @@ class TestEffectsInWords:
 
     @pytest.mark.parametrize("effects", [3, [3], {"rolling_resistance": 3e-4}, None])
     def test_wrong_types_are_refused(self, effects):
-        with pytest.raises(InputError) as refused:
-            Model(effects=effects)
-        assert refused.value.code == "E-TYPE"
+        error = refused(Model, effects=effects)
+        assert error.code == "E-TYPE"
 
     def test_parameters_that_are_none(self):
-        with pytest.raises(InputError) as refused:
-            Model(parameters={"K_N": 6e7})
-        assert refused.value.code == "E-TYPE"
+        error = refused(Model, parameters={"K_N": 6e7})
+        assert error.code == "E-TYPE"
 
     def test_a_model_says_itself_in_a_line(self):
         model = Model(effects="rolling_resistance:lever=3e-4")
@@ -220,6 +218,5 @@ def test_a_model_says_itself_in_a_few_lines():
 
 
 def test_an_argument_that_a_run_does_not_know_is_refused_with_the_nearest():
-    with pytest.raises(InputError) as refused:
-        rockref.simulate(Model(), duration=0.01, turnt=True)
-    assert (refused.value.code, refused.value.cure) == ("E-KEY", "Did you mean 'turned'?")
+    error = refused(rockref.simulate, Model(), duration=0.01, turnt=True)
+    assert (error.code, error.cure) == ("E-KEY", "Did you mean 'turned'?")

@@ -15,15 +15,18 @@ def run(capsys, *arguments):
     return end.value.code, capsys.readouterr()
 
 
-def test_an_effect_that_does_not_exist_is_refused(capsys, tmp_path):
-    code, printed = run(capsys, "make", tmp_path / "b", "--seed", 1, "--effects", "none,gyro_scal")
-    assert code == 2 and "gyro_scal" in printed.err and not (tmp_path / "b").exists()
-
-
-@pytest.mark.parametrize("effects", ["", " , "])
-def test_no_cases_are_no_blind_test(capsys, tmp_path, effects):
-    code, printed = run(capsys, "make", tmp_path / "b", "--seed", 1, "--effects", effects)
-    assert code == 2 and "[E-EFFECT]" in printed.err and not (tmp_path / "b").exists()
+@pytest.mark.parametrize(
+    "options, said",
+    [
+        (("--effects", "none,gyro_scal"), "gyro_scal"),
+        (("--effects", ""), "[E-EFFECT]"),
+        (("--effects", " , "), "[E-EFFECT]"),
+        (("--near", 0), "[E-RANGE]"),
+    ],
+)
+def test_an_unknown_effect_and_no_case_at_all_are_refused(capsys, tmp_path, options, said):
+    code, printed = run(capsys, "make", tmp_path / "b", "--seed", 1, *options)
+    assert code == 2 and said in printed.err and not (tmp_path / "b").exists()
 
 
 def test_a_file_in_the_place_of_the_folder_is_refused_with_what_to_do(capsys, tmp_path):
@@ -63,11 +66,6 @@ def test_other_blocks_are_asked_for_by_number(capsys, tmp_path, monkeypatch):
     run(capsys, "make", tmp_path, "--seed", 7, "--near", 1, "--other", 2, "--effects", "none")
     assert [numbers for numbers, _ in asked] == [(6, 3), (0, 4), (1, 2)]
     assert asked[0][1]["cases"] is None and sorted(c.block for c in asked[2][1]["cases"]) == ["near", "other", "other"]
-
-
-def test_no_case_at_all_is_refused(capsys, tmp_path):
-    code, printed = run(capsys, "make", tmp_path / "b", "--seed", 1, "--near", 0)
-    assert code == 2 and "[E-RANGE]" in printed.err and not (tmp_path / "b").exists()
 
 
 def found_with(value, met, **more):

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from rockref import InputError
 from rockref.effects.feet import foot_numbers, of_foot
+from tests.refusal import refused
 from tests.unit.effects.bodies import points_at
 
 
@@ -22,9 +22,8 @@ def test_a_point_belongs_to_the_foot_that_its_name_begins_with():
 @pytest.mark.parametrize("name", ["0ext", "5ext", "left", "ext1", ""])
 def test_a_name_without_a_foot_is_refused(name):
     for ask in (foot_numbers, lambda points, effect: of_foot(points, (1.0, 2.0, 3.0, 4.0), effect)):
-        with pytest.raises(InputError) as found:
-            ask(named("1ext", name), "uneven_foot_damping")
-        error = found.value
+        found = refused(ask, named("1ext", name), "uneven_foot_damping")
+        error = found
         assert (error.code, error.where) == ("E-FEET", "effect uneven_foot_damping")
         assert error.what == f"contact point {name!r} belongs to no foot"
         assert error.cure == 'Names of points begin with the number of their foot, as in "1ext" and "3int".'

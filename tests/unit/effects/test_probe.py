@@ -11,6 +11,7 @@ from rockref.effects.guard import AXES
 from rockref.effects.probe import absent_arguments, probe, probe_absent, same, sample_problem
 from rockref.model.integrator import evaluate_contact
 from rockref.model.problem import as_arrays, stack
+from tests.refusal import refused
 
 
 def alike(a, b):
@@ -126,9 +127,8 @@ def test_a_plate_that_forgets_the_runs_beside_it_is_told(wrong):
             OnlyTwo.runs = problem.batch
             return {}
 
-    with pytest.raises(InputError) as found:
-        probe(OnlyTwo(wrong), "mine.py:Mine")
-    error = found.value
+    found = refused(probe, OnlyTwo(wrong), "mine.py:Mine")
+    error = found
     assert (error.code, error.where) == ("E-EFFECT", "mine.py:Mine.plate_motion")
     assert (error.what, error.cure) == (f"{wrong} has shape (3,), the law's has (2, 3)", AXES)
 
@@ -153,9 +153,8 @@ class Leaning(Effect):
 
 
 def test_what_acts_while_it_is_absent_is_told_with_the_values_at_which_it_is():
-    with pytest.raises(InputError) as found:
-        probe_absent(Leaning(), "mine.py:Mine")
-    error = found.value
+    found = refused(probe_absent, Leaning(), "mine.py:Mine")
+    error = found
     assert (error.code, error.where) == ("E-EFFECT", "mine.py:Mine.sensor")
     assert error.what == "changes something where the effect is absent (c=0, d=1)"
     assert error.cure == "Let the parameters that bring it in multiply what it adds."

@@ -11,6 +11,7 @@ from rockref.effects.probe import probe_absent, sample_problem
 from rockref.effects.scale import prior_of
 from rockref.effects.user import load_user
 from rockref.model.integrator import evaluate_contact
+from tests.refusal import refused
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/my_effect.py"
 HEAD = """
@@ -81,9 +82,8 @@ def test_a_model_file_that_names_no_file_is_explained(tmp_path, value, said):
     folder = tmp_path / ("deep" * 30)
     folder.mkdir()
     (folder / "model.toml").write_text(f"[effects.mine]\nfile = {value}\n", encoding="utf-8")
-    with pytest.raises(InputError) as found:
-        Model.load(folder / "model.toml")
-    assert said in str(found.value)
+    error = refused(Model.load, folder / "model.toml")
+    assert said in str(error)
 
 
 MISTAKES = {
@@ -167,11 +167,10 @@ MISTAKES = {
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_mistakes_in_hooks_are_explained(tmp_path, mistake):
     text, said = MISTAKES[mistake]
-    with pytest.raises(InputError) as found:
-        load_user(written(tmp_path, text))
-    assert found.value.code == "E-EFFECT"
-    assert said in str(found.value)
-    assert "mine.py" in str(found.value)
+    error = refused(load_user, written(tmp_path, text))
+    assert error.code == "E-EFFECT"
+    assert said in str(error)
+    assert "mine.py" in str(error)
 
 
 HEADS = {
@@ -209,10 +208,9 @@ HEADS = {
 @pytest.mark.parametrize("mistake", HEADS)
 def test_mistakes_in_the_class_are_explained(tmp_path, mistake):
     head, said = HEADS[mistake]
-    with pytest.raises(InputError) as found:
-        load_user(written(tmp_path, HOOK, head), taken=catalogue.EFFECTS | catalogue.OF_TOSSES)
-    assert found.value.code == "E-EFFECT"
-    assert said in str(found.value)
+    error = refused(load_user, written(tmp_path, HOOK, head), taken=catalogue.EFFECTS | catalogue.OF_TOSSES)
+    assert error.code == "E-EFFECT"
+    assert said in str(error)
 
 
 @pytest.mark.parametrize(
@@ -228,10 +226,9 @@ def test_mistakes_in_the_class_are_explained(tmp_path, mistake):
     ],
 )
 def test_a_file_that_does_not_run_is_explained(tmp_path, text, said):
-    with pytest.raises(InputError) as found:
-        load_user(written(tmp_path, text, ""))
-    assert found.value.code == "E-FILE"
-    assert said in str(found.value)
+    error = refused(load_user, written(tmp_path, text, ""))
+    assert error.code == "E-FILE"
+    assert said in str(error)
 
 
 def test_a_file_that_is_not_there(tmp_path):

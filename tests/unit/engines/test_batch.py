@@ -12,8 +12,8 @@ from rockref.effects.catalogue import EFFECTS
 from rockref.engines.compiled import batch, engine
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled.batch import from_problems, run_batch, run_reduced
-from rockref.model.errors import InputError
 from tests.property.engines.problems import similar_problem
+from tests.refusal import refused
 
 MODEL = rockref.Model.table_3_1()
 
@@ -118,17 +118,14 @@ def test_restart_from_a_recorded_row_with_forces(problems):
 
 
 def test_problems_that_do_not_fit_together_are_refused(problems):
-    with pytest.raises(InputError) as error:
-        from_problems([problems[0], problems[1].replace(step=5e-6)])
-    assert error.value.code == "E-STACK" and error.value.where == "step"
-    with pytest.raises(InputError) as error:
-        from_problems([problems[0], rockref.Model.four_points().problem(0.04)])
-    assert error.value.where == "points"
+    error = refused(from_problems, [problems[0], problems[1].replace(step=5e-6)])
+    assert error.code == "E-STACK" and error.where == "step"
+    error = refused(from_problems, [problems[0], rockref.Model.four_points().problem(0.04)])
+    assert error.where == "points"
 
 
 @pytest.mark.parametrize("key", ["body", "props", "memory", "effects", "state", "forces"])
 def test_arrays_of_a_wrong_shape_are_refused(problems, key):
     batch = from_problems(problems)
-    with pytest.raises(InputError) as error:
-        run_batch(replace(batch, **{key: getattr(batch, key)[..., :-1]}))
-    assert error.value.code == "E-SHAPE" and key in error.value.where
+    error = refused(run_batch, replace(batch, **{key: getattr(batch, key)[..., :-1]}))
+    assert error.code == "E-SHAPE" and key in error.where

@@ -14,10 +14,11 @@ from rockref import engines
 from rockref.effects.catalogue import EFFECTS
 from rockref.effects.support.compliant_support import CompliantSupport
 from rockref.engines.compiled import engine, kernel, slots, sources
-from rockref.model.errors import InputError, NumericalError
+from rockref.model.errors import NumericalError
 from rockref.model.problem import stack
 from rockref.model.simulate import simulate as law
 from tests.property.engines.problems import inertia, similar_problem, state
+from tests.refusal import refused
 
 MODEL = rockref.Model.table_3_1()
 #: A plate that bounces and pitches, so that all that a plate remembers is at work.
@@ -98,9 +99,8 @@ def test_start_without_numbers_is_refused_as_the_law_refuses_it(what):
     a[0] = np.nan
     problem = problem.replace(start=replace(problem.start, **{what: a}))
     for run in (law, engine.simulate):
-        with pytest.raises(InputError) as error:
-            run(problem)
-        assert error.value.code == "E-START"
+        error = refused(run, problem)
+        assert error.code == "E-START"
 
 
 def lost_alike(problem) -> str:
@@ -127,9 +127,8 @@ def test_a_step_that_turns_too_far_is_refused_as_the_law_refuses_it():
     problem = MODEL.problem(1e-3)
     problem = problem.replace(start=replace(problem.start, W=np.array([0.0, 0.0, 4e5])))
     for run in (law, engine.simulate):
-        with pytest.raises(InputError) as error:
-            run(problem)
-        assert (error.value.code, error.value.where) == ("E-ANGLE", "step 1 (t = 1e-05 s)")
+        error = refused(run, problem)
+        assert (error.code, error.where) == ("E-ANGLE", "step 1 (t = 1e-05 s)")
 
 
 def test_a_turn_that_overflows_is_lost_numbers_at_its_step():
@@ -170,18 +169,16 @@ def test_auto_takes_the_compiled_step_where_it_can():
 
 @pytest.mark.parametrize("ask", [{"engine": "fortran"}, {"engine": "numba", "dtype": np.float32}])
 def test_what_cannot_be_had_is_refused(ask):
-    with pytest.raises(InputError) as error:
-        rockref.simulate(MODEL, 0.01, **ask)
-    assert error.value.code == "E-ENGINE"
+    error = refused(rockref.simulate, MODEL, 0.01, **ask)
+    assert error.code == "E-ENGINE"
 
 
 def test_without_numba_numpy_runs_and_asking_for_it_says_what_to_install(monkeypatch):
     monkeypatch.setattr(engines, "has_numba", lambda: False)
     problem = MODEL.problem(1e-3)
     assert engines.chosen(problem, "auto") == "numpy"
-    with pytest.raises(InputError) as error:
-        engines.run(problem, "numba")
-    assert "rockref[fast]" in error.value.cure
+    error = refused(engines.run, problem, "numba")
+    assert "rockref[fast]" in error.cure
 
 
 def test_compiled_code_is_found_again_by_the_next_process():

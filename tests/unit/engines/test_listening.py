@@ -15,8 +15,8 @@ from rockref.engines.compiled import engine, slots
 from rockref.engines.compiled.batch import from_problems, run_batch
 from rockref.engines.heard import Listening
 from rockref.engines.listening import run_listening
-from rockref.model.errors import InputError
 from tests.property.engines.problems import similar_problem
+from tests.refusal import refused
 
 ALL = {**EFFECTS, **OF_TOSSES}
 #: Those without `power` and `exp`, whose last bit NumPy and the C library need not share.
@@ -128,14 +128,12 @@ def test_a_model_that_listens_to_another_s_record_stays_near_it():
     ],
 )  # fmt: skip
 def test_what_cannot_be_heard_is_refused(change, code):
-    with pytest.raises(InputError) as error:
-        run_listening([kicked(TABLE)] * 2, listening(2, **change))
-    assert error.value.code == code and next(iter(change)) in error.value.where
+    error = refused(run_listening, [kicked(TABLE)] * 2, listening(2, **change))
+    assert error.code == code and next(iter(change)) in error.where
 
 
 def test_engines_that_cannot_run_a_batch_are_refused():
     runs = [kicked(TABLE)]
     for batch, kind in [(from_problems(runs), "numpy"), (runs, "fortran")]:
-        with pytest.raises(InputError) as error:
-            run_listening(batch, listening(1), engine=kind)
-        assert error.value.code == "E-ENGINE"
+        error = refused(run_listening, batch, listening(1), engine=kind)
+        assert error.code == "E-ENGINE"

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from rockref.jobs.checkpoints import Pieces
-from rockref.model.errors import InputError
+from tests.refusal import refused
 
 
 def test_a_piece_is_made_once_and_again_for_another_budget(tmp_path):
@@ -41,6 +41,5 @@ def test_what_was_done_before_an_interruption_is_not_done_again(tmp_path):
 
 def test_a_broken_piece_is_named(tmp_path):
     (tmp_path / "a.json").write_text("{")
-    with pytest.raises(InputError) as error:
-        Pieces(tmp_path, {}).once("a", dict)
-    assert error.value.code == "E-FILE" and "a.json" in error.value.where
+    error = refused(Pieces(tmp_path, {}).once, "a", dict)
+    assert error.code == "E-FILE" and "a.json" in error.where

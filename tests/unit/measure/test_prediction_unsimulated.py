@@ -14,6 +14,7 @@ from rockref.measure import prediction
 from rockref.measure.prediction import FINE_RATE, STEP, Prediction, gyro_of, problem_of, solve
 from rockref.measure.records.release import Experiment, Gyro, Run
 from rockref.model.errors import InputError
+from tests.refusal import refused
 
 GYRO = Gyro(1000.0, 1e-3, 300.0, 0.0)
 MODEL = Model.table_3_1()
@@ -56,10 +57,9 @@ def test_what_is_said_of_a_run_that_was_not_opened(values):
 
 @pytest.mark.parametrize(("kind", "gyro"), [("toss", None), ("toss", GYRO), ("release", None)])
 def test_what_is_said_of_an_experiment_without_gyroscope(kind, gyro):
-    with pytest.raises(InputError) as caught:
-        gyro_of(Experiment(Path("folder"), "x", kind, "eight_points", 54.0, 0.1, 0.688, None, gyro, ()))
+    error = refused(gyro_of, Experiment(Path("folder"), "x", kind, "eight_points", 54.0, 0.1, 0.688, None, gyro, ()))
     cure = "Runs of a gyroscope on a released block are needed."
-    assert str(caught.value) == f"folder: kind is '{kind}'. {cure} [E-KIND]"
+    assert str(error) == f"folder: kind is '{kind}'. {cure} [E-KIND]"
 
 
 def test_the_gyroscope_is_that_of_the_experiment():

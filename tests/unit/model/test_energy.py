@@ -7,9 +7,9 @@ import pytest
 
 import rockref
 from rockref.model import energy, energy_balance
-from rockref.model.errors import InputError
 from rockref.model.problem import stack
 from tests import physics
+from tests.refusal import refused
 
 
 def every_step(problem):
@@ -64,9 +64,10 @@ def test_residual_of_a_body_that_does_not_turn_is_known():
 
 
 def test_a_row_for_every_step_is_needed():
-    with pytest.raises(InputError) as refused:
-        energy_balance.balance(rockref.simulate(physics.mass_on_a_foot().replace(output_rate=1000.0), engine="numpy"))
-    assert (refused.value.code, refused.value.where) == ("E-RATE", "output_rate")
+    error = refused(
+        energy_balance.balance, rockref.simulate(physics.mass_on_a_foot().replace(output_rate=1000.0), engine="numpy")
+    )
+    assert (error.code, error.where) == ("E-RATE", "output_rate")
 
 
 def test_the_account_does_not_mind_when_the_run_began():
@@ -79,9 +80,10 @@ def test_the_account_does_not_mind_when_the_run_began():
 
 
 def test_one_block_only():
-    with pytest.raises(InputError) as refused:
-        energy_balance.balance(rockref.simulate(stack([physics.mass_on_a_foot(duration=1e-4)] * 2), engine="numpy"))
-    assert refused.value.code == "E-BATCH"
+    error = refused(
+        energy_balance.balance, rockref.simulate(stack([physics.mass_on_a_foot(duration=1e-4)] * 2), engine="numpy")
+    )
+    assert error.code == "E-BATCH"
 
 
 def test_from_start():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rockref.model import housner
-from rockref.model.errors import InputError
+from tests.refusal import refused
 
 MASS, B, H, G, J = 54.0, 0.100, 0.688, 9.81, 2.175048
 R, ALPHA = float(np.hypot(B, H) / 2), float(np.arctan2(B, H))
@@ -112,9 +112,8 @@ def test_impacts_come_closer_together():
 
 @pytest.mark.parametrize("theta_0", [0.0, -0.1, ALPHA, 1.0, np.nan])
 def test_a_tilt_that_overturns_is_refused(theta_0):
-    with pytest.raises(InputError) as refused:
-        run(theta_0)
-    assert (refused.value.code, refused.value.where) == ("E-TILT", "theta_0")
+    error = refused(run, theta_0)
+    assert (error.code, error.where) == ("E-TILT", "theta_0")
 
 
 @pytest.mark.parametrize(("height", "duration"), [(0.688, 60.0), (0.4, 5.0), (0.1, 5.0), (0.06, 5.0)])

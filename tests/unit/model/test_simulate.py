@@ -11,6 +11,7 @@ from rockref.model import simulate as loop
 from rockref.model.errors import InputError, NumericalError
 from rockref.model.problem import State, as_arrays, stack
 from tests import physics
+from tests.refusal import refused
 
 MODEL = rockref.Model.table_3_1()
 
@@ -106,10 +107,9 @@ class TestRefusals:
         assert code_of(lambda: loop.check_points(physics.points([0, 0, 0], mu_0=0.2, mu=0.3))) == ("E-RANGE", "mu_0")
 
     def test_a_step_too_large_for_the_stiffest_contact_names_one_that_will_do(self):
-        with pytest.raises(InputError) as refused:
-            loop.simulate(MODEL.problem(step=5e-4, output_rate=2000.0))
-        assert (refused.value.code, refused.value.where) == ("E-STEP", "step")
-        allowed = float(refused.value.cure.split(" at most ")[1].split()[0])
+        error = refused(loop.simulate, MODEL.problem(step=5e-4, output_rate=2000.0))
+        assert (error.code, error.where) == ("E-STEP", "step")
+        allowed = float(error.cure.split(" at most ")[1].split()[0])
         loop.check(MODEL.problem(step=allowed * 0.99))
 
 
@@ -259,9 +259,8 @@ class TestLostNumbers:
                     raise InputError("E-OWN", "pull", "is too much", "Pull less.")
                 return np.zeros_like(x), np.zeros_like(x)
 
-        with pytest.raises(InputError) as refused:
-            loop.simulate(physics.mass_on_a_foot(effects=(Refuses(),)))
-        assert str(refused.value) == "pull: is too much. Pull less. [E-OWN]"
+        error = refused(loop.simulate, physics.mass_on_a_foot(effects=(Refuses(),)))
+        assert str(error) == "pull: is too much. Pull less. [E-OWN]"
 
     def test_of_a_batch_the_block_is_named(self):
         problem = stack([MODEL.problem(duration=0.002, theta_0=1e-4)] * 3)

@@ -96,27 +96,27 @@ def test_a_release_is_what_it_was_and_a_moving_plate_is_stood_upon():
     assert TABLE.problem(0.1, standing=True).base is None
 
 
+def carrying_feet(mass, width, height, K_N, raised):
+    """Which of the four feet of a block carry it, where they are raised so far [m]."""
+    model = rockref.Model(mass=mass, width=width, depth=width, height=height, points="four_points").replace(K_N=K_N)
+    block, points = model.body()
+    uneven = replace(points, P=points.P + np.column_stack([np.zeros((4, 2)), raised]))
+    return carrying(uneven, standing_posture(block, uneven))
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_a_slender_block_on_soft_uneven_feet_finds_its_third_foot(seed):
     # Two feet of a diagonal carry it, and the third next to nothing: the search has to leave the diagonal.
-    model = rockref.Model(mass=40.0, width=0.08, depth=0.08, height=0.7, points="four_points").replace(K_N=1.5e7)
-    block, points = model.body()
-    P = points.P + np.column_stack([np.zeros((4, 2)), 2e-5 * np.random.default_rng(seed).standard_normal(4)])
-    assert carrying(replace(points, P=P), standing_posture(block, replace(points, P=P))).sum() >= 3
+    raised = 2e-5 * np.random.default_rng(seed).standard_normal(4)
+    assert carrying_feet(40.0, 0.08, 0.7, 1.5e7, raised).sum() >= 3
 
 
 def test_a_block_that_leans_away_from_its_third_foot_stops_on_the_other_one():
-    model = rockref.Model(mass=63.0, width=0.095, depth=0.095, height=0.6, points="four_points").replace(K_N=2e7)
-    block, points = model.body()
     # Foot 1 is short by a third of a millimetre: on 2, 3 and 4 the centre of mass leans towards it.
-    P = points.P + np.column_stack([np.zeros((4, 2)), [3.4e-4, 0.0, 0.0, 0.0]])
-    carried = carrying(replace(points, P=P), standing_posture(block, replace(points, P=P)))
+    carried = carrying_feet(63.0, 0.095, 0.6, 2e7, [3.4e-4, 0.0, 0.0, 0.0])
     assert carried.sum() == 3 and carried[[1, 3]].all()
 
 
 def test_a_block_balanced_on_two_feet_tips_to_one_of_the_others():
-    model = rockref.Model(mass=66.0, width=0.12, depth=0.12, height=0.5, points="four_points").replace(K_N=2e7)
-    block, points = model.body()
-    P = points.P + np.column_stack([np.zeros((4, 2)), [0.0, 5e-5, 0.0, 5e-5]])
-    carried = carrying(replace(points, P=P), standing_posture(block, replace(points, P=P)))
+    carried = carrying_feet(66.0, 0.12, 0.5, 2e7, [0.0, 5e-5, 0.0, 5e-5])
     assert carried[[0, 2]].all() and carried.sum() == 3

@@ -9,6 +9,7 @@ import pytest
 
 from rockref.model import storage
 from rockref.model.errors import InputError
+from tests.refusal import refused
 
 
 def test_writes_and_replaces(tmp_path):
@@ -29,10 +30,9 @@ def test_an_interrupted_write_leaves_the_old_file(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", fails)
-    with pytest.raises(InputError) as refused:
-        storage.write_text(path, "new")
-    assert refused.value.code == "E-WRITE"
-    assert "No space left" in str(refused.value)
+    error = refused(storage.write_text, path, "new")
+    assert error.code == "E-WRITE"
+    assert "No space left" in str(error)
     assert path.read_text() == "old"
     assert os.listdir(tmp_path) == ["a.txt"]
 
@@ -47,10 +47,9 @@ def test_until_it_is_whole_the_file_lies_hidden_beside_its_place(tmp_path, monke
 
 
 def test_a_missing_folder_is_named(tmp_path):
-    with pytest.raises(InputError) as refused:
-        storage.write_text(tmp_path / "nowhere" / "a.txt", "x")
-    assert refused.value.code == "E-WRITE"
-    assert "nowhere" in refused.value.where
+    error = refused(storage.write_text, tmp_path / "nowhere" / "a.txt", "x")
+    assert error.code == "E-WRITE"
+    assert "nowhere" in error.where
 
 
 def test_pieces_are_asked_for_one_by_one_and_an_interruption_leaves_nothing(tmp_path):

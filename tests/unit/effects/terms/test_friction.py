@@ -27,8 +27,9 @@ def test_stribecks_excess_is_whole_at_rest_and_1_over_e_at_its_velocity():
     assert mu_0 == pytest.approx(MU_0 * factor, rel=ROUNDED) and mu == pytest.approx(MU * factor, rel=ROUNDED)
 
 
-def test_without_an_excess_the_velocity_changes_nothing():
-    mu_0, mu = StribeckFriction(1.0, 0.1).friction_coefficient(MU_0, MU, None, None, None, {})
+@pytest.mark.parametrize("effect", [StribeckFriction(1.0, 0.1), LoadDependentFriction(0.0, 20.0)])
+def test_without_an_excess_or_an_exponent_velocity_and_reference_change_nothing(effect):
+    mu_0, mu = effect.friction_coefficient(MU_0, MU, None, None, None, {})
     assert mu_0 is MU_0 and mu is MU
 
 
@@ -38,11 +39,6 @@ def test_the_coefficient_falls_with_a_power_of_the_load():
     mu_0, mu = LoadDependentFriction(0.25, 20.0).friction_coefficient(MU_0, MU, F_N, None, None, {})
     factor = [1.0, 0.5, 1000**0.25]
     assert mu_0 == pytest.approx(MU_0 * factor, rel=ROUNDED) and mu == pytest.approx(MU * factor, rel=ROUNDED)
-
-
-def test_without_an_exponent_the_reference_changes_nothing():
-    mu_0, mu = LoadDependentFriction(0.0, 20.0).friction_coefficient(MU_0, MU, None, None, None, {})
-    assert mu_0 is MU_0 and mu is MU
 
 
 def test_a_film_drags_the_points_that_touch_where_they_are():

@@ -119,12 +119,16 @@ def test_one_line_tells_all_dropouts_of_a_channel(tmp_path, motions):
     assert re.search(r"column wy_deg_s: wy_deg_s is held at .* from 0.7 to 0.715 s, and at 2 other places", said)
 
 
-@pytest.mark.parametrize("share", [0.4, 0.7, 0.9])
+@pytest.mark.parametrize(
+    ("wrap", "share"),
+    [*((records.wrapped, share) for share in (0.4, 0.7, 0.9)), *((np.mod, share) for share in (0.7, 1.3))],
+)
 @pytest.mark.parametrize("seed", range(3))
-def test_numbers_that_wrap_are_refused(tmp_path, motions, seed, share):
+def test_numbers_that_wrap_are_refused(tmp_path, motions, seed, wrap, share):
+    """With a sign, and without."""
     made, _ = good(motions, seed)
     spoiled = made.degrees.copy()
-    spoiled[:, 0] = records.wrapped(spoiled[:, 0], share * np.abs(spoiled[:, 0]).max())
+    spoiled[:, 0] = wrap(spoiled[:, 0], share * np.abs(spoiled[:, 0]).max())
     assert codes_of(written(tmp_path, made, degrees=spoiled)) == {"E-WRAP"}
 
 
@@ -144,15 +148,6 @@ def test_exchanged_columns_of_a_slender_block_are_told_at_any_rate(tmp_path, mot
         made = sensed(block, gyro, rng, motion)
         assert codes_of(written(tmp_path, made)) == set()
         assert codes_of(written(tmp_path, made, degrees=made.degrees[:, [0, 2, 1]])) == {"W-AXES"}
-
-
-@pytest.mark.parametrize("share", [0.7, 1.3])
-@pytest.mark.parametrize("seed", range(2))
-def test_numbers_without_a_sign_that_wrap_are_refused(tmp_path, motions, seed, share):
-    made, _ = good(motions, seed)
-    spoiled = made.degrees.copy()
-    spoiled[:, 0] = np.mod(spoiled[:, 0], share * np.abs(spoiled[:, 0]).max())
-    assert codes_of(written(tmp_path, made, degrees=spoiled)) == {"E-WRAP"}
 
 
 @pytest.mark.parametrize("axis", range(3))

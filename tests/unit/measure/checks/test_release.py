@@ -8,6 +8,7 @@ import pytest
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.signal import rocking_rate, rocking_time
 from rockref.model.errors import InputError
+from tests.refusal import refused
 from tests.shipped import CONTROL
 
 HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"
@@ -101,10 +102,9 @@ def slow_sampling(folder, as_table, rocking, rate, duration):
 
 def test_too_few_samples_name_the_file(folder, as_table, rocking):
     """At 20 a second a second and a half is long enough for an impact, and too little for a noise floor."""
-    with pytest.raises(InputError) as caught:
-        load_experiment(slow_sampling(folder, as_table, rocking, 20, 1.5))
-    assert (caught.value.code, caught.value.where) == ("E-SHORT", str(folder / "run01.csv"))
-    assert "30 samples, where 32 are needed" in caught.value.what
+    error = refused(load_experiment, slow_sampling(folder, as_table, rocking, 20, 1.5))
+    assert (error.code, error.where) == ("E-SHORT", str(folder / "run01.csv"))
+    assert "30 samples, where 32 are needed" in error.what
 
 
 def test_a_cusp_of_few_samples_is_no_flat_top(folder, as_table, rocking):
@@ -132,31 +132,26 @@ def test_a_rate_of_another_size_need_not_be_its_unit(folder):
     sizes = "width_m = 0.100\nheight_m = 0.688"
     assert sizes in path.read_text()
     path.write_text(path.read_text().replace(sizes, "width_m = 0.688\nheight_m = 0.100"))
-    with pytest.raises(InputError) as caught:
-        load_experiment(folder)
-    assert caught.value.code == "E-RADIANS"
-    assert (
-        caught.value.cure.startswith("If the values are in rad/s") and "check release tilt, width" in caught.value.cure
-    )
+    error = refused(load_experiment, folder)
+    assert error.code == "E-RADIANS"
+    assert error.cure.startswith("If the values are in rad/s") and "check release tilt, width" in error.cure
 
 
 @pytest.mark.parametrize("case", BAD)
 def test_signal_that_cannot_be(folder, as_table, good_signal, case):
     change, header, code, where, words = BAD[case]
-    with pytest.raises(InputError) as caught:
-        load_experiment(edited(folder, as_table, good_signal, change, header))
-    assert caught.value.code == code
-    assert str(folder / "run01.csv") in caught.value.where and where in caught.value.where
-    assert words in str(caught.value)
+    error = refused(load_experiment, edited(folder, as_table, good_signal, change, header))
+    assert error.code == code
+    assert str(folder / "run01.csv") in error.where and where in error.where
+    assert words in str(error)
 
 
 def test_turned_block_swings_the_other_way(folder):
     path = folder / "experiment.toml"
     path.write_text(path.read_text().replace("block_turned_deg = 180", "block_turned_deg = 0"))
-    with pytest.raises(InputError) as caught:
-        load_experiment(folder)
-    assert caught.value.code == "E-SIGN"
-    assert "run02.csv" in caught.value.where
+    error = refused(load_experiment, folder)
+    assert error.code == "E-SIGN"
+    assert "run02.csv" in error.where
 
 
 def noisy(t, w):

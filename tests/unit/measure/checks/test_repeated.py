@@ -9,6 +9,7 @@ from rockref.measure.checks.repeated import repeated_rows
 from rockref.measure.experiment import load_experiment
 from rockref.model.errors import InputError
 from tests.records import DEGREE, Gyro, sensed, some_block, written
+from tests.refusal import refused
 
 
 @pytest.fixture(scope="module")
@@ -24,10 +25,9 @@ def test_a_block_of_rows_that_is_written_again_is_refused(tmp_path, made, count,
     """In the place of the next one, or before it with the stamps going on."""
     again = np.concatenate((np.arange(600), np.arange(600 - count, 600), np.arange(600 + count * instead, len(made.t))))
     degrees = made.degrees[again]
-    with pytest.raises(InputError) as refused:
-        load_experiment(written(tmp_path, made, t=np.arange(len(degrees)) / 1000.0, degrees=degrees))
-    assert refused.value.code == "E-REPEAT"
-    assert f"rows 601 to {600 + count} hold the numbers of rows {601 - count} to 600 again" in refused.value.what
+    error = refused(load_experiment, written(tmp_path, made, t=np.arange(len(degrees)) / 1000.0, degrees=degrees))
+    assert error.code == "E-REPEAT"
+    assert f"rows 601 to {600 + count} hold the numbers of rows {601 - count} to 600 again" in error.what
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

@@ -11,6 +11,7 @@ from rockref.measure import load_experiment
 from rockref.measure.importing import Choices, import_logs, write_campaign
 from rockref.measure.importing.campaign import ImportedRun, hold_out, round_rate
 from tests import foreign
+from tests.refusal import refused
 
 ROOT = Path(__file__).resolve().parents[4]
 SIDES = (54.0, 0.100, 0.688)
@@ -105,9 +106,8 @@ def test_a_wrong_unit_in_the_names_is_refused(measured, tmp_path):
     paths = foreign.write_logs(measured, tmp_path, "dated")
     for path in paths:
         path.write_text(path.read_text().replace("°/s", "rad/s"))
-    with pytest.raises(InputError) as refused:
-        import_logs(paths, Choices(*SIDES))
-    assert refused.value.code == "E-UNIT" and "deg_s" in refused.value.cure
+    error = refused(import_logs, paths, Choices(*SIDES))
+    assert error.code == "E-UNIT" and "deg_s" in error.cure
 
 
 def test_what_is_stated_goes_before_what_is_measured(measured, tmp_path):

@@ -8,6 +8,7 @@ import pytest
 
 from rockref.measure.reading.table import read_table
 from rockref.model.errors import InputError
+from tests.refusal import refused
 
 NEEDED = ("t", "wx", "wy", "wz")
 HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s\n"
@@ -60,9 +61,8 @@ def test_bad_table_is_refused_with_its_place(tmp_path, case):
     text, code, place, words = BAD[case]
     path = tmp_path / "run01.csv"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError) as caught:
-        read_table(path, NEEDED)
-    error = caught.value
+    caught = refused(read_table, path, NEEDED)
+    error = caught
     assert error.code == code
     assert error.where == f"{path}, {place}" if place else error.where == str(path)
     assert words in str(error)
@@ -175,6 +175,5 @@ def test_other_dialects_are_refused_with_their_line(tmp_path, case):
     text, code, place = REFUSED[case]
     path = tmp_path / "a.csv"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError) as caught:
-        read_table(path, NEEDED)
-    assert caught.value.code == code and caught.value.where == f"{path}, {place}"
+    error = refused(read_table, path, NEEDED)
+    assert error.code == code and error.where == f"{path}, {place}"

@@ -9,6 +9,7 @@ import pytest
 from rockref.measure.reading.table import Table
 from rockref.measure.reading.timebase import regular_samples
 from rockref.model.errors import InputError
+from tests.refusal import refused
 
 
 def table(t):
@@ -47,11 +48,10 @@ def changed(row, value):
     ],
 )
 def test_faulty_time_is_refused_with_its_line(t, rate, code, where, words):
-    with pytest.raises(InputError) as caught:
-        regular_samples(table(t), rate)
-    assert caught.value.code == code
-    assert where in caught.value.where
-    assert words in caught.value.what
+    error = refused(regular_samples, table(t), rate)
+    assert error.code == code
+    assert where in error.where
+    assert words in error.what
 
 
 @pytest.mark.parametrize(
@@ -109,19 +109,17 @@ def test_the_rate_may_be_off_by_a_hundredth_and_what_one_stamp_is_worth(stretch,
 
 @pytest.mark.parametrize("stretch", [1.0113, 0.9889])
 def test_more_than_a_hundredth_is_another_rate(stretch):
-    with pytest.raises(InputError) as caught:
-        regular_samples(table(stretch * CLEAN), 1000.0)
+    error = refused(regular_samples, table(stretch * CLEAN), 1000.0)
     what = f"samples come at {1000.0 / stretch:.6g} Hz, not at 1000 Hz"
     cure = "Correct sample_rate_hz, or the unit of the time column."
-    assert str(caught.value) == f"run.csv, column t_s: {what}. {cure} [E-RATE]"
+    assert str(error) == f"run.csv, column t_s: {what}. {cure} [E-RATE]"
 
 
 def test_a_fifth_is_another_rate_whatever_the_holes():
     """Most intervals are 1.25 samples: it is the median that says so, before anything else."""
-    with pytest.raises(InputError) as caught:
-        regular_samples(table(1.26 * CLEAN), 1000.0)
-    assert caught.value.what == "samples come at 793.651 Hz, not at 1000 Hz"
-    assert caught.value.cure == "Correct sample_rate_hz, or the unit of the time column."
+    error = refused(regular_samples, table(1.26 * CLEAN), 1000.0)
+    assert error.what == "samples come at 793.651 Hz, not at 1000 Hz"
+    assert error.cure == "Correct sample_rate_hz, or the unit of the time column."
 
 
 def test_what_is_said_of_another_rate():
@@ -157,18 +155,16 @@ def holed(count):
 def test_one_sample_in_a_hundred_may_be_missing():
     """Of those that are there: ten beside a thousand, and not beside one less."""
     assert len(regular_samples(holed(1010), 1000.0)[2]) == 10
-    with pytest.raises(InputError) as caught:
-        regular_samples(holed(1009), 1000.0)
+    error = refused(regular_samples, holed(1009), 1000.0)
     cure = "Use a run without holes, or cut the record before it."
-    assert str(caught.value) == f"run.csv, column t_s: 10 of 1009 samples are missing. {cure} [E-GAP]"
+    assert str(error) == f"run.csv, column t_s: 10 of 1009 samples are missing. {cure} [E-GAP]"
 
 
 def test_what_is_said_of_a_wide_hole():
-    with pytest.raises(InputError) as caught:
-        regular_samples(table(np.delete(CLEAN, [300, 301, 302, 303, 600, 601, 602, 603])), 1000.0)
+    error = refused(regular_samples, table(np.delete(CLEAN, [300, 301, 302, 303, 600, 601, 602, 603])), 1000.0)
     what = "4 samples are missing between 0.299 and 0.304 s"
     cure = "Use a run without holes, or cut the record before it."
-    assert str(caught.value) == f"run.csv, line 302, column t_s: {what}. {cure} [E-GAP]"
+    assert str(error) == f"run.csv, line 302, column t_s: {what}. {cure} [E-GAP]"
 
 
 @pytest.mark.parametrize(("start", "codes"), [(-0.0005, []), (0.0015, []), (0.0016, ["W-START"]), (0.1, ["W-START"])])
@@ -178,10 +174,9 @@ def test_time_begins_at_the_release(start, codes):
 
 @pytest.mark.parametrize("start", [-0.0006, 0.1001])
 def test_time_that_begins_elsewhere_is_refused(start):
-    with pytest.raises(InputError) as caught:
-        regular_samples(table(CLEAN + start), 1000.0)
+    error = refused(regular_samples, table(CLEAN + start), 1000.0)
     cure = "Time is counted from the release: shift the column, and cut what was recorded before it."
-    assert str(caught.value) == f"run.csv, column t_s: time starts at {start:g} s. {cure} [E-START]"
+    assert str(error) == f"run.csv, column t_s: time starts at {start:g} s. {cure} [E-START]"
 
 
 def test_what_is_said_of_a_late_start():
@@ -197,7 +192,6 @@ def test_two_rows_are_enough_for_a_clock_and_one_is_not():
 
 
 def test_what_is_said_of_time_that_runs_back():
-    with pytest.raises(InputError) as caught:
-        regular_samples(table(changed(500, 0.1)), 1000.0)
+    error = refused(regular_samples, table(changed(500, 0.1)), 1000.0)
     what, cure = "time goes from 0.499 to 0.1 s", "Sort the rows, or remove what was recorded twice."
-    assert str(caught.value) == f"run.csv, line 502, column t_s: {what}. {cure} [E-TIME]"
+    assert str(error) == f"run.csv, line 502, column t_s: {what}. {cure} [E-TIME]"

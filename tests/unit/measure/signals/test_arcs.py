@@ -116,16 +116,17 @@ def test_fewer_than_four_samples_make_no_line(first, exact):
     assert (abs(found - root) < 1e-9) == exact and abs(found - root) <= step
 
 
-def test_a_dip_is_no_line_and_stays_where_the_rate_changes_its_sign():
-    """The root of the line through it is more than 40 ms away."""
-    w = np.where(np.abs(T - ROOT) < 0.01, -0.2, 1.0)
-    assert abs(apex(w, 2.1, 2.9) - ROOT) < 0.016
-
-
-def test_a_root_that_is_80_ms_away_is_not_that_of_this_apex():
-    """A line to zero 80 ms later, after the next impact, and a dip of 12 ms through zero."""
-    w = np.where(np.abs(T - ROOT) < 0.006, -0.01, ROOT + 0.08 - T)
-    assert abs(apex(w, 2.1, ROOT + 0.07) - ROOT) < 0.012
+@pytest.mark.parametrize(
+    ("w", "next_impact", "width"),
+    [
+        # The root of the line through a dip is more than 40 ms away.
+        (np.where(np.abs(T - ROOT) < 0.01, -0.2, 1.0), 2.9, 0.016),
+        # A line to zero 80 ms later, after the next impact, and a dip of 12 ms through zero.
+        (np.where(np.abs(T - ROOT) < 0.006, -0.01, ROOT + 0.08 - T), ROOT + 0.07, 0.012),
+    ],
+)
+def test_where_the_root_of_the_line_is_far_the_apex_stays_where_the_rate_changes_its_sign(w, next_impact, width):
+    assert abs(apex(w, 2.1, next_impact) - ROOT) < width
 
 
 def test_one_impact_leaves_the_angle_of_the_release():

@@ -11,7 +11,7 @@ from rockref.measure.gyroscope import record, saturate
 from rockref.measure.records.release import Gyro
 from rockref.measure.signals.impacts import checked_signal, main_impacts, swings
 from rockref.measure.signals.running import running_mean
-from rockref.model.errors import InputError
+from tests.refusal import refused
 
 # The low-pass of 300 Hz delays slow motion by 0.75 ms, and the half-way point of a step a little more.
 DELAY = 0.75e-3
@@ -277,6 +277,5 @@ def test_what_is_no_run_is_refused_and_what_is_one_is_made_numbers():
         ((np.full(8, np.inf), np.zeros((8, 3))), finite),
     ):
         for ask in (checked_signal, main_impacts):
-            with pytest.raises(InputError) as caught:
-                ask(*wrong)
-            assert str(caught.value) == f"arguments t, crv: {said} [E-SIGNAL]"
+            error = refused(ask, *wrong)
+            assert str(error) == f"arguments t, crv: {said} [E-SIGNAL]"

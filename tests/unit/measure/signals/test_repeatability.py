@@ -13,7 +13,7 @@ from rockref.measure.records.release import Run
 from rockref.measure.signals.impacts import main_impacts
 from rockref.measure.signals.noise import noise_floor
 from rockref.measure.signals.repeatability import _aligned, repeat_groups, repeatability
-from rockref.model.errors import InputError
+from tests.refusal import refused
 
 NOISE = 8.7e-4
 
@@ -208,6 +208,5 @@ def test_what_is_said_where_nothing_can_be_compared(base):
         ([base], "argument signals: 1 runs. Give two or more repeated runs. [E-REPEATS]"),
         ([base, still, still], "argument signals[1]: the run has no main impact. Leave it out. [E-REPEATS]"),
     ):
-        with pytest.raises(InputError) as caught:
-            repeatability(signals)
-        assert str(caught.value) == said
+        error = refused(repeatability, signals)
+        assert str(error) == said

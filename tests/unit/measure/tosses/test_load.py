@@ -9,6 +9,7 @@ import pytest
 from rockref.measure.tosses.load import held_out, is_toss_folder, load_tosses
 from rockref.model.errors import InputError
 from rockref.model.rotation import exponential
+from tests.refusal import refused
 from tests.tosses import made, stated, write_tosses
 
 
@@ -82,9 +83,8 @@ def test_a_bad_number_is_told_by_its_line_of_the_file(six, tmp_path):
     rows[3] = rows[3].replace("0,3,", "0,3,oops", 1)
     text = "\n".join([header, *rows[:2], "", "", *rows[2:], ""])
     (folder / "tosses.csv.gz").write_bytes(gzip.compress(text.encode()))
-    with pytest.raises(InputError) as e:
-        load_tosses(folder)
-    number = int(e.value.where.split("line ")[1].split(",")[0])
+    error = refused(load_tosses, folder)
+    number = int(error.where.split("line ")[1].split(",")[0])
     assert "oops" in text.splitlines()[number - 1]
 
 
