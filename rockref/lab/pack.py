@@ -23,6 +23,7 @@ from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 from rockref.model.geometry import EXTERNAL, INTERNAL
 from rockref.model.parameters import GENES_12, TABLE_3_1
+from rockref.report.html.encoding import LARGEST, packed
 
 #: Spread of a parameter about Table 3.1: the standard deviation of its logarithm. Decided, as in the fits of
 #: `rockref.discover`: 15 %, and 8 % for delta_diag, half a stated digit and more.
@@ -40,8 +41,6 @@ WORDS = {
     "delta_diag": "inner points from the corner", "theta_0": "release tilt",
 }  # fmt: skip
 STRETCHES = ("before", "between", "after")
-#: Largest whole number of a packed column.
-LARGEST = 32000
 
 
 def effects() -> list[dict[str, Any]]:
@@ -83,8 +82,7 @@ def column(values: np.ndarray, resolution: float) -> dict[str, Any]:
         whole = np.rint(values / resolution)
         # 1e-9 deg/s: what a text of a rate loses on its way through rad/s is a millionth of that.
         if np.max(np.abs(whole)) <= LARGEST and np.max(np.abs(whole * resolution - values)) < 1e-9:
-            data = base64.b64encode(whole.astype("<i2").tobytes()).decode("ascii")
-            return {"unit": resolution, "n": len(values), "data": data}
+            return packed(values, resolution)
     return {"unit": 0.0, "n": len(values), "data": base64.b64encode(values.astype("<f8").tobytes()).decode("ascii")}
 
 

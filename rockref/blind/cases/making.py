@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
@@ -10,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rockref.blind.cases.plan import Case, plan
-from rockref.blind.cases.sealing import MANIFEST, digests, seal, write_json
+from rockref.blind.cases.sealing import MANIFEST, digests, read_json, seal, write_json
 from rockref.jobs.folder_lock import alone_in
 from rockref.model.errors import InputError
 
@@ -73,17 +72,17 @@ def make(
 
 def _sealed(folder: Path, seed: int, names: Sequence[str]) -> dict[str, Any]:
     """Seal the truths of cases that are made; their parts go. Returns the manifest."""
-    truths = [json.loads((folder / PARTS / f"{name}.json").read_text(encoding="utf-8")) for name in names]
+    truths = [read_json(folder / PARTS / f"{name}.json") for name in names]
     from rockref import __version__
 
     seal(folder, {"seed": int(seed), "cases": truths}, {name: digests(folder / name) for name in names}, __version__)
     shutil.rmtree(folder / PARTS)
-    return json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    return read_json(folder / MANIFEST)
 
 
 def _check_same_plan(folder: Path, lines: list[str]) -> None:
     here = folder / PARTS / "plan"
-    if here.exists() and json.loads(here.read_text(encoding="utf-8")) != lines:
+    if here.exists() and read_json(here) != lines:
         cure = "Give the seed and number it was started with, or another folder."
         raise InputError("E-SEED", str(folder), "holds a half-made blind test with another plan", cure)
     write_json(here, lines)

@@ -20,6 +20,11 @@ def write_json(path: Path, content: Any) -> None:
     write_text(path, json.dumps(content, indent=1) + "\n")
 
 
+def read_json(path: Path) -> Any:
+    """Return the content of a JSON file."""
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
 def canonical(content: Any) -> bytes:
     """Return the one text of a truth that is digested."""
     return json.dumps(content, sort_keys=True, separators=(",", ":")).encode()
@@ -42,9 +47,9 @@ def seal(folder: Path, truth: Any, cases: dict[str, dict[str, str]], version: st
 
 def unseal(folder: Path) -> tuple[Any, bool]:
     """Return the truth of a sealed folder, and whether it is the one whose digest was published."""
-    sealed = json.loads((folder / SEALED).read_text(encoding="utf-8"))
+    sealed = read_json(folder / SEALED)
     text = zlib.decompress(base64.b64decode(sealed["truth"]))
-    published = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))["truth_sha256"]
+    published = read_json(folder / MANIFEST)["truth_sha256"]
     return json.loads(text), digest(sealed["salt"], text) == published
 
 

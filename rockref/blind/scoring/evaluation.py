@@ -10,7 +10,7 @@ from typing import Any
 
 from rockref.blind.cases.blocks import NEAR, OTHER
 from rockref.blind.cases.making import run_all
-from rockref.blind.cases.sealing import MANIFEST, OPENED, SEALED, digests, unseal, write_json
+from rockref.blind.cases.sealing import MANIFEST, OPENED, SEALED, digests, read_json, unseal, write_json
 from rockref.blind.scoring import table
 from rockref.blind.scoring.intervals import by_word, reliability
 from rockref.blind.scoring.judging import VERDICT, decided, judge_case
@@ -49,7 +49,7 @@ def score(
         committed = {name: hashlib.sha256(text).hexdigest() for name, text in texts.items()}
         if not (folder / COMMITTED).exists():
             write_json(folder / COMMITTED, committed)
-        first = json.loads((folder / COMMITTED).read_text(encoding="utf-8"))
+        first = read_json(folder / COMMITTED)
         truth, same = unseal(folder)
         write_json(folder / OPENED, truth)
         found = marked(folder, truth, {name: json.loads(text) for name, text in texts.items()})
@@ -101,4 +101,4 @@ def _manifest(folder: Path) -> dict[str, Any]:
     if not ((folder / MANIFEST).is_file() and (folder / SEALED).is_file()):
         cure = "Make one: rockref blind make DIR --seed S."
         raise InputError("E-BLIND", str(folder), f"is no blind test ({MANIFEST} or {SEALED} is missing)", cure)
-    return json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    return read_json(folder / MANIFEST)

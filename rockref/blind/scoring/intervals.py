@@ -50,17 +50,17 @@ def by_word(marks: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
 def words_as_text(rows: list[dict[str, Any]]) -> str:
     """Return the table of `by_word` in Markdown."""
     lines = ["| verdict | right | interval |", "| --- | ---: | --- |"]
-    for r in rows:
-        interval = f"{100 * r['low']:.0f} to {100 * r['high']:.0f} %"
-        lines.append(f"| `{r['verdict']}` | {r['right']} of {r['n']} | {interval} |")
-    return "\n".join(lines)
+    return "\n".join(lines + [f"| `{r['verdict']}` | {_right(r)} |" for r in rows])
 
 
 def as_text(rows: list[dict[str, Any]]) -> str:
     """Return the table of stated probabilities in Markdown."""
     lines = ["| probability | stated, mean | right | interval |", "| --- | ---: | ---: | --- |"]
     for r in rows:
-        share = f"{r['right']} of {r['n']}"
-        interval = f"{100 * r['low']:.0f} to {100 * r['high']:.0f} %"
-        lines.append(f"| {r['from']:g} to {r['to']:g} | {100 * r['stated']:.1f} % | {share} | {interval} |")
+        lines.append(f"| {r['from']:g} to {r['to']:g} | {100 * r['stated']:.1f} % | {_right(r)} |")
     return "\n".join(lines)
+
+
+def _right(r: dict[str, Any]) -> str:
+    """Return how many were right, and the interval of the share, as two cells."""
+    return f"{r['right']} of {r['n']} | {100 * r['low']:.0f} to {100 * r['high']:.0f} %"

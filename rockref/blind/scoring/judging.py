@@ -8,7 +8,7 @@ import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rockref.blind.cases.sealing import write_json
+from rockref.blind.cases.sealing import read_json, write_json
 from rockref.model.errors import InputError
 
 if TYPE_CHECKING:
@@ -54,9 +54,7 @@ def decided(case: Path) -> dict[str, Any]:
 
     Raises InputError (E-FILE) where it has neither.
     """
-    stored: dict[str, Any] = {}
-    if (case / VERDICT).exists():
-        stored = json.loads((case / VERDICT).read_text(encoding="utf-8"))
+    stored: dict[str, Any] = read_json(case / VERDICT) if (case / VERDICT).exists() else {}
     if not (case / EVIDENCE).exists():
         if not stored:
             cure = "Diagnose it first: rockref blind score DIR."

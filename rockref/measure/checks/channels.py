@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from rockref.measure.reading.columns import DEGREE
 from rockref.measure.records.notice import Notice
-from rockref.measure.signals.noise import noise_floor
 from rockref.measure.signals.signal import Signal, stretches
 from rockref.model.errors import InputError
 
@@ -114,8 +111,7 @@ def check_range(signal: Signal) -> list[Notice]:
 
 def check_noise(signal: Signal) -> list[Notice]:
     """Remark on a channel that is noisier than stated (W-NOISE)."""
-    stated = math.hypot(signal.gyro.noise, signal.gyro.resolution)
-    floor = noise_floor(signal.t, signal.crv, window=0.04 * min(1.0, signal.scale))
+    stated, floor = signal.grain, signal.floor
     sigma = floor.sigma
     notices = []
     for axis in range(3):
@@ -134,7 +130,7 @@ def check_smooth(signal: Signal) -> list[Notice]:
     """Remark on rows that were averaged or drawn between samples (W-SMOOTH): noise that neighbouring rows share."""
     if signal.gyro.bandwidth * signal.step < WIDE_BAND:
         return []  # the gyroscope's own low-pass may do so
-    floor = noise_floor(signal.t, signal.crv, window=0.04 * min(1.0, signal.scale))
+    floor = signal.floor
     # Motion that the cubic does not follow is alike in neighbours, too; it only adds to the noise.
     if not (floor.whiteness > SHARED).all() or not (floor.sigma < LESS * signal.gyro.noise).all():
         return []
@@ -146,7 +142,7 @@ def check_smooth(signal: Signal) -> list[Notice]:
 
 def check_one_unit(signal: Signal) -> list[Notice]:
     """Refuse a column whose noise says that its unit is not that of the other two (E-RADIANS, E-DEGREES)."""
-    sigma = noise_floor(signal.t, signal.crv, window=0.04 * min(1.0, signal.scale)).sigma
+    sigma = signal.floor.sigma
     for axis in range(3):
         others = np.delete(sigma, axis)
         if not others.min() > 0.0 or others.max() > ONE_GYRO * others.min() or not sigma[axis] > 0.0:

@@ -13,7 +13,7 @@ from rockref.measure.reading.table import Table
 from rockref.measure.records.release import Experiment, Gyro, Run
 from rockref.measure.signals.arcs import turned_angle
 from rockref.measure.signals.impacts import Impacts, main_impacts
-from rockref.measure.signals.noise import smallest_step
+from rockref.measure.signals.noise import WINDOW, NoiseFloor, noise_floor, smallest_step
 from rockref.measure.signals.running import sample_step
 from rockref.model.problem import GRAVITY
 
@@ -120,6 +120,11 @@ class Signal:
     def impacts(self) -> Impacts:
         """Return main impacts. Raises InputError E-SIGNAL."""
         return main_impacts(self.t, self.crv)
+
+    @cached_property
+    def floor(self) -> NoiseFloor:
+        """Return the noise floor; a block smaller than that of Table 3.1 is calm for a shorter time."""
+        return noise_floor(self.t, self.crv, window=WINDOW * min(1.0, self.scale))
 
     @cached_property
     def turned(self) -> np.ndarray:

@@ -203,11 +203,8 @@ def _by_number(values: Sequence[np.ndarray], length: int) -> tuple[np.ndarray, n
     for row, listed in zip(stack, values, strict=True):
         n = min(len(listed), length)
         row[:n] = 1e3 * listed[:n]
-    known = np.isfinite(stack).sum(axis=0)
-    filled = np.where(np.isfinite(stack), stack, 0.0)
-    mean = np.where(known > 0, filled.sum(axis=0) / np.maximum(known, 1), np.nan)
-    square = np.where(np.isfinite(stack), (stack - mean) ** 2, 0.0).sum(axis=0)
-    return mean, np.where(known > 1, np.sqrt(square / np.maximum(known - 1, 1)), np.nan)
+    known = np.ma.masked_invalid(stack)
+    return known.mean(axis=0).filled(np.nan), known.std(axis=0, ddof=1).filled(np.nan)
 
 
 def add_shapes(page: Page, c: Comparison, k: int) -> None:
