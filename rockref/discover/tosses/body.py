@@ -56,12 +56,9 @@ def corners(width: float, depth: float, height: float, K: float, C: float, mu: f
     )  # fmt: skip
 
 
-def effect_of(model: Model, kind: type[Effect]):
-    """Return the effect of this kind in a model, or one that is absent."""
-    for effect in model.effects:
-        if type(effect) is kind:
-            return effect
-    return kind()
+def effect_of(model: Model, kind: type[Effect], **shapes: float):
+    """Return the effect of this kind in a model, or one that is absent and has these shapes."""
+    return next((effect for effect in model.effects if effect.id == kind.id), None) or kind(**shapes)
 
 
 @dataclass(frozen=True)

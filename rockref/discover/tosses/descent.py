@@ -64,13 +64,8 @@ def summed(A: np.ndarray, B: np.ndarray) -> np.ndarray:
 
 def limits(parameters: Sequence[Parameter]) -> tuple[np.ndarray, np.ndarray]:
     """Return lowest and highest z of each parameter: twice its prior, and what its quantity can be."""
-    far = np.array([2 * p.prior for p in parameters])
-    low, high = -far.copy(), far.copy()
-    for i, p in enumerate(parameters):
-        if not p.log:
-            low[i] = max(low[i], (p.low - p.centre) / p.spread)
-            high[i] = min(high[i], (p.high - p.centre) / p.spread)
-    return low, high
+    low = np.array([max(-2 * p.prior, p.least) for p in parameters])
+    return low, np.array([min(2 * p.prior, p.most) for p in parameters])
 
 
 def derivatives(

@@ -13,6 +13,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.hypotheses.counted import Parameter
+from rockref.discover.tosses.parameters import z_of
 
 #: Numbers of the law that go along with an effect's first guess.
 ALONG = {"rounded_corners": ("K_N", "K_T")}
@@ -50,17 +51,13 @@ def first_guesses(found: dict[str, Any], base: Model) -> dict[str, float]:
     return guesses
 
 
-def guessed(
-    z: np.ndarray, parameters: tuple[Parameter, ...], effect: str, guesses: dict[str, float]
-) -> np.ndarray | None:
-    """Return z with the guesses for an effect and what goes along with it; None where there are none."""
+def guessed(z: np.ndarray, parameters: tuple[Parameter, ...], effect: str, guesses: dict[str, float]) -> np.ndarray:
+    """Return z with the guesses for an effect and what goes along with it; as it is where there are none."""
     own = {k for k in guesses if k.startswith(effect + ".")}
-    if not own:
-        return None
-    own |= set(ALONG.get(effect, ()))
+    if own:
+        own |= set(ALONG.get(effect, ()))
     z = z.copy()
     for i, p in enumerate(parameters):
         if p.name in own and p.name in guesses:
-            value = guesses[p.name]
-            z[i] = (np.log(value / p.centre) if p.log else value - p.centre) / p.spread
+            z[i] = z_of(p, guesses[p.name])
     return z

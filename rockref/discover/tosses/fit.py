@@ -42,13 +42,12 @@ def cut(poses: Poses, frames: int) -> Poses:
 
 @dataclass
 class TossFit:
-    """A family of models over tosses: `base` with `parameters`; `start` is "flight" or "raw"."""
+    """A family of models over tosses, from their flights: `base` with `parameters`."""
 
     base: Model
     effects: tuple[str, ...]
     poses: Poses
     width: float
-    start: str = "flight"
     log: Callable[[str], None] = field(default=lambda line: None)
 
     def __post_init__(self) -> None:
@@ -59,10 +58,9 @@ class TossFit:
         """Return the model at z."""
         return apply(self.base, self.parameters, z)
 
-    def residual(self, z: np.ndarray, poses: Poses, moved: np.ndarray | None = None) -> np.ndarray:
+    def residual(self, z: np.ndarray, poses: Poses) -> np.ndarray:
         """Return (B, F, 6): position in percent of the width and turn in degrees, zero behind the end of a toss."""
-        found = predict(self.model(z), poses, self.start, STEPS, moved)
-        return residual(found, poses, self.width)
+        return residual(predict(self.model(z), poses, steps=STEPS), poses, self.width)
 
     def run(self, z: np.ndarray, iterations: int = 8, horizons: tuple[int, ...] = HORIZONS) -> tuple[np.ndarray, float]:
         """Return best z and its objective: mean over tosses and frames of position [%] plus rotation [deg], and prior.
@@ -71,21 +69,14 @@ class TossFit:
         """
         objective = np.inf
         for frames in horizons:
-            z, objective = self._stage(z, cut(self.poses, frames), iterations)
+            poses = cut(self.poses, frames)
+            weight = self.frame_weights(z, poses)
+            z = np.clip(z, *descent.limits(self.parameters))
+            objective = self.objective(z, self.residual(z, poses), weight)
+            z, objective = downhill(self, z, objective, poses, weight, iterations)
             many = f"{len(self.effects)} effects" if len(self.effects) > 3 else "+".join(self.effects)
             self.log(f"  {many or 'the law'}, {frames} frames: {objective:.3f}")
         return z, objective
-
-    def _stage(self, z: np.ndarray, poses: Poses, iterations: int) -> tuple[np.ndarray, float]:
-        weight = self.frame_weights(z, poses)
-        z = np.clip(z, *descent.limits(self.parameters))
-        now = self.objective(z, self.residual(z, poses), weight)
-        for _ in range(iterations):
-            z, then = self.descend(z, poses, weight, self.slopes(z, poses, weight))
-            gain, now = now - then, then
-            if gain < descent.ENOUGH * now:
-                break
-        return z, now
 
     def descend(
         self, z: np.ndarray, poses: Poses, weight: np.ndarray, slopes: descent.Slopes
@@ -98,11 +89,8 @@ class TossFit:
         """Return what the fit minimises; the prior counts as one toss's frame of noise would."""
         size = np.sqrt(_sizes(r) ** 2 + FLOOR**2)
         size = CEILING * (1 - np.exp(-size / CEILING))
-        return float(np.mean(np.sum(weight[..., None] * size, axis=(1, 2)))) + self.penalty(z, len(r))
-
-    def penalty(self, z: np.ndarray, tosses: int) -> float:
-        """Return the prior's part."""
-        return float(np.sum((z / self.prior) ** 2)) / (2 * tosses)
+        prior = float(np.sum((z / self.prior) ** 2)) / (2 * len(r))
+        return float(np.mean(np.sum(weight[..., None] * size, axis=(1, 2)))) + prior
 
     def slopes(self, z: np.ndarray, poses: Poses, weight: np.ndarray) -> descent.Slopes:
         """Return derivatives at z; position and turn of a frame count by the inverse of their size."""
@@ -118,9 +106,21 @@ class TossFit:
     def frame_weights(self, z: np.ndarray, poses: Poses) -> np.ndarray:
         """Return (B, F) weights that sum to one a toss if nothing is blurred: less where the start's uncertainty
         decides."""
-        blur = start_blur(self.model(z), poses, self.width, self.start)
+        blur = start_blur(self.model(z), poses, self.width)
         even = poses.measured / poses.frames[:, None]
         return even / np.sqrt(1 + (blur / BLUR) ** 2)
+
+
+def downhill(
+    fit: TossFit, z: np.ndarray, objective: float, poses: Poses, weight: np.ndarray, iterations: int
+) -> tuple[np.ndarray, float]:
+    """Return z and objective some steps further down; a step that gains next to nothing is the last one."""
+    for _ in range(iterations):
+        z, then = fit.descend(z, poses, weight, fit.slopes(z, poses, weight))
+        gain, objective = objective - then, then
+        if gain < descent.ENOUGH * objective:
+            break
+    return z, objective
 
 
 def residual(found: Prediction, poses: Poses, width: float) -> np.ndarray:
@@ -136,19 +136,19 @@ def _sizes(r: np.ndarray) -> np.ndarray:
     return np.stack([np.linalg.norm(r[..., :3], axis=-1), np.linalg.norm(r[..., 3:], axis=-1)], axis=-1)
 
 
-def start_blur(model: Model, poses: Poses, width: float, start: str = "flight", draws: int = 3) -> np.ndarray:
+def start_blur(model: Model, poses: Poses, width: float, draws: int = 3) -> np.ndarray:
     """Return (B, F) how far predictions from starts drawn within their uncertainty lie apart: position [%] plus turn
     [deg].
 
     The same draws in every call: antithetic pairs of a fixed sequence.
     """
-    first = predict(model, poses, start, STEPS)
+    first = predict(model, poses, steps=STEPS)
     rng = np.random.default_rng(7)
     total = np.zeros(poses.x.shape[:2])
     for _ in range(draws):
         d = drawn_starts(first, rng)
         for sign in (1, -1):
-            other = predict(model, poses, start, STEPS, sign * d)
+            other = predict(model, poses, steps=STEPS, moved=sign * d)
             r = residual(other, poses._replace(x=first.x, Lambda=np.nan_to_num(first.Lambda)), width)
             total += _sizes(r).sum(axis=-1) ** 2 / (2 * draws)
     return np.sqrt(total)

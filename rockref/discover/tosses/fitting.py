@@ -16,7 +16,7 @@ from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.first_guess import first_guesses, guessed
 from rockref.discover.tosses.fit import TossFit
 from rockref.discover.tosses.gates import paired, step_small
-from rockref.discover.tosses.parameters import CANDIDATES
+from rockref.discover.tosses.parameters import CANDIDATES, z_of
 from rockref.discover.tosses.predict import STARTS, predict
 from rockref.effects import catalogue
 from rockref.measure.records.release import FIT, HOLDOUT
@@ -170,7 +170,7 @@ def at_values(parameters: Sequence[Parameter], own: dict[str, Any]) -> np.ndarra
     for i, p in enumerate(parameters):
         id, _, key = p.name.partition(".")
         if key and id in own:
-            z[i] = (getattr(own[id], key) - p.centre) / p.spread
+            z[i] = z_of(p, getattr(own[id], key))
     return z
 
 
@@ -180,8 +180,7 @@ def beginnings(z, parameters, names, own, guesses) -> list[np.ndarray]:
     other = z
     for id in names:
         if id not in own:
-            moved = guessed(other, parameters, id, guesses)
-            other = other if moved is None else moved
+            other = guessed(other, parameters, id, guesses)
     return [z] if np.array_equal(other, z) else [z, other]
 
 

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.hypotheses.candidates import with_effect
 from rockref.discover.hypotheses.counted import Parameter
+from rockref.discover.tosses.body import effect_of
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
 
@@ -67,10 +69,8 @@ def set_effect(kind: type[Effect], key: str):
     """Set one parameter of an effect; its shapes are those of `KEPT`."""
 
     def set_value(model: Model, value: float) -> Model:
-        here = next((e for e in model.effects if e.id == kind.id), None)
-        effect = replace(here or kind(**KEPT.get(kind.id, {})), **{key: value})
-        others = [e for e in model.effects if e.id != kind.id]
-        return replace(model, effects=catalogue.in_step_order([*others, effect]))
+        effect = effect_of(model, kind, **KEPT.get(kind.id, {}))
+        return with_effect(model, replace(effect, **{key: value}))
 
     return set_value
 
@@ -107,6 +107,11 @@ def effect_parameters(id: str) -> tuple[Parameter, ...]:
 def parameters(model: Model, effects: tuple[str, ...]) -> tuple[Parameter, ...]:
     """Return the law's numbers and those of the effects, in this order."""
     return law_parameters(model) + tuple(p for id in effects for p in effect_parameters(id))
+
+
+def z_of(p: Parameter, value: float) -> float:
+    """Return the z at which a number has this value."""
+    return (np.log(value / p.centre) if p.log else value - p.centre) / p.spread
 
 
 def apply(model: Model, found: tuple[Parameter, ...], z: np.ndarray) -> Model:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.tosses.body import Frames, frames_of, in_the_step, throw_frame
+from rockref.discover.tosses.body import Frames, effect_of, frames_of, in_the_step, throw_frame
 from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.engines import has_numba
 from rockref.measure.tosses.flight import MOST, Poses, Starts, ballistic_starts, displaced, flight_frames, raw_starts
 from rockref.model.problem import Problem, State, as_arrays
-from rockref.model.simulate import check, largest_step
+from rockref.model.simulate import check, largest_step, simulate
 
 #: Steps a frame; decided by the gate `step_small`: where a contact is hard (90 kN/m) the error of the public held-out
 #: tosses changes by some thousandths at twice as many. At 32 it changed by a fiftieth: five of 153 fell otherwise.
@@ -35,10 +35,8 @@ class Prediction:
 
 def gravity_of(model: Model, g: float) -> np.ndarray:
     """Return gravity in plate axes (3,) [m/s2], tilted as `plate_tilt` says."""
-    for effect in model.effects:
-        if isinstance(effect, PlateTilt):
-            return g * np.array([effect.x, effect.y, (effect.x**2 + effect.y**2) / 2 - 1])
-    return np.array([0.0, 0.0, -g])
+    tilt = effect_of(model, PlateTilt)
+    return g * np.array([tilt.x, tilt.y, (tilt.x**2 + tilt.y**2) / 2 - 1])
 
 
 def starts_of(model: Model, poses: Poses, frames: Frames, kind: str = "flight") -> Starts:
@@ -56,7 +54,7 @@ def starts_of(model: Model, poses: Poses, frames: Frames, kind: str = "flight") 
 def flying(model: Model, poses: Poses) -> np.ndarray:
     """Return how many frames every toss flies, by the corners of the plain body: effects must not choose what is
     read."""
-    return flight_frames(poses, np.asarray(model.replace(effects=()).body()[1].P), CLEARANCE)
+    return flight_frames(poses, np.asarray(model.body_without_effects()[1].P), CLEARANCE)
 
 
 def predict(
@@ -104,10 +102,8 @@ def simulated(model: Model, starts: Starts, poses: Poses, steps: int, engine: st
 
 
 def _compiled(problem: Problem, starts: Starts, poses: Poses, steps: int) -> tuple[np.ndarray, np.ndarray]:
-    from dataclasses import replace
-
     from rockref.engines.compiled import columns as col
-    from rockref.engines.compiled.batch import Batch, from_problems, run_batch
+    from rockref.engines.compiled.batch import from_problems, run_batch
 
     one = from_problems([as_arrays(problem, np.float64)])
     B, F = len(starts.x), len(poses.t)
@@ -124,14 +120,11 @@ def _compiled(problem: Problem, starts: Starts, poses: Poses, steps: int) -> tup
         one, body=alike(one.body), P=alike(one.P), props=alike(one.props), memory=alike(one.memory),
         effects=alike(one.effects), state=state, wanted=wanted, forces=np.zeros((B, one.P.shape[1], 3)),
     )  # fmt: skip
-    assert isinstance(batch, Batch)
     rows = run_batch(batch)
     return rows[..., 0:3], rows[..., 6:15].reshape(B, F, 3, 3)
 
 
 def _by_the_law(problem: Problem, starts: Starts, F: int) -> tuple[np.ndarray, np.ndarray]:
-    from rockref.model.simulate import simulate
-
     n = problem.points.n
     start = State.at_rest(starts.x, starts.Lambda, n, starts.v, starts.W)
     found = simulate(problem.replace(start=start), keep_going=True)

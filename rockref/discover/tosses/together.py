@@ -16,7 +16,7 @@ import numpy as np
 from rockref.discover.plan import cosines
 from rockref.discover.tosses import descent
 from rockref.discover.tosses.first_guess import guessed
-from rockref.discover.tosses.fit import HORIZONS, TossFit, cut
+from rockref.discover.tosses.fit import HORIZONS, TossFit, cut, downhill
 from rockref.discover.verdict.detection import eliminated
 from rockref.measure.tosses.flight import Poses
 
@@ -69,8 +69,7 @@ def all_together(
     objective = np.inf
     for stage, (frames, iterations) in enumerate(stages):
         for id in candidates if stage < 2 else ():
-            moved = guessed(z, fit.parameters, id, guesses)
-            z = z if moved is None else moved
+            z = guessed(z, fit.parameters, id, guesses)
         z, objective = fit.run(z, iterations, (frames,))
     return absent_left_out(Stair(fit, z, objective), candidates)
 
@@ -163,13 +162,8 @@ def taken_away(stair: Stair, effect: str, slopes: descent.Slopes, poses: Poses, 
 
 def settled(stair: Stair, poses: Poses, weight: np.ndarray) -> Stair:
     """Return the model after some iterations more."""
-    z, now = stair.z, stair.objective
-    for _ in range(AFTER):
-        z, then = stair.fit.descend(z, poses, weight, stair.fit.slopes(z, poses, weight))
-        gain, now = now - then, then
-        if gain < descent.ENOUGH * now:
-            break
-    return replace(stair, z=z, objective=now)
+    z, objective = downhill(stair.fit, stair.z, stair.objective, poses, weight, AFTER)
+    return replace(stair, z=z, objective=objective)
 
 
 def way_up(stairs: Sequence[Stair], poses: Poses, weight: np.ndarray) -> list[Stair]:
