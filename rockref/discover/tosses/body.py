@@ -91,11 +91,24 @@ class Frames:
         Lambda = A @ Lambda @ self.turn
         return (A @ x[..., None])[..., 0] - self.lift + Lambda @ self.centre, Lambda
 
+    def over_plate(self, poses: Poses) -> Poses:
+        """Return tracked poses as those of the centre of mass over the plate."""
+        x, Lambda = self.to_body(poses.x, poses.Lambda)
+        return poses._replace(x=x, Lambda=Lambda)
+
     def to_tracked(self, x: np.ndarray, Lambda: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the way back."""
         A = self.board_to_plate.swapaxes(-1, -2)
         lifted = x - Lambda @ self.centre + self.lift
         return (A @ lifted[..., None])[..., 0], A @ Lambda @ self.turn.T
+
+
+def cut(poses: Poses, frames: int) -> Poses:
+    """Return the first frames of every toss."""
+    n = min(frames, len(poses.t))
+    return poses._replace(
+        t=poses.t[:n], x=poses.x[:, :n], Lambda=poses.Lambda[:, :n], frames=np.minimum(poses.frames, n)
+    )
 
 
 def throw_frame(poses: Poses) -> np.ndarray:

@@ -11,7 +11,7 @@ from rockref.api import Model
 from rockref.discover.tosses.body import frames_of, nominal_model, throw_frame
 from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.ledger import ledger
-from rockref.discover.tosses.predict import CLEARANCE, predict
+from rockref.discover.tosses.predict import CLEARANCE, STARTS, predict
 from rockref.discover.tosses.stretches import by_stretch, stretch_of
 from rockref.measure.reading.keys import USES
 from rockref.measure.records.toss import Toss, Tosses
@@ -79,18 +79,20 @@ def compare(tosses: Tosses, models: list[Model] | None = None, names: list[str] 
     """
     models = models or [nominal_model(tosses)]
     names = names or ["stated values"]
-    rows = []
-    for use in USES:
-        chosen = tosses.used(use)
-        if not chosen:
-            continue
-        poses = side_by_side(chosen, tosses.rate)
-        for name, model in zip(names, models, strict=True):
-            for start in ("flight", "raw"):
-                rows.append(row_of(name, model, poses, tosses.width, use, start))
+    rows = [
+        row_of(name, model, poses, tosses.width, use, start)
+        for use, poses in poses_by_use(tosses).items()
+        for name, model in zip(names, models, strict=True)
+        for start in STARTS
+    ]
     if not rows:
         raise InputError("E-SIZE", str(tosses.path), "holds no toss", "Give one at least.")
     return TossComparison(tosses, rows, measured(tosses.tosses, tosses, models[0]))
+
+
+def poses_by_use(tosses: Tosses) -> dict[str, Poses]:
+    """Return the poses of the tosses of every use that has any."""
+    return {use: side_by_side(chosen, tosses.rate) for use in USES if (chosen := tosses.used(use))}
 
 
 def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start: str) -> Row:
@@ -99,13 +101,12 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
     e = errors(found, poses, width)
     # Where a toss is in its course is said of the measurement, by the same drawn corners for every model.
     frames, P = frames_of(plain_law(model), throw_frame(poses)), nominal_corners(model)
-    x, Lambda = frames.to_body(poses.x, poses.Lambda)
-    seen = poses._replace(x=x, Lambda=Lambda)
+    seen = frames.over_plate(poses)
     where = stretch_of(seen, P)
     energy = ledger(model, found, poses, where)
     stretches = [s | {"energy_lost": energy[s["stretch"]]} for s in by_stretch(where, e)]
-    x, Lambda = frames.to_body(found.x, np.nan_to_num(found.Lambda))
-    both = {"measured": seen, "model": poses._replace(x=x, Lambda=Lambda)}
+    modelled = frames.over_plate(poses._replace(x=found.x, Lambda=np.nan_to_num(found.Lambda)))
+    both = {"measured": seen, "model": modelled}
     g = float(model.body()[0].g)
     sliding = {k: flat_sliding.sliding_friction(v, P, g).to_dict()["values"] for k, v in both.items()}
     return Row(name, use, start, e, stretches, sliding)
@@ -113,16 +114,13 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
 
 def nominal_corners(model: Model) -> np.ndarray:
     """Return the contact points of the model without its effects, (n, 3) from the middle [m]."""
-    return np.array(plain_law(model).body()[1].P)
+    return np.array(model.body_without_effects()[1].P)
 
 
 def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str, Any]:
     """Return flight arcs, flat sliding; first impacts with the stated and with the measured centre of mass."""
     poses = side_by_side(chosen, tosses.rate)
-    frames = frames_of(plain_law(model), throw_frame(poses))
-    x, Lambda = frames.to_body(poses.x, poses.Lambda)
-    own = poses._replace(x=x, Lambda=Lambda)
-    P = nominal_corners(model)
+    own, P = frames_of(plain_law(model), throw_frame(poses)).over_plate(poses), nominal_corners(model)
     arcs = impact_balance.flight_arcs(own, flight_frames(own, P, CLEARANCE))
     found: dict[str, Any] = {"flight_arcs": arcs.to_dict()}
     if not arcs.values:
@@ -133,7 +131,7 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
     mass = float(model.mass)
     stated = np.diag(np.asarray(model.body()[0].inertia)) / mass
     for name, c in (("stated_centre", 0 * centre), ("measured_centre", centre)):
-        moved = own._replace(x=x + Lambda @ c)
+        moved = own._replace(x=own.x + own.Lambda @ c)
         try:
             k = impact_balance.first_impacts(moved, P - c, np.diag(stated), g, CLEARANCE / 2)
         except InputError:

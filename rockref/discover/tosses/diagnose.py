@@ -15,7 +15,7 @@ from rockref.discover.tosses.compare import measured
 from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.first_guess import first_guesses
 from rockref.discover.tosses.fit import HORIZONS, TossFit
-from rockref.discover.tosses.fitting import at_values, unfitted, values
+from rockref.discover.tosses.fitting import LEAST_TOSSES, at_values, by_start, enough, unfitted, values
 from rockref.discover.tosses.gates import floor_of, off_bounds, paired, step_small, total, uses_agree
 from rockref.discover.tosses.parameters import CANDIDATES, apply
 from rockref.discover.tosses.predict import predict
@@ -24,12 +24,9 @@ from rockref.effects import catalogue
 from rockref.measure.records.release import FIT, HOLDOUT
 from rockref.measure.records.toss import Tosses
 from rockref.measure.tosses.flight import Poses, side_by_side
-from rockref.model.errors import InputError
 
 #: Most iterations of the law's own fit and of the last polish; an iteration that gains no more ends a fit.
 FIRST_ITERATIONS, LAST_ITERATIONS = 16, 12
-#: Least tosses on either side for a verdict (decided: below it the bootstrap of a mean with heavy tails means little).
-LEAST_TOSSES = 8
 #: Share of a rung's gain that stays without its effect, from which on the others could stand for it; decided.
 TAKEN_OVER = 0.95
 
@@ -143,16 +140,11 @@ def diagnose(
     """
     started = time.perf_counter()
     say = progress or (lambda line: None)
-    for use in (FIT, HOLDOUT):
-        if len(tosses.used(use)) < LEAST_TOSSES:
-            raise InputError(
-                "E-SIZE", str(tosses.path), f"has {len(tosses.used(use))} tosses of use {use}",
-                f"A verdict needs {LEAST_TOSSES} of each.",
-            )  # fmt: skip
+    fitted, kept = (enough(tosses, use, f"A verdict needs {LEAST_TOSSES} of each.") for use in (FIT, HOLDOUT))
     given = model or nominal_model(tosses)
     base, own = unfitted(given)
-    poses = side_by_side(tosses.used(FIT), tosses.rate)
-    found = measured(tosses.used(FIT), tosses, base)
+    poses = side_by_side(fitted, tosses.rate)
+    found = measured(fitted, tosses, base)
     fit = TossFit(base, tuple(own), poses, tosses.width, log=say)
     law = Stair(fit, *fit.run(at_values(fit.parameters, own), FIRST_ITERATIONS))
     steps = [Step("", law.fit, law.z)]
@@ -165,7 +157,7 @@ def diagnose(
         stairs = way_down(full, tuple(own), say)
         confusion = stairs[0].confusion
         steps = rungs(stairs, law, say)
-    held = side_by_side(tosses.used(HOLDOUT), tosses.rate)
+    held = side_by_side(kept, tosses.rate)
     say("the held-out tosses")
     result = conclude(tosses, given, steps, poses, held, found, started)
     not_needed = tuple(id for id in others if id not in steps[-1].fit.effects)
@@ -206,11 +198,9 @@ def conclude(
     tosses: Tosses, base: Model, steps: list[Step], poses: Poses, held: Poses, found: dict[str, Any], started: float
 ) -> TossDiagnosis:
     """Return the held-out tosses, rung by rung, and the verdict."""
-    nominal = {start: errors(predict(base, held, start), held, tosses.width) for start in ("flight", "raw")}
+    nominal = by_start(base, held, tosses.width)
     for i, step in enumerate(steps):
-        step.holdout = {
-            start: errors(predict(step.model, held, start), held, tosses.width) for start in ("flight", "raw")
-        }
+        step.holdout = by_start(step.model, held, tosses.width)
         step.fitted = errors(predict(step.model, poses), poses, tosses.width)
         before = nominal["flight"] if i == 0 else steps[i - 1].holdout["flight"]
         step.proof = paired(before, step.holdout["flight"], len(steps) - 1)

@@ -10,6 +10,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.tosses import descent
+from rockref.discover.tosses.body import cut
 from rockref.discover.tosses.parameters import apply, parameters
 from rockref.discover.tosses.predict import Prediction, predict
 from rockref.measure.tosses.flight import Poses
@@ -30,14 +31,6 @@ SYSTEMATIC = np.array([1e-4] * 3 + [1e-3] * 3 + [4e-3] * 3 + [3e-2] * 3)
 #: Blur by the start, in percent and degrees, from which on a frame's error counts by the blur's inverse; decided: about
 #: what is left after the first impact.
 BLUR = 1.0
-
-
-def cut(poses: Poses, frames: int) -> Poses:
-    """Return the first frames of every toss."""
-    n = min(frames, len(poses.t))
-    return poses._replace(
-        t=poses.t[:n], x=poses.x[:, :n], Lambda=poses.Lambda[:, :n], frames=np.minimum(poses.frames, n)
-    )
 
 
 @dataclass

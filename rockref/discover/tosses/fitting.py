@@ -11,7 +11,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.hypotheses.counted import Parameter
 from rockref.discover.tosses.body import nominal_model
-from rockref.discover.tosses.compare import measured
+from rockref.discover.tosses.compare import measured, poses_by_use
 from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.first_guess import first_guesses, guessed
 from rockref.discover.tosses.fit import TossFit
@@ -20,13 +20,14 @@ from rockref.discover.tosses.parameters import CANDIDATES, z_of
 from rockref.discover.tosses.predict import STARTS, predict
 from rockref.effects import catalogue
 from rockref.measure.records.release import FIT, HOLDOUT
-from rockref.measure.records.toss import Tosses
+from rockref.measure.records.toss import Toss, Tosses
 from rockref.measure.tosses.flight import Poses, side_by_side
 from rockref.model.errors import InputError
 
 #: Most iterations of a fit; one that gains no more ends it.
 ITERATIONS = 24
-#: Fewest tosses that are fitted (decided: eighteen numbers of a contact want at least as many falls).
+#: Fewest tosses of a use (decided: a contact's eighteen numbers want at least as many falls, and of fewer the bootstrap
+#: of a mean with heavy tails means little).
 LEAST_TOSSES = 8
 
 
@@ -101,11 +102,7 @@ def fit_tosses(
         E-EFFECT, for an effect that tosses are not asked about; E-SIZE, where there are too few tosses; E-KIND, for a
         model that is no box.
     """
-    chosen = tosses.used(FIT)
-    if len(chosen) < LEAST_TOSSES:
-        raise InputError(
-            "E-SIZE", str(tosses.path), f"has {len(chosen)} tosses of use {FIT}", f"A fit needs {LEAST_TOSSES}."
-        )
+    chosen = enough(tosses, FIT, f"A fit needs {LEAST_TOSSES}.")
     for id in effects:
         check_served(id)
     base, own = unfitted(model or nominal_model(tosses))
@@ -134,15 +131,19 @@ def add_to_tosses(
     before = fit_tosses(tosses, (), model, progress=progress)
     after = fit_tosses(tosses, (effect,), before.model, progress=progress)
     found: dict[tuple[str, str], tuple[Errors, Errors]] = {}
-    for use in (FIT, HOLDOUT):
-        chosen = tosses.used(use)
-        if not chosen:
-            continue
-        poses = side_by_side(chosen, tosses.rate)
+    for use, poses in poses_by_use(tosses).items():
         a, b = (by_start(end.model, poses, tosses.width) for end in (before, after))
         found |= {(use, start): (a[start], b[start]) for start in STARTS}
     proof = paired(*found[HOLDOUT, "flight"]) if (HOLDOUT, "flight") in found else {}
     return TossAddition(effect, before, after, found, proof)
+
+
+def enough(tosses: Tosses, use: str, cure: str) -> tuple[Toss, ...]:
+    """Return the tosses of a use. Raises InputError (E-SIZE) where there are too few."""
+    chosen = tosses.used(use)
+    if len(chosen) < LEAST_TOSSES:
+        raise InputError("E-SIZE", str(tosses.path), f"has {len(chosen)} tosses of use {use}", cure)
+    return chosen
 
 
 def check_served(id: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -48,7 +49,7 @@ def floor_of(model: Model, poses: Poses, width: float, draws: int = 4) -> dict[s
     for _ in range(draws):
         x, Lambda = simulated(model, displaced(first.starts, drawn_starts(first, rng)), poses, STEPS_A_FRAME, "auto")
         x, Lambda = first.frames.to_tracked(x, Lambda)
-        found.append(errors(type(first)(x, Lambda, first.starts, first.frames), as_measured, width))
+        found.append(errors(replace(first, x=x, Lambda=Lambda), as_measured, width))
     return {
         "position_percent": round(100 * float(np.mean([e.position for e in found])), 2),
         "rotation_deg": round(float(np.mean([e.rotation for e in found])), 2),

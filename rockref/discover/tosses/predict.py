@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.tosses.body import Frames, effect_of, frames_of, in_the_step, throw_frame
+from rockref.discover.tosses.body import Frames, cut, effect_of, frames_of, in_the_step, throw_frame
 from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.engines import has_numba
 from rockref.measure.tosses.flight import MOST, Poses, Starts, ballistic_starts, displaced, flight_frames, raw_starts
@@ -42,12 +42,11 @@ def gravity_of(model: Model, g: float) -> np.ndarray:
 def starts_of(model: Model, poses: Poses, frames: Frames, kind: str = "flight") -> Starts:
     """Return states of the centre of mass at the first frame, plate axes: from the flight, or the raw first frame."""
     block, _ = in_the_step(model).body()
-    x, Lambda = frames.to_body(poses.x[:, : MOST + 1], poses.Lambda[:, : MOST + 1])
-    own = poses._replace(x=x, Lambda=Lambda, t=poses.t[: MOST + 1], frames=np.minimum(poses.frames, MOST + 1))
+    own = frames.over_plate(cut(poses, MOST + 1))
     if kind == "raw":
         W = poses.W @ frames.turn
         v = (frames.board_to_plate[:, 0] @ poses.v[..., None])[..., 0]
-        return raw_starts(own, v + (Lambda[:, 0] @ np.cross(W, frames.centre)[..., None])[..., 0], W)
+        return raw_starts(own, v + (own.Lambda[:, 0] @ np.cross(W, frames.centre)[..., None])[..., 0], W)
     return ballistic_starts(own, flying(model, poses), gravity_of(model, float(block.g)), np.asarray(block.inertia))
 
 

@@ -15,8 +15,9 @@ import numpy as np
 
 from rockref.discover.plan import cosines
 from rockref.discover.tosses import descent
+from rockref.discover.tosses.body import cut
 from rockref.discover.tosses.first_guess import guessed
-from rockref.discover.tosses.fit import HORIZONS, TossFit, cut, downhill
+from rockref.discover.tosses.fit import HORIZONS, TossFit, downhill
 from rockref.discover.verdict.detection import eliminated
 from rockref.measure.tosses.flight import Poses
 
