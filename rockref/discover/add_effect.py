@@ -18,6 +18,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.compare.stretches import AXES
+from rockref.discover.diagnose import error_record
 from rockref.discover.evidence.collect import errors, hypothesis_evidence
 from rockref.discover.evidence.evidence import Number
 from rockref.discover.evidence.held_out import held_out_fit
@@ -39,9 +40,11 @@ from rockref.discover.fit_store import FitStore
 from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened
 from rockref.discover.progress import StageCounter, StageReport
+from rockref.discover.provenance import versions
 from rockref.discover.threads import one_blas_thread
 from rockref.discover.verdict.calibration import calibration
 from rockref.effects import catalogue
+from rockref.measure.reading.keys import USES
 from rockref.measure.records.release import Experiment
 from rockref.measure.signals.impacts import main_impacts
 from rockref.measure.signals.repeatability import repeat_groups, repeatability
@@ -106,8 +109,6 @@ class Addition:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers and words."""
-        from rockref.discover.diagnose import STRETCH
-        from rockref.discover.provenance import versions
 
         def both(state: State) -> dict[str, Any]:
             return {"effects": list(state.effects), "fit": state.fit, "holdout": state.holdout}
@@ -117,15 +118,14 @@ class Addition:
             "experiment": self.experiment.name,
             "effect": self.effect,
             "parameters": {name: number_record(n) for name, n in self.numbers.items()},
-            "error": {
-                "unit": "deg/s RMS",
-                "stretch": STRETCH.format(end=self.end),
-                "noise_floor": self.noise,
-                "two_repeated_runs_differ_by": spread,
-                "before": both(self.before),
-                "after": both(self.after),
-                "gap_closed": {"fit": self.gap_closed("fit"), "holdout": self.gap_closed("holdout")},
-            },
+            "error": error_record(
+                self.end,
+                self.noise,
+                two_repeated_runs_differ_by=spread,
+                before=both(self.before),
+                after=both(self.after),
+                gap_closed={use: self.gap_closed(use) for use in USES},
+            ),
             "history": self.history,
             "started_from_kept_fit": self.from_store,
             "seconds": round(self.seconds, 1),

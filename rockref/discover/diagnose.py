@@ -25,7 +25,9 @@ from rockref.discover.kept_search import KeptSearch
 from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened, own_effects
 from rockref.discover.progress import StageCounter, StageReport
+from rockref.discover.provenance import versions
 from rockref.discover.selection.search import Search
+from rockref.discover.separating import separating_run
 from rockref.discover.threads import one_blas_thread
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.detection import detection
@@ -74,8 +76,6 @@ class Diagnosis:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers and words."""
-        from rockref.discover.provenance import versions
-
         return {
             "experiment": self.experiment.name,
             "verdict": self.verdict,
@@ -156,8 +156,6 @@ def diagnose(
 
 def of_class(fitter: Fitter, fits: Sequence[FittedModel], decision: Verdict, end: float) -> str:
     """Return the run that tells the members of a class apart best, in a sentence, or ""."""
-    from rockref.discover.separating import separating_run
-
     null = next(h for h in fits if h.effects == fitter.problem.carried)
     model = next(m for m in fitter.problem.job(fitter.parameters(null), null.z).models if m is not None)
     leader = next(h for h in fits if h.effects == decision.best.effects)
@@ -304,10 +302,12 @@ def error(decision: Verdict, evidence: Evidence, end: float, experiment: Experim
     assert experiment.gyro is not None
     noise = float(np.degrees(np.hypot(experiment.gyro.noise, experiment.gyro.resolution / np.sqrt(12))))
     shown = best if decision.effects else null
-    return {
-        "unit": "deg/s RMS", "stretch": STRETCH.format(end=end), "noise_floor": noise,
-        "baseline": both(null), "with_effect": both(shown),
-    }  # fmt: skip
+    return error_record(end, noise, baseline=both(null), with_effect=both(shown))
+
+
+def error_record(end: float, noise: float, **errors: Any) -> dict[str, Any]:
+    """Return errors [deg/s] over the first `end` s of each run, beside the noise, with the words for what they are."""
+    return {"unit": "deg/s RMS", "stretch": STRETCH.format(end=end), "noise_floor": noise, **errors}
 
 
 def gates(decision: Verdict, evidence: Evidence) -> dict[str, Any]:

@@ -1,21 +1,11 @@
-"""A diagnosis as plain JSON values, and read back."""
+"""Results as plain JSON values."""
 
 from __future__ import annotations
 
-import json
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-from rockref.model.errors import InputError
-
-#: The keys that every diagnosis has.
-KEYS = (
-    "experiment", "verdict", "effects", "ranking", "amplitudes", "error", "separating_experiment", "signature", "gates",
-    "seconds", "versions",
-)  # fmt: skip
 
 
 def plain(value: Any) -> Any:
@@ -32,18 +22,3 @@ def plain(value: Any) -> Any:
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
-
-
-def read(path: Path) -> dict[str, Any]:
-    """Read what `rockref diagnose --json` printed. Raises InputError (E-FILE, E-JSON)."""
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as e:
-        raise InputError("E-FILE", str(path), f"cannot be read ({e.strerror})", "Check the path.") from e
-    except ValueError as e:
-        raise InputError("E-JSON", str(path), f"is no JSON: {e}", "Give what rockref diagnose --json printed.") from e
-    missing = [key for key in KEYS if not isinstance(found, dict) or key not in found]
-    if missing:
-        cure = "Give what rockref diagnose --json printed."
-        raise InputError("E-JSON", str(path), f"has no {missing[0]!r}", cure)
-    return found

@@ -19,6 +19,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.compare.models import baseline_model
+from rockref.discover.diagnose import error_record
 from rockref.discover.evidence.collect import hypothesis_evidence
 from rockref.discover.evidence.evidence import HypothesisEvidence
 from rockref.discover.evidence.result import model_of
@@ -26,11 +27,12 @@ from rockref.discover.evidence.widths import deviations
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.problem import END, FitProblem, fit_problem
 from rockref.discover.fit.stages import S1, S2, S3, F
-from rockref.discover.fit_gates import Gate, innovations_white, off_bounds, stages_agree, starts_agree, step_halved
+from rockref.discover.fit_gates import Gate, innovations_white, off_bounds, same_place, step_halved
 from rockref.discover.fit_store import FitStore
 from rockref.discover.hypotheses import candidates
 from rockref.discover.listening.records import opened
 from rockref.discover.progress import StageCounter, StageReport
+from rockref.discover.provenance import versions
 from rockref.discover.selection.halving import halving
 from rockref.discover.selection.score_test import proposals
 from rockref.discover.selection.search import CONTRADICTED, STEPS, Search
@@ -49,8 +51,6 @@ STARTS = 3
 OTHER_START = 0.5
 #: Stages of a fit, each with its share of the time (decided: as the stages of a diagnosis that do the same).
 STAGES = {"baseline": 5.0, "starts": 29.0, "effects": 10.0, "memory": 10.0, "gates": 2.0, "starts again": 15.0}
-#: What a fit may be: believed; right but for an effect that is missing; not to be believed; not asked.
-OUTCOMES = ("trustworthy", "effect_missing", "not_trustworthy", "not_checked")
 
 
 @dataclass
@@ -79,9 +79,6 @@ class BaselineFit:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers and words."""
-        from rockref.discover.diagnose import STRETCH
-        from rockref.discover.provenance import versions
-
         said = self.evidence
         return {
             "experiment": self.experiment.name,
@@ -89,15 +86,12 @@ class BaselineFit:
             "outcome": self.outcome,
             "parameters": {name: number_record(n) for name, n in {**said.law, **said.numbers}.items()},
             "gates": {"passed": self.passed, "checks": [gate.to_dict() for gate in self.gates]},
-            "error": {
-                "unit": "deg/s RMS", "stretch": STRETCH.format(end=self.end), "noise_floor": self.noise,
-                "fit": said.error["total"],
-            },
+            "error": error_record(self.end, self.noise, fit=said.error["total"]),
             "mean_loss": round(said.loss, 4),
             "started_from_kept_fit": self.from_store,
             "seconds": round(self.seconds, 1),
             "versions": versions(self.experiment),
-        }  # fmt: skip
+        }
 
 
 def number_record(n) -> dict[str, Any]:
@@ -164,7 +158,8 @@ def fit_baseline(
     )
 
 
-#: What a model says of the gates of its fit.
+#: What a fit may be (believed; not to be believed; not asked; right but for an effect that is missing), and what its
+#: model says of it.
 GATES_SAID: dict[str, Any] = {
     "trustworthy": True, "not_trustworthy": False, "not_checked": "not checked",
     "effect_missing": "an effect is missing: run rockref diagnose",
@@ -318,8 +313,8 @@ def checked(
     parameters = fitter.parameters(best)
     width, _ = deviations(fitter, best, F, calibration().temperature)
     gates = [
-        stages_agree(parameters, earlier, best.z, width),
-        starts_agree(parameters, other.z, best.z, width),
+        same_place("stages_agree", parameters, earlier, best.z, width),
+        same_place("starts_agree", parameters, other.z, best.z, width),
         step_halved(fitter, best),
         off_bounds(parameters, best.z),
         innovations_white(said, calibration()),
@@ -346,7 +341,7 @@ def other_starts(
         ends.sort(key=lambda end: end[0].objective)
         best = ends[0][0]
         width, _ = deviations(fitter, best, F, calibration().temperature)
-        gates = [starts_agree(fitter.parameters(h), end.z, best.z, width) for end, _ in ends[1:]]
+        gates = [same_place("starts_agree", fitter.parameters(h), end.z, best.z, width) for end, _ in ends[1:]]
         nearest = int(np.argmin([gate.value for gate in gates]))
         if gates[nearest].passed:
             break
@@ -368,7 +363,7 @@ def other_start(fitter: Fitter, h: FittedModel, seed: int) -> np.ndarray:
 
 
 def outcome_of(gates: list[Gate], said: HypothesisEvidence) -> tuple[str, str]:
-    """Return what a fit is, one of OUTCOMES, and the run that contradicts the others, if one does."""
+    """Return what a fit is, one of GATES_SAID, and the run that contradicts the others, if one does."""
     if not gates:
         return "not_checked", ""
     run = contradicting_run(said, calibration()) or ""

@@ -23,6 +23,8 @@ AGREE, KNOWN_WELL = 3.0, 0.1
 STEP_CHANGE = 0.02
 #: Prior deviations from which a number is at the end of its range: a flat prior has 0.13 % of itself beyond (decided).
 BOUND = 3.0
+#: Gates that another fit ends in the same place, and which one.
+OTHER_FITS = {"stages_agree": "The fit at half the memory", "starts_agree": "The fit from another start"}
 
 
 @dataclass(frozen=True)
@@ -49,28 +51,16 @@ def distances(parameters: Sequence[Parameter], a: np.ndarray, b: np.ndarray, wid
     return np.where(shared, np.abs(a - b) / np.maximum(AGREE * width, KNOWN_WELL), 0.0)
 
 
-def same_place(
-    name: str, words: str, parameters: Sequence[Parameter], a: np.ndarray, b: np.ndarray, width: np.ndarray
-) -> Gate:
-    """Return the gate that two fits end in the same place; width (G,) standard deviations of z."""
+def same_place(name: str, parameters: Sequence[Parameter], a: np.ndarray, b: np.ndarray, width: np.ndarray) -> Gate:
+    """Return the gate, one of OTHER_FITS, that another fit a ends where b does; width (G,) standard deviations of z."""
     off = distances(parameters, a, b, width)
     worst = int(np.argmax(off))
     apart = abs(float(a[worst] - b[worst]))
     sentence = (
-        f"{words} differs most in {parameters[worst].name}: by {apart:.2f} prior deviations, "
+        f"{OTHER_FITS[name]} differs most in {parameters[worst].name}: by {apart:.2f} prior deviations, "
         f"{apart / float(width[worst]):.1f} standard deviations."
     )
     return Gate(name, bool(off[worst] < 1.0), float(off[worst]), 1.0, sentence)
-
-
-def stages_agree(parameters: Sequence[Parameter], earlier: np.ndarray, z: np.ndarray, width: np.ndarray) -> Gate:
-    """Return whether the fit at half the memory ends in the same place."""
-    return same_place("stages_agree", "The fit at half the memory", parameters, earlier, z, width)
-
-
-def starts_agree(parameters: Sequence[Parameter], other: np.ndarray, z: np.ndarray, width: np.ndarray) -> Gate:
-    """Return whether the fit from another start ends in the same place."""
-    return same_place("starts_agree", "The fit from another start", parameters, other, z, width)
 
 
 def step_halved(fitter: Fitter, h: FittedModel) -> Gate:

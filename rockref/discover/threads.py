@@ -49,13 +49,8 @@ def threads_left(items: int, workers: int | None) -> int:
     return max(1, min(items, (workers or os.cpu_count() or 1) + 1 - _crew.at_work))
 
 
-def on_threads(
-    do: Callable[[Item], Found], items: Sequence[Item], threads: int, failed: Callable[[], None] = lambda: None
-) -> list[Found]:
-    """Return [do(item) for item in items] on so many threads; on this one, where one is enough.
-
-    failed : called at once where one of several threads fails
-    """
+def on_threads(do: Callable[[Item], Found], items: Sequence[Item], threads: int) -> list[Found]:
+    """Return [do(item) for item in items] on so many threads; on this one, where one is enough."""
 
     def done(item: Item) -> Found:
         with _crew.more(1):
@@ -71,6 +66,5 @@ def on_threads(
                 futures = [future for future in futures if future in over]
             return [future.result() for future in futures]
         except BaseException:
-            failed()
             pool.shutdown(wait=False, cancel_futures=True)
             raise

@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 from rockref.discover.diagnose import diagnose
-from rockref.discover.diagnosis_record import KEYS, plain
+from rockref.discover.diagnosis_record import plain
 from rockref.effects.catalogue import EFFECTS
+from tests.unit.discover.fakes import DIAGNOSIS_KEYS
 
 EXPERIMENTS = Path(__file__).resolve().parents[2] / "data/experiments"
 ANSWERS = {a["name"]: a for a in json.loads((EXPERIMENTS / "answers.json").read_text(encoding="utf-8"))}
@@ -21,7 +22,7 @@ def test_verdict_is_right_or_a_class_that_holds_the_truth(name):
     """The control is none, the loose mass something else, and the defects of feet are found from four points."""
     truth = ANSWERS[name]["effects"]
     found = plain(diagnose(EXPERIMENTS / name).to_dict())
-    assert set(KEYS) <= set(found)
+    assert set(DIAGNOSIS_KEYS) <= set(found)
     if not truth:
         assert found["verdict"] == "none" and found["effects"] == []
         return

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.measure.signals.activity import ONSET_SIGMAS, Leakage, leakage, onset
-from rockref.measure.signals.arcs import Arcs, arcs
 from rockref.measure.signals.envelopes import Envelope, EnvelopeShape, envelope_shape, envelopes
 from rockref.measure.signals.impacts import Impacts, main_impacts
 from rockref.measure.signals.ledger import Ledger, RockingBlock, energy_ledger
@@ -24,13 +23,12 @@ LEAST_ARC = 0.1
 class Features:
     """One run, seen through its signal.
 
-    Attributes: ``impacts``, ``arcs``, ``ledger``, ``leak`` as in :mod:`rockref.measure`; ``onset`` s, begin of the
+    Attributes: ``impacts``, ``ledger``, ``leak`` as in :mod:`rockref.measure`; ``onset`` s, begin of the
     transverse motion (NaN if unseen); ``envelope``, ``shapes`` (of the rates about Y and Z) and ``spectrum`` of the arc
     between the first two main impacts, None where there is no such arc.
     """
 
     impacts: Impacts
-    arcs: Arcs
     ledger: Ledger
     leak: Leakage
     onset: float
@@ -56,7 +54,7 @@ def features(t: np.ndarray, crv: np.ndarray, block: RockingBlock, noise: np.ndar
         shapes = envelope_shape(upper[0], lower[0]), envelope_shape(upper[1], lower[1])
         spectrum = amplitude_spectrum(t, crv, first, second)
     ledger = energy_ledger(t, crv, block, impacts)
-    return Features(impacts, arcs(t, crv, impacts), ledger, leak, begin, envelope, shapes, spectrum)
+    return Features(impacts, ledger, leak, begin, envelope, shapes, spectrum)
 
 
 @dataclass(frozen=True)

@@ -143,9 +143,9 @@ class Comparison:
         ]
         return float(np.sqrt(np.mean(np.square(values)))) if values else float("nan")
 
-    def noise(self, axis: int | None = None, use: str | None = None) -> float:
+    def noise(self, axis: int | None = None) -> float:
         """Return the noise floor, rad/s: the RMS over runs (and over the three axes without `axis`)."""
-        square = np.mean([self.measured[k].noise ** 2 for k in self.of(use)], axis=0)
+        square = np.mean([m.noise**2 for m in self.measured], axis=0)
         return float(np.sqrt(np.mean(square) if axis is None else square[axis]))
 
     def holds_to_second_impact(self) -> bool:

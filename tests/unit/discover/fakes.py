@@ -16,6 +16,11 @@ from rockref.discover.plan import Plan, Release, Says, further, outlook
 from rockref.effects.catalogue import find, parse
 from tests.unit.discover.synthetic import experiment
 
+#: The keys that every diagnosis has.
+DIAGNOSIS_KEYS = (
+    "experiment", "verdict", "effects", "ranking", "amplitudes", "error", "separating_experiment", "signature", "gates",
+    "seconds", "versions",
+)  # fmt: skip
 DRAG = Model.table_3_1().replace(effects=(parse("quadratic_drag:c=0.4"),))
 
 

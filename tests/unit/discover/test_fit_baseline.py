@@ -9,7 +9,7 @@ from rockref import Model
 from rockref.discover import fit_baseline as engine
 from rockref.discover.fit.fitter import FittedModel
 from rockref.discover.fit.stages import F
-from rockref.discover.fit_gates import Gate, off_bounds, stages_agree
+from rockref.discover.fit_gates import Gate, off_bounds, same_place
 from rockref.discover.fit_store import FitStore
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
@@ -101,7 +101,7 @@ def test_gates_compare_shared_numbers_alone():
     tilt = [p.name for p in parameters].index("tilt_offset[0]")
     off = z.copy()
     off[[at, tilt]] = 0.2, 3.2  # a tilt belongs to its own run
-    gate = stages_agree(parameters, off, z, width)
+    gate = same_place("stages_agree", parameters, off, z, width)
     assert not gate.passed and "mu_int" in gate.sentence and gate.value == pytest.approx(2.0)
     assert off_bounds(parameters, off).passed
     off[at] = -3.2
@@ -118,7 +118,7 @@ def test_innovations_that_are_not_white_say_that_an_effect_is_missing(white, oth
     gates = [Gate("starts_agree", others, 0.0, 1.0, ""), Gate("innovations_white", white, 0.0, 1.0, "")]
     assert engine.outcome_of(gates, fakes.fitted().evidence) == (outcome, "")
     assert engine.outcome_of([], fakes.fitted().evidence)[0] == "not_checked"
-    assert set(engine.GATES_SAID) == set(engine.OUTCOMES)
+    assert {outcome, "not_checked"} <= set(engine.GATES_SAID)
 
 
 def test_the_longest_memory_is_the_last_stage():
