@@ -18,7 +18,6 @@ from rockref.discover.compare.models import Comparison
 from rockref.discover.compare.sentences import findings
 from rockref.discover.diagnosis_record import plain
 from rockref.discover.progress import StageReport
-from rockref.discover.story import STEPS, Journey, run_story
 from rockref.measure import envelope_shape, envelopes, main_impacts
 from rockref.measure.records.release import Experiment
 from rockref.measure.signals.activity import leakage, onset
@@ -38,6 +37,7 @@ from rockref.report.terminal.fit_text import said
 from rockref.report.views.addition_page import add_errors
 from rockref.report.views.card import card_of_diagnosis
 from rockref.report.views.diagnosis_page import verdict_words
+from rockref.workflows.story import STEPS, Journey, run_story
 
 # decided: its effect is physical, and its energy shows it.
 EXPERIMENTS = ("mystery-05",)

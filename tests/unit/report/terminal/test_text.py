@@ -5,7 +5,6 @@ from dataclasses import replace
 import pytest
 
 from rockref.discover.diagnosis_record import plain
-from rockref.discover.story import Journey
 from rockref.report.html.page import Page
 from rockref.report.tables.table import Table
 from rockref.report.terminal.addition_text import print_addition
@@ -16,6 +15,7 @@ from rockref.report.terminal.identification_text import print_identification
 from rockref.report.terminal.plan_text import print_plan
 from rockref.report.terminal.text import print_table, say_command
 from rockref.workflows.demo import Story, the_error, the_missing_effect
+from rockref.workflows.story import Journey
 from tests.printed import printed
 from tests.unit.discover import fakes
 from tests.unit.report.made_up import IDENTIFICATION

@@ -19,8 +19,9 @@ ADDED = ("named", "indicated", "pair", "class")
 #: Steps of the story, with the page that follows it, and how long what follows a diagnosis takes, as a share of it
 #: (measured on a shipped experiment).
 STEPS, AFTER = 4, 0.4
-#: Seconds of each run: what a diagnosis uses, and about half of it.
-WHOLE_END, QUICK_END = 3.0, 1.6
+#: Seconds of each run that are used; decided: about half of what a diagnosis uses, which is enough for an effect of its
+#: typical size.
+QUICK_END = 1.6
 
 
 @dataclass
@@ -30,25 +31,6 @@ class Journey:
     diagnosis: Diagnosis
     addition: Addition | None
     comparison: Comparison
-
-    @property
-    def lines(self) -> list[str]:
-        """Return the story in sentences."""
-        d, a = self.diagnosis, self.addition
-        found = [f"{d.experiment.name}: {d.sentence}"]
-        if a is None:
-            return found
-        for name, n in a.own_numbers.items():
-            unit = "" if n.unit in ("", "1") else f" {n.unit}"
-            found.append(f"{name} = {n.value:.3g}{unit} (90 %: {n.low:.3g} to {n.high:.3g}).")
-        for use, words in (("fit", "fit runs"), ("holdout", "held-out runs")):
-            before, after = getattr(a.before, use), getattr(a.after, use)
-            if before is not None and after is not None:
-                found.append(
-                    f"The error on the {words} falls from {before['total']:.3f} to {after['total']:.3f} deg/s RMS; the "
-                    f"noise floor is {a.noise:.3f}."
-                )
-        return found
 
 
 def step(
@@ -66,29 +48,22 @@ def step(
     return tell
 
 
-def run_story(
-    experiment: str | Path,
-    report: Callable[[StageReport], None],
-    engine: str = "auto",
-    seed: int = 0,
-    quick: bool = True,
-) -> Journey:
+def run_story(experiment: str | Path, report: Callable[[StageReport], None], engine: str = "auto") -> Journey:
     """Diagnose, add the first effect of the verdict, and compare: the nominal baseline and what was found.
 
-    report : called with every stage; quick : about half the seconds of each run are used, which is enough for an
-    effect of its typical size. The addition starts from the fits of the diagnosis.
+    report : called with every stage. The addition starts from the fits of the diagnosis.
 
     Raises
     ------
     InputError, NumericalError
     """
-    end, store = QUICK_END if quick else WHOLE_END, FitStore(fresh=True, on_disk=False)
-    found = diagnose(experiment, seed=seed, end=end, progress=step(1, "diagnosing", report, AFTER), store=store)
+    store = FitStore(fresh=True, on_disk=False)
+    found = diagnose(experiment, end=QUICK_END, progress=step(1, "diagnosing", report, AFTER), store=store)
     addition = None
     if found.verdict in ADDED:
         effect = found.effects[0]
         adding = step(2, f"adding {effect}", report)
-        addition = add_effect(effect, experiment, seed=seed, end=end, progress=adding, store=store)
+        addition = add_effect(effect, experiment, end=QUICK_END, progress=adding, store=store)
     report(StageReport(3, STEPS, "comparing before and after"))
     loaded = load_experiment(experiment)
     models, names = [baseline_model(loaded)], ["baseline"]
