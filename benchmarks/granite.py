@@ -10,9 +10,10 @@ from collections import Counter
 
 import numpy as np
 from granite_blocks import CROSSOVER, FELL, load_granite, record_sizes, sessions, sizes
-from granite_plane import PHYSICAL, STEP, WIDENED, falls, probabilities
+from granite_plane import LADDER, PHYSICAL, STEP, WIDENED, critical_angles, falls, probabilities
 from granite_space import fall_shares
 
+from rockref.shake.statistics.fragility import fit_fragility
 from rockref.shake.statistics.held_out import held_out_choice, held_out_regression
 from rockref.shake.statistics.resampling import mean_over_motions, paired_difference
 from rockref.shake.statistics.scores import hits, log_losses, repeats
@@ -50,6 +51,13 @@ def main() -> None:
                 found[title], chosen = held_out_choice(p, y, motion)
                 for k, times in Counter(chosen.tolist()).most_common(3):
                     print(f"block {block}, {title}: {numbers[k]} for {times} of {len(chosen)} motions")
+            title = f"fragility over the critical angle, {crossover:g} Hz"
+            critical = np.log(critical_angles(falls(data, tests.test, block, crossover, given.step, LADDER)))
+            beside = {"": [], ", session": [sessions(tests)], ", record": [np.log(record_sizes(tests))]}
+            for of_what, columns in beside.items():
+                found[title + of_what] = held_out_regression(np.column_stack([critical, *columns]), y, motion, "probit")
+            whole = fit_fragility(np.exp(critical), y)
+            print(f"block {block}, {title}: median {whole.theta:.2f} degrees, scatter {whole.beta:.2f}")
         for reach in given.reach:
             share = fall_shares(data, tests.test, block, reach, given.rounds)
             # Jeffreys' prior of a share: half a run more on either side.

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -60,6 +60,9 @@ WIDENED = Candidates(
     medians_deg=tuple(np.arange(3.0, 10.1, 0.5).tolist()),
     scatters=(0.1, 0.15, 0.2, 0.3),
 )
+#: Ladder for critical angles. Ratio and restitutions are those of the meshes' range. Decided: from a degree to 45, so
+#: that no motion fells all of its blocks; a tenth from step to step, a third of the scatter that outcomes have.
+LADDER = replace(PHYSICAL, weak_deg=tuple(np.geomspace(1.0, 45.0, 39).tolist()))
 
 
 @dataclass(frozen=True)
@@ -113,6 +116,16 @@ def falls(
         if k % 50 == 49:
             say(f"{k + 1} of {len(tests)} tests")
     return out.reshape(len(tests), *grid.shape[:-1])
+
+
+def critical_angles(fell: np.ndarray, of: Candidates = LADDER) -> np.ndarray:
+    """Return the critical angle of each test (n,) [degrees]: its motion fells weaker edges below, and stronger not.
+
+    fell : (n, A, R, E, 2) from `falls`. The angle is the geometric mean over what is unknown, restitution and side. The
+    share of the ladder that falls is counted, because a motion may fell a block and spare a more slender one.
+    """
+    share = fell.mean(axis=tuple(range(1, fell.ndim)))
+    return of.weak_deg[0] * (of.weak_deg[-1] / of.weak_deg[0]) ** share
 
 
 def probabilities(

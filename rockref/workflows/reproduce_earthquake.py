@@ -37,12 +37,12 @@ def reproduce_earthquake(
 ) -> Path:
     """Make the study in `folder` and return its page; what is done is kept there.
 
-    signals : in all, by default the authors' 2000;  step [s], by default 2e-5
+    signals : in all, by default the authors' 2000;  step [s], by default the source's
 
     Raises InputError: E-WRITE, E-BUSY, E-ENSEMBLE.
     """
     usable_folder(folder)
-    number, length = signals or (QUICK[0] if quick else defects.SIGNALS), step or (QUICK[1] if quick else 2e-5)
+    number, length = signals or (QUICK[0] if quick else defects.SIGNALS), step or (QUICK[1] if quick else defects.STEP)
     with alone_in(made_folder(folder)):
         found = defects.study(folder, number, length, workers, say)
         record = found.to_dict()
@@ -51,7 +51,7 @@ def reproduce_earthquake(
         page.add_section("Side by side", [STATED])
         page.add_figure(
             rendered(levels_figure(found), "png", DPI),
-            "Share that fell over PGA, with Wilson intervals, and below it the difference with its interval.",
+            "Share that fell over PGA with its Wilson interval, and below it the difference with its interval.",
         )
         page.add_table(levels_table(found))
         page.add_section("How", how(found))
@@ -61,10 +61,13 @@ def reproduce_earthquake(
 
 def sentences(found: defects.Defects) -> list[str]:
     """Return the answer in sentences."""
-    signals, (one, other) = sum(a.signals for a in found.levels), found.discordant
+    signals, (one, other), fell = sum(a.signals for a in found.levels), found.discordant, found.fell_more
+    answer = "A difference in falls is not shown."
+    if fell.low > 0 or fell.high < 0:
+        answer = f"The calibrated block falls {'more' if fell.low > 0 else 'less'} often than its symmetric twin."
     said = [
-        f"Over {signals} signals the calibrated block falls more often than its symmetric twin by "
-        f"{interval(vars(found.fell_more), '+')}, and rocks more often by {interval(vars(found.rocked_more), '+')}."
+        f"{answer} Over {signals} signals the share that falls, calibrated less symmetric, is "
+        f"{interval(vars(fell), '+')}, and the share that rocks {interval(vars(found.rocked_more), '+')}."
     ]
     said.append(f"In {one} signals only the calibrated block fell, in {other} only the symmetric one.")
     told = [f"{a.pga:g}" for a in found.levels if a.fell_more.low > 0 or a.fell_more.high < 0]
@@ -87,8 +90,8 @@ def how(found: defects.Defects) -> list[str]:
         f"independent along x and y, that rises for {defects.RISE:g} s, is strong for {defects.STRONG:g} s and decays; "
         "it is scaled to the PGA of its level. Signals differ from level to level and are the same for both "
         "blocks. The authors' own spectrum, length and levels are not public.",
-        f"Intervals of 95 % from resampled signals. Unpaired, {each} signals a level would see a difference of "
-        f"{least_difference(0.5, each):.2f} beside one half.",
+        f"Intervals of 95 %: Wilson's of a share, Bonett and Price's of a difference of paired shares. Unpaired, "
+        f"{each} signals a level would see a difference of {least_difference(0.5, each):.2f} beside one half.",
     ]
 
 
@@ -113,10 +116,9 @@ def levels_figure(found: defects.Defects) -> Any:
     for k, name in enumerate(defects.NAMES):
         share = np.array([a.fell[k] / a.signals for a in found.levels])
         ends = np.array([a.to_dict()["fell_interval"][k] for a in found.levels])
-        error = np.maximum(np.abs(ends - share[:, None]).T, 0.0)
-        shares.errorbar(
-            pga * (0.99 + 0.02 * k), share, error, fmt="os"[k] + "-", ms=4, lw=0.9, color=style.colour(k), label=name
-        )
+        # Bands and not bars: bars beside one another would shift the curves, and a shift is what is looked for.
+        shares.fill_between(pga, *ends.T, color=style.colour(k), alpha=0.2, lw=0)
+        shares.plot(pga, share, "os"[k] + "-", ms=4, lw=0.9, color=style.colour(k), label=name)
     shares.set_ylabel("share that fell")
     shares.set_ylim(-0.03, 1.03)
     shares.legend(loc="upper left", frameon=False, fontsize=8)

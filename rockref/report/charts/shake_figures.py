@@ -13,7 +13,7 @@ from rockref.shake.statistics.bands import distribution_function, wilson_interva
 from rockref.shake.statistics.fragility import Fragility, monotone_curve
 from rockref.shake.statistics.scores import reliability
 
-# decided: groups of equal size along the abscissa, so that every Wilson interval rests on as many tests.
+# decided: so many marks at most; each rests on as many tests, or on all tests of a level where there are few levels.
 _GROUPS = 8
 # decided: outcomes lie on two lines; marks are shifted by up to this share of the axis, so that they can be counted.
 _JITTER = 0.03
@@ -34,7 +34,7 @@ def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str) -> Any:
     ax.plot(at, fitted.probability(at), color=style.COLOURS[1], lw=1.6, label="fitted, with Jeffreys' prior")
     levels, curve = monotone_curve(sizes, y)
     ax.step(levels, curve, where="post", color=style.COLOURS[0], lw=1.0, label="monotone, without a form")
-    for group in np.array_split(np.argsort(sizes), min(_GROUPS, len(sizes))):
+    for group in _groups(sizes):
         k, n = int(y[group].sum()), len(group)
         ends = wilson_interval(k, n)
         middle = float(np.exp(np.log(sizes[group]).mean()))
@@ -48,6 +48,14 @@ def fragility_figure(x: Any, fell: Any, fitted: Fragility, unit: str) -> Any:
     ax.legend(loc="upper left", bbox_to_anchor=(0.0, 0.94), frameon=False, fontsize=8)
     title = f"median {fitted.theta:.3g}, scatter {fitted.beta:.2g}; {len(y)} tests, {int(y.sum())} fell"
     return titled(figure, title, 9)
+
+
+def _groups(sizes: np.ndarray) -> list[np.ndarray]:
+    """Return the places of tests, group by group: a group a level, or groups of as many tests in order of size."""
+    levels, level = np.unique(sizes, return_inverse=True)
+    if len(levels) <= _GROUPS:
+        return [np.flatnonzero(level == k) for k in range(len(levels))]
+    return np.array_split(np.argsort(sizes), _GROUPS)
 
 
 def overturning_map(

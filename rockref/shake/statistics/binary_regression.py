@@ -71,7 +71,7 @@ def fit_binary(design: Any, fell: Any, link: Link = "logit") -> BinaryRegression
     found = minimize(
         lambda b: -penalised(Q, y, b, link),
         np.zeros(X.shape[1]),
-        jac=lambda b: -_gradient(Q, y, b, link),
+        jac=lambda b: -penalised_slope(Q, y, b, link),
         method="BFGS",
     )
     coefficients = np.linalg.solve(R, found.x * scale)
@@ -96,14 +96,16 @@ def _information(X: np.ndarray, eta: np.ndarray, link: Link) -> np.ndarray:
     return (X * np.exp(_log_weight(eta, link))[:, None]).T @ X
 
 
-def _gradient(X: np.ndarray, y: np.ndarray, coefficients: np.ndarray, link: Link) -> np.ndarray:
+def penalised_slope(X: np.ndarray, y: np.ndarray, coefficients: np.ndarray, link: Link) -> np.ndarray:
     """Return slope (k,) of the penalised likelihood: X' [d ln L/d eta + (leverage/2) d ln w/d eta], a row a test."""
     eta = X @ coefficients
     _, log_fell, log_stood = _forms(link)
     log_density = log_fell(eta) + log_stood(eta) if link == "logit" else -0.5 * eta**2 - 0.5 * np.log(2.0 * np.pi)
     up, down = np.exp(log_density - log_fell(eta)), np.exp(log_density - log_stood(eta))
-    weight = np.exp(_log_weight(eta, link))
-    leverage = weight * np.einsum("ij,ij->i", X, np.linalg.solve((X * weight[:, None]).T @ X, X.T).T)
+    log_weight = _log_weight(eta, link)
+    # Leverages do not change with the unit of the weights. From an orthonormal basis they are finite in far tails, too.
+    basis = np.linalg.qr(X * np.exp(0.5 * (log_weight - log_weight.max()))[:, None])[0]
+    leverage = np.sum(basis**2, axis=1)
     slope_of_weight = up - down if link == "logit" else -2.0 * eta - up + down
     return X.T @ (y * up - (1.0 - y) * down + 0.5 * leverage * slope_of_weight)
 

@@ -67,6 +67,18 @@ def test_the_earthquake_goes_once_through_on_a_page(capsys, tmp_path, monkeypatc
     assert run(capsys, "reproduce", "cube", tmp_path / "c", "--signals", 20)[0] == 2
 
 
+@pytest.mark.parametrize("study, kept", [("earthquake", True), ("cube", False)])
+def test_an_interrupted_study_says_what_is_kept(capsys, tmp_path, monkeypatch, study, kept):
+    from rockref.commands import reproduce
+
+    def stop(asked):
+        raise KeyboardInterrupt
+
+    monkeypatch.setitem(reproduce.STUDIES, study, stop)
+    code, _, err = run(capsys, "reproduce", study, tmp_path / "r")
+    assert code == 130 and ("the same command goes on" in err) is kept
+
+
 def test_a_part_alone_has_a_page_of_its_own(capsys, tmp_path):
     pytest.importorskip("numba")
     code, out, _ = run(capsys, "reproduce", tmp_path / "r", "--only", "response", "--workers", 1)

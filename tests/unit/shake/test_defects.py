@@ -51,3 +51,11 @@ def test_levels_are_kept_and_not_run_again(tmp_path, monkeypatch):
     assert all(np.array_equal(first[key], again[key]) for key in first)
     with pytest.raises(InputError, match="E-ENSEMBLE"):
         defects.run_level(tmp_path, 0, 3, 2e-5, 1)
+
+
+def test_a_difference_that_no_signal_shows_is_not_known_to_be_nothing():
+    found = defects.difference(np.zeros(200), np.zeros(200))
+    # No event in 200 trials: up to 3/200 of them, by the rule of three.
+    assert found.mean == 0.0 and -3 / 200 < found.low < -0.01 and 0.01 < found.high < 3 / 200
+    both = defects.difference(np.array([1.0, 1.0, 1.0, 0.0]), np.array([0.0, 1.0, 0.0, 1.0]))
+    assert both.mean == 0.25 and both.low < 0 < both.high

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
+from rockref.model.base_motion import BaseMotion
 from tests.shipped import ROOT
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
-from granite_plane import PHYSICAL, plane_blocks, probabilities  # noqa: E402
+from granite_plane import LADDER, PHYSICAL, critical_angles, falls, plane_blocks, probabilities  # noqa: E402
 
 WEAK_DEG, RATIOS, RESTITUTIONS = PHYSICAL.weak_deg, PHYSICAL.ratios, PHYSICAL.restitutions
 MESH = {"mass": 350.0, "centre_height": 0.3, "inertia": [[20.0, -1.0, 0.0], [-1.0, 18.0, 0.0], [0.0, 0.0, 16.0]]}
@@ -41,6 +42,30 @@ def test_a_threshold_becomes_a_lognormal_probability():
             # The grid of angles has steps of 0.08 in the logarithm, four fifths of the least scatter.
             assert p[0, k] == pytest.approx(0.5 * n.unheld + (1 - n.unheld) * held, abs=0.02)
     assert min(PHYSICAL.medians_deg) > min(WEAK_DEG)
+
+
+class Table:
+    """A table whose motion is one long push, of `test` hundredths of g."""
+
+    def base_motion(self, test, crossover):
+        a = np.zeros((400, 3))
+        a[1:-1, 0] = 0.01 * test * 9.81
+        return BaseMotion(0.0, 0.005, a, str(test))
+
+    def block(self, number):
+        return MESH
+
+
+def test_a_long_push_fells_what_is_more_slender_than_it_lifts():
+    push = [9, 18]
+    found = critical_angles(falls(Table(), push, 1, of=LADDER), LADDER)
+    # A push of two seconds, eight times 1/p, fells every edge that it lifts: those below atan(a/g). Half of the blocks
+    # are pushed over the weaker edge, half over the stronger: the mean is the angle over the root of the ratio.
+    lifted = np.degrees(np.arctan(np.array(push) / 100))
+    half = (LADDER.weak_deg[1] / LADDER.weak_deg[0]) ** 0.5
+    assert found == pytest.approx(lifted / math.sqrt(LADDER.ratios[0]), rel=half - 1)
+    nothing, everything = (np.full((1, 39, 1, 2, 2), value) for value in (False, True))
+    assert critical_angles(nothing) == pytest.approx([1.0]) and critical_angles(everything) == pytest.approx([45.0])
 
 
 def test_each_session_has_its_own_median():

@@ -29,6 +29,16 @@ def test_fragility_curve_and_every_outcome_are_drawn():
     assert (np.asarray(outcomes) > 0.5).tolist() == (FELL == 1).tolist()
 
 
+def test_few_levels_have_a_mark_each_and_many_sizes_groups_of_as_many():
+    def marks(x):
+        figure = fragility_figure(x, FELL, fit_fragility(x, FELL), "PGA (g)")
+        return sorted(float(line.get_xdata()[0]) for line in figure.axes[0].lines if line.get_marker() == "o")
+
+    # Two levels that groups of as many tests would mix.
+    assert marks(np.where(np.arange(40) < 17, 0.2, 0.3)) == pytest.approx([0.2, 0.3])
+    assert len(marks(X)) == 8
+
+
 def test_map_tells_falls_from_stands_and_draws_one_half():
     figure = overturning_map(X, X[::-1], FELL, lambda a, b: np.clip(a, 0.0, 1.0))
     marks = labelled(figure)

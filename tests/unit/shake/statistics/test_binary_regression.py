@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from scipy.optimize import brute
+from scipy.optimize import approx_fprime, brute
 from scipy.stats import norm
 
 from rockref.model.errors import InputError
-from rockref.shake.statistics.binary_regression import fit_binary
+from rockref.shake.statistics.binary_regression import fit_binary, penalised, penalised_slope
 
 
 @pytest.mark.parametrize("fallen", [(0, 3), (2, 5), (1, 1)])
@@ -38,6 +38,16 @@ def test_separated_outcomes_have_a_finite_fit_which_a_grid_finds_too(link):
     best = brute(witness, ((-1, 1), (0.1, 2.5)), Ns=60)
     # The polished grid is good to four figures.
     assert fit_binary(design, fell, link).coefficients == pytest.approx(best, abs=1e-3)
+
+
+@pytest.mark.parametrize("link, far", [("logit", 1.0), ("logit", 800.0), ("probit", 1.0), ("probit", 45.0)])
+def test_the_slope_is_that_of_the_likelihood_where_weights_underflow_too(link, far):
+    x = np.array([-2.0, -1.0, -0.4, 0.5, 1.1, 2.3])
+    design, fell = np.column_stack([np.ones(6), x]), (x > 0).astype(float)
+    at = np.array([far, 0.01])
+    # A likelihood bends by some ten a test: over a difference of 1e-4 that is less than a thousandth of slopes.
+    wanted = approx_fprime(at, lambda b: penalised(design, fell, b, link), 1e-4)
+    assert penalised_slope(design, fell, at, link) == pytest.approx(wanted, rel=1e-3, abs=1e-2)
 
 
 def test_units_of_the_columns_change_nothing():
