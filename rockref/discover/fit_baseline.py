@@ -137,10 +137,10 @@ def fit_baseline(
     own = problem.carried
     wanted = (*own, *(e for e in asked if e not in own))
     h, earlier, from_store = fitted(fitter, wanted, baseline_model(experiment, model), store)
-    ends = checked(fitter, h, earlier, seed) if check else ([], h, None)
-    gates, h, said = ends
-    if said is None:
-        said = hypothesis_evidence(fitter, h, calibration().temperature)
+    if check:
+        gates, h, said = checked(fitter, h, earlier, seed)
+    else:
+        gates, said = [], hypothesis_evidence(fitter, h, calibration().temperature)
     outcome, run = outcome_of(gates, said)
     state = {"effects": list(h.effects), "fit_deg_s": said.error["total"]}
     return BaselineFit(

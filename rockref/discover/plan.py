@@ -25,7 +25,7 @@ from rockref.discover.hypotheses.candidates import LEFT_OUT, kinds
 from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters
 from rockref.discover.hypotheses.parameter import Parameter
-from rockref.discover.progress import StageReport
+from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.threads import one_blas_thread
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.detection import cosines, eliminated, limit
@@ -59,6 +59,10 @@ class Release:
         return f"{self.tilt:g}{'t' if self.turned else ''}"
 
 
+#: By release: information (S + C, S + C) about the numbers that all runs share and those of candidates.
+Information = dict[Release, np.ndarray]
+
+
 def releases_from(text: str) -> list[Release]:
     """Return releases from words: "0.117x3,0.098,0.117t" is three at 0.117 rad, one at 0.098, one with the block
     turned.
@@ -80,14 +84,6 @@ def releases_from(text: str) -> list[Release]:
     if not found:
         raise InputError("E-RUNS", "--runs", "is empty", "Write tilts in rad: 0.117x3,0.098,0.117t.")
     return found
-
-
-@dataclass(frozen=True)
-class Says:
-    """What one release says: information H (S + C, S + C) about shared numbers and candidates, own tilt eliminated."""
-
-    release: Release
-    H: np.ndarray
 
 
 @dataclass
@@ -213,7 +209,7 @@ def says(
     seed: int = 0,
     duration: float = DURATION,
     workers: int | None = None,
-) -> Says:
+) -> np.ndarray:
     """Simulate one release, linearise a listening model about the truth, eliminate the run's tilt and roll."""
     run = recorded(model, release, gyro, seed, duration * time_scale(model))
     experiment = campaign(model, run, gyro, tilt_uncertainty)
@@ -226,7 +222,7 @@ def says(
     shared = [k for k, p in enumerate((*own, *numbers)) if p.run is None and (not p.effect or k >= len(own))]
     rest = [k for k in range(len(H)) if k not in shared]
     order = np.array([*rest, *shared])
-    return Says(release, eliminated(H[np.ix_(order, order)], len(rest)) - np.eye(len(shared)))
+    return eliminated(H[np.ix_(order, order)], len(rest)) - np.eye(len(shared))
 
 
 def true_z(p: Parameter, model: Model) -> float:
@@ -244,12 +240,10 @@ def true_z(p: Parameter, model: Model) -> float:
     return p.z_of(getattr(model.parameters, p.name))
 
 
-def outlook(
-    model: Model, known: dict[Release, Says], runs: Sequence[Release], effects: Sequence[type[Effect]]
-) -> Outlook:
+def outlook(model: Model, known: Information, runs: Sequence[Release], effects: Sequence[type[Effect]]) -> Outlook:
     """Add up what the runs say, eliminate the shared nuisances, and read limits and cosines off what is left."""
     shared, c = law_parameters(model), calibration()
-    H = np.asarray(sum(count * known[release].H for release, count in Counter(runs).items()))
+    H = np.asarray(sum(count * known[release] for release, count in Counter(runs).items()))
     S = eliminated(H + np.eye(len(H)), len(shared))
     limits, sizes, blocks, at = {}, {}, [], 0
     for kind in effects:
@@ -298,7 +292,6 @@ def plan(
     from rockref.effects import catalogue
 
     started = time.perf_counter()
-    tell = progress or (lambda report: None)
     if not runs:
         raise InputError("E-RUNS", "argument runs", "is empty", "Plan one release at least.")
     has = {e.id for e in model.effects}
@@ -308,11 +301,9 @@ def plan(
         raise InputError("E-EFFECT", "argument effects", what, "Leave it out.")
     wanted = alternatives(runs)
     every = sorted({*runs, *wanted})
-    known = {}
+    known, counter = {}, StageCounter({str(release): 1.0 for release in every}, progress)
     for k, release in enumerate(every):
-        spent = time.perf_counter() - started
-        left = spent * (len(every) - k) / k if k else None
-        tell(StageReport(k + 1, len(every), f"simulating the release {release} rad", seconds_left=left))
+        counter.begin(str(release), f"simulating the release {release} rad")
         known[release] = says(model, release, chosen, gyro, tilt_uncertainty, seed + k, duration, workers)
     now = outlook(model, known, runs, chosen)
     repeats, varied = against(runs, wanted)
@@ -334,8 +325,9 @@ def against(runs: Sequence[Release], wanted: Sequence[Release]) -> tuple[list[Re
 
 
 def further(
-    model: Model, known: dict[Release, Says], runs: Sequence[Release], wanted: Sequence[Release], chosen, now: Outlook
-) -> list[dict[str, Any]]:
+    model: Model, known: Information, runs: Sequence[Release], wanted: Sequence[Release],
+    chosen: Sequence[type[Effect]], now: Outlook,
+) -> list[dict[str, Any]]:  # fmt: skip
     """Return what one more run would bring, best first: by which factor limits fall (mean), how many pairs come
     apart."""
     found = []

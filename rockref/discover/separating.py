@@ -82,7 +82,7 @@ def separating_run(problem: FitProblem, model: Model, members: Sequence[str], si
     def information(offer: Offer) -> np.ndarray:
         block = replace(model, origin={}).replace(mass=model.mass * (1 + offer.added))
         workers = problem.listener.workers
-        H = says(block, offer.release, effects, problem.listener.gyro, uncertainty, workers=workers, duration=end).H
+        H = says(block, offer.release, effects, problem.listener.gyro, uncertainty, workers=workers, duration=end)
         for id in offer.without:
             own = shared + blocks[members.index(id)]
             H[own, :] = H[:, own] = 0.0

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from rockref.api import Model
 from rockref.model.base_motion import BaseMotion
@@ -110,9 +111,8 @@ def displacement(base: BaseMotion) -> np.ndarray:
     found = base.a * np.array([1.0, 1.0, 0.0])
     share = np.linspace(0.0, 1.0, len(found))[:, None]
     for _ in range(2):
-        steps = 0.5 * base.dt * (found[1:] + found[:-1])
-        found = np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
-        found = found - share * found[-1]
+        found = cumulative_trapezoid(found, dx=base.dt, axis=0, initial=0.0)
+        found -= share * found[-1]
     return found
 
 

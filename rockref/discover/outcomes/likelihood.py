@@ -102,6 +102,8 @@ def log_density(x: np.ndarray, y: np.ndarray, counted: np.ndarray) -> np.ndarray
     What a normal law with unknown mean and variance predicts is Student's t. The variance of a test is joined with one
     that all tests share; a test without a counted run has the mean and the scatter of all.
     """
+    from scipy.stats import t
+
     number = counted.sum(axis=0)
     if not number.any():
         return np.zeros(len(x))
@@ -114,12 +116,5 @@ def log_density(x: np.ndarray, y: np.ndarray, counted: np.ndarray) -> np.ndarray
     variance = (squares + COMMON * common) / freedom * (1.0 + 1.0 / np.maximum(number, 1))
     centre, spread = y[counted].mean(), y[counted].var() + common
     alone = number == 0
-    return log_t(x - np.where(alone, centre, mean), np.where(alone, spread, variance), freedom)
-
-
-def log_t(x: np.ndarray, variance: np.ndarray, freedom: np.ndarray) -> np.ndarray:
-    """Return the log density of Student's t with a scale, whose square is `variance`, about zero."""
-    from scipy.special import gammaln
-
-    norm = gammaln((freedom + 1) / 2) - gammaln(freedom / 2) - 0.5 * np.log(np.pi * freedom * variance)
-    return norm - (freedom + 1) / 2 * np.log1p(x * x / (freedom * variance))
+    scale = np.sqrt(np.where(alone, spread, variance))
+    return t.logpdf(x, freedom, np.where(alone, centre, mean), scale)

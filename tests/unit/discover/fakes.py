@@ -12,7 +12,7 @@ from rockref.discover.evidence.evidence import HypothesisEvidence, Number
 from rockref.discover.fit_baseline import BaselineFit
 from rockref.discover.fit_gates import Gate
 from rockref.discover.hypotheses.law import law_parameters
-from rockref.discover.plan import Plan, Release, Says, further, outlook
+from rockref.discover.plan import Plan, Release, further, outlook
 from rockref.effects.catalogue import find, parse
 from tests.unit.discover.synthetic import experiment
 
@@ -126,12 +126,12 @@ def planned() -> Plan:
     effects = tuple(find(id) for id in ("viscous_friction", "rolling_resistance"))
     once, other, turned = Release(0.117), Release(0.098), Release(0.117, True)
 
-    def says(release: Release, film: float, rolling: float, together: float) -> Says:
+    def says(release: Release, film: float, rolling: float, together: float) -> np.ndarray:
         """A run with this information about two effects, and about their difference."""
         n = len(law_parameters(table))
         H = np.diag([0.0] * n + [film, rolling])
         H[n:, n:] += together * np.array([[1.0, -1.0], [-1.0, 1.0]])
-        return Says(release, H)
+        return H
 
     known = {once: says(once, 1e-4, 4e3, 1e6), other: says(other, 9.0, 9.0, 0.0), turned: says(turned, 1.0, 1.0, 0.0)}
     now, repeats = (outlook(table, known, [once] * n, effects) for n in (1, 3))
