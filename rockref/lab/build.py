@@ -18,8 +18,6 @@ from rockref.model.storage import write_bytes, write_text
 
 HERE = Path(__file__).parent
 DIGEST = HERE / "law.wasm.sha256"
-#: The compiler whose output is shipped.
-ZIG = "0.17.1"
 #: -mexec-model=reactor: a library without main.
 FLAGS = (
     "-target wasm32-wasi -mexec-model=reactor -O3 -ffp-contract=off -fno-math-errno -Wall -Werror -s "

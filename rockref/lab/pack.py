@@ -40,7 +40,6 @@ WORDS = {
     "delta_long_3": "height of outer point 3", "delta_long_4": "height of outer point 4",
     "delta_diag": "inner points from the corner", "theta_0": "release tilt",
 }  # fmt: skip
-STRETCHES = ("before", "between", "after")
 
 
 def effects() -> list[dict[str, Any]]:

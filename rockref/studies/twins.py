@@ -29,8 +29,6 @@ REFERENCE_STEP = 1e-6
 SEEDS = (1, 2, 3, 4, 5, 6, 7, 8)
 #: What the least squares of one seed may do; decided: eight seeds in six minutes on two cores.
 EFFORT = Effort(moves=1, walks=3)
-#: Where an error is called within the digits: below one unit of the last digit of Table 3.1.
-WITHIN = 1.0
 
 
 def twin_experiments(
@@ -79,8 +77,3 @@ def twin_experiment(model: Model, seed: int, settings: Settings, effort: Effort 
         "trade_offs": [[a.split(" of ")[0], b.split(" of ")[0], r] for a, b, r in known.pairs],
         "weakest": {name.split(" of ")[0]: value for name, value in known.weakest.items()},
     }
-
-
-def within(row: dict[str, Any]) -> list[str]:
-    """Return names of the parameters of a row that came back within one unit of their last digit."""
-    return [name for name, p in row["parameters"].items() if abs(p["off"]) < WITHIN]
