@@ -23,7 +23,7 @@ def plan(
     ] = None,
     outcomes: Annotated[
         str | None,
-        typer.Option("--outcomes", help="Two probabilities of falling that tests should tell apart, as 0.5,0.6."),
+        typer.Option("--outcomes", help="Two probabilities of falling that tests should distinguish, as 0.5,0.6."),
     ] = None,
     tests: Annotated[
         int | None, typer.Option(min=1, help="With --outcomes: how many tests of either kind are possible.")
@@ -39,7 +39,7 @@ def plan(
     """Predict by simulation which effects planned runs could detect, and which they would confuse.
 
     Says which further run would help most, and whether repeats of one release or varied releases would show more. With
-    --outcomes it says only how many tests on a shake table tell two probabilities of falling apart. Exit code 0, or 2
+    --outcomes it says only how many tests on a shake table distinguish two probabilities of falling. Exit code 0, or 2
     if the input cannot be used.
 
     \b

@@ -10,7 +10,8 @@ import shutil
 import numpy as np
 import pytest
 
-from rockref import Model, cli
+from rockref import Model
+from tests import command
 from tests.unit.measure.checks.test_release import BAD as SIGNALS
 from tests.unit.measure.conftest import HEAD, RUN, signal_500hz, table_text
 from tests.unit.measure.reading.test_table import BAD as TABLES
@@ -92,13 +93,6 @@ CASES = {
 }
 
 
-def ended(capsys, *arguments):
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(a) for a in arguments])
-    out, err = capsys.readouterr()
-    return end.value.code, out, err
-
-
 def test_there_are_many():
     assert len(CASES) > 90
 
@@ -110,7 +104,7 @@ def test_a_bad_experiment_ends_with_2_and_leaves_nothing(tmp_path, capsys, case)
     folder.mkdir()
     spoil(folder)
     before = sorted(folder.iterdir()) if folder.exists() else None
-    status, out, err = ended(capsys, "compare", folder, "--report", report)
+    status, out, err = command.run(capsys, "compare", folder, "--report", report)
     assert (status, out) == (2, "")
     # the lines of the message may be broken anywhere
     assert f"[{code}]" in "".join(err.split()) and "experiment" in "".join(err.split())
@@ -142,7 +136,7 @@ def test_a_bad_experiment_ends_with_2_and_leaves_nothing(tmp_path, capsys, case)
     ids=lambda value: " ".join(value) if isinstance(value, tuple) else str(value),
 )
 def test_a_run_that_cannot_be_made_ends_with_2_and_leaves_nothing(tmp_path, capsys, words, code):
-    status, out, err = ended(capsys, "simulate", "-o", tmp_path / "out.csv", *words)
+    status, out, err = command.run(capsys, "simulate", "-o", tmp_path / "out.csv", *words)
     assert (status, out) == (2, "")
     assert f"[{code}]" in "".join(err.split())
     assert not list(tmp_path.iterdir())
@@ -164,7 +158,7 @@ def test_a_run_that_cannot_be_made_ends_with_2_and_leaves_nothing(tmp_path, caps
 def test_a_model_that_is_none_ends_with_2_and_leaves_nothing(tmp_path, capsys, text, code):
     model, out_file = tmp_path / "model.toml", tmp_path / "out.csv"
     model.write_text(text)
-    status, _, err = ended(capsys, "simulate", model, "-o", out_file, "--duration", "0.002")
+    status, _, err = command.run(capsys, "simulate", model, "-o", out_file, "--duration", "0.002")
     if code is None:  # an empty file is Table 3.1
         assert status == 0
         assert out_file.exists()
@@ -178,12 +172,15 @@ def test_a_model_that_is_none_ends_with_2_and_leaves_nothing(tmp_path, capsys, t
 def test_an_earlier_result_survives_a_failure(tmp_path, capsys):
     out_file = tmp_path / "out.csv"
     out_file.write_text("precious")
-    assert ended(capsys, "simulate", "-o", out_file, "--step", "2e-4")[0] == 2
+    assert command.run(capsys, "simulate", "-o", out_file, "--step", "2e-4")[0] == 2
     assert out_file.read_text() == "precious"
 
 
 def test_a_model_may_lie_in_the_folder_of_its_output(tmp_path, capsys):
     Model.table_3_1().save(tmp_path / "model.toml")
     shutil.copy(tmp_path / "model.toml", tmp_path / "copy.toml")
-    assert ended(capsys, "simulate", tmp_path / "model.toml", "-o", tmp_path / "o.csv", "--duration", "0.002")[0] == 0
+    assert (
+        command.run(capsys, "simulate", tmp_path / "model.toml", "-o", tmp_path / "o.csv", "--duration", "0.002")[0]
+        == 0
+    )
     assert (tmp_path / "model.toml").read_bytes() == (tmp_path / "copy.toml").read_bytes()

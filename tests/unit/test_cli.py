@@ -11,14 +11,7 @@ import typer
 
 from rockref import __version__, cli, commands
 from rockref.model.errors import InputError, NumericalError
-
-
-def run(capsys, *arguments):
-    """Exit code, standard output and standard error of `rockref ARGUMENTS`."""
-    with pytest.raises(SystemExit) as end:
-        cli.main(arguments)
-    out, err = capsys.readouterr()
-    return end.value.code, out, err
+from tests.command import run
 
 
 @pytest.fixture

@@ -5,12 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rockref import InputError, Model, cli, simulate
+from rockref import InputError, Model, simulate
 from rockref.effects import catalogue
 from rockref.effects.probe import probe_absent, sample_problem
 from rockref.effects.scale import prior_of
 from rockref.effects.user import load_user
 from rockref.model.integrator import evaluate_contact
+from tests.command import run
 from tests.refusal import refused
 
 EXAMPLE = Path(__file__).resolve().parents[3] / "examples/my_effect.py"
@@ -261,10 +262,8 @@ def test_mistakes_that_show_in_the_run_name_the_hook(tmp_path, capsys, mistake):
     lines, said = LATER[mistake]
     begin = "    def body_wrench(self, problem, c, x, Lambda, v, W, m):\n        force = -self.c * (v + 1.0)\n"
     spec = written(tmp_path, begin + lines + "        return force, np.zeros_like(x)\n")
-    with pytest.raises(SystemExit) as end:
-        cli.main(["simulate", "--duration", "0.001", "--effect", spec])
-    err = capsys.readouterr().err
-    assert end.value.code == 2
+    code, _, err = run(capsys, "simulate", "--duration", "0.001", "--effect", spec)
+    assert code == 2
     assert f"{spec}.body_wrench" in err and said in err and "Traceback" not in err
 
 

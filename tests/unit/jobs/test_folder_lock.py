@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rockref import cli
 from rockref.blind.cases import making, sealing
 from rockref.jobs.folder_lock import alone_in
 from rockref.model.errors import InputError
+from tests.command import run
 from tests.shipped import two_runs
 from tests.tosses import write_tosses
 
@@ -94,9 +94,8 @@ def test_commands_that_work_long_in_a_folder_refuse_it_before_the_work(
     (tmp_path / sealing.MANIFEST).write_text("{}")
     (tmp_path / sealing.SEALED).write_text("{}")
     before = {p: p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()}
-    with pytest.raises(SystemExit) as end:
-        cli.main(words.replace("HERE", str(tmp_path)).split())
-    assert end.value.code == 2 and "[E-BUSY]" in capsys.readouterr().err
+    code, _, err = run(capsys, *words.replace("HERE", str(tmp_path)).split())
+    assert code == 2 and "[E-BUSY]" in err
     assert {p: p.read_bytes() for p in tmp_path.rglob("*") if p.is_file()} == before
 
 

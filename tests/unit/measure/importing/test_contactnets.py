@@ -8,12 +8,12 @@ import zipfile
 import numpy as np
 import pytest
 
-from rockref import cli
 from rockref.measure.importing.contactnets import import_contactnets
 from rockref.measure.reading.tensorfile import LARGEST, MAGIC, read_tensor
 from rockref.measure.tosses.load import CUBE_WIDTH, load_tosses
 from rockref.model.errors import InputError
 from rockref.model.rotation import quaternion
+from tests.command import run
 from tests.refusal import refused
 from tests.tosses import made, stated
 
@@ -197,6 +197,5 @@ def test_files_that_are_there_already_stay_as_they_are(tmp_path):
 
 
 def test_an_empty_word_is_no_folder(capsys, tmp_path):
-    with pytest.raises(SystemExit) as end:
-        cli.main(["import", "contactnets", str(tmp_path), "-o", ""])
-    assert end.value.code == 2 and "is empty" in capsys.readouterr().err
+    code, _, err = run(capsys, "import", "contactnets", tmp_path, "-o", "")
+    assert code == 2 and "is empty" in err
