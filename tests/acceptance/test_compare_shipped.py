@@ -1,7 +1,6 @@
 """A comparison with the shipped experiments points to what was put into them. They come from another simulator."""
 
 import json
-from pathlib import Path
 
 import pytest
 
@@ -9,8 +8,9 @@ from rockref import Model
 from rockref.discover.compare.models import baseline_model, compare
 from rockref.discover.compare.sentences import findings
 from rockref.measure import load_experiment
+from tests.shipped import ROOT
 
-DATA = Path(__file__).resolve().parents[2] / "data/experiments"
+DATA = ROOT / "data/experiments"
 ANSWERS = {a["name"]: a for a in json.loads((DATA / "answers.json").read_text(encoding="utf-8"))}
 
 

@@ -9,10 +9,9 @@ import pytest
 
 from rockref.workflows.demo import EXPERIMENTS
 from tests.acceptance.browser import Browser, find_browser
-from tests.shipped import shortened
+from tests.shipped import ROOT, shortened
 from tests.unit.report.page_checks import faults_of
 
-ROOT = Path(__file__).resolve().parents[2]
 # Up to just behind the second main impact, between which and the first the model fails.
 SECONDS = 1.5
 

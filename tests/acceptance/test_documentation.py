@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from rockref import cli
+from tests.shipped import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 #: Pages that `make docs` makes of tables and code; they may be there or not.
 MADE = ("review.md", "blind_history.md", "errors.md", "figures.md", "zoo.md")
 PAGES = [

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.shipped import ROOT
+
 EXPERIMENT = str(ROOT / "data/experiments/mystery-02")
 ROCKREF = (sys.executable, "-m", "rockref")
 #: A short run with many rows, by the engine that loads least: what is at stake is the file.

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.shipped import ROOT
+
 EXPERIMENT = str(ROOT / "data/experiments/mystery-08")
 ROCKREF = str(Path(sys.executable).with_name("rockref"))
 

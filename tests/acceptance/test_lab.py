@@ -17,9 +17,9 @@ from rockref.measure import load_experiment
 from rockref.measure.prediction import predict
 from rockref.model.channel import DEGREES
 from tests.acceptance.browser import Browser, find_browser
+from tests.shipped import ROOT
 from tests.unit.report.page_checks import faults_of
 
-ROOT = Path(__file__).resolve().parents[2]
 EXPERIMENT = ROOT / "data/experiments/mystery-04"
 needs_browser = pytest.mark.skipif(find_browser() is None, reason="no Chromium on this machine: apt install chromium")
 EFFECT, SENSOR = "quadratic_drag", "gyro_misalignment"

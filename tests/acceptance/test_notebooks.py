@@ -2,11 +2,11 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.shipped import ROOT
+
 NOTEBOOKS = sorted((ROOT / "examples/notebooks").glob("*.py"))
 
 

@@ -2,7 +2,6 @@
 
 import re
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +9,8 @@ import pytest
 from rockref.measure import load_experiment
 from rockref.measure.signals.impacts import main_impacts
 from tests.refusal import refused
-from tests.shipped import program
+from tests.shipped import ROOT, program
 
-ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/howto/refused_records.md").read_text(encoding="utf-8")
 HEADER = "t_s,wx_deg_s,wy_deg_s,wz_deg_s"
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import rockref
+from tests.shipped import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 EXPERIMENT = str(ROOT / "data/experiments/mystery-02")
 #: The command line in a process that ends at once where something reaches for a network.
 ALONE = (sys.executable, "-c", """

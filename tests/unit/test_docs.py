@@ -3,16 +3,14 @@
 import datetime
 import re
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import rockref
 from tests.golden.test_peers import recorded, relative_rms, simulated
-from tests.shipped import program
+from tests.shipped import ROOT, program
 
-ROOT = Path(__file__).resolve().parents[2]
 FILES_PAGE = (ROOT / "docs/reference/files.md").read_text(encoding="utf-8")
 EXPERIMENTS = sorted((ROOT / "data/experiments").glob("*/experiment.toml"))
 

@@ -3,14 +3,12 @@
 import ast
 import doctest
 from importlib import import_module
-from pathlib import Path
 
 import pytest
 
 import rockref
 from rockref.effects.base import Effect
-
-ROOT = Path(__file__).resolve().parents[2]
+from tests.shipped import ROOT
 
 
 def with_examples():

@@ -1,15 +1,12 @@
 """Every code that rockref may say is on the page, with what to do."""
 
 import re
-from pathlib import Path
 
 import pytest
 
 from rockref import Model
 from tests.refusal import refused
-from tests.shipped import program
-
-ROOT = Path(__file__).resolve().parents[2]
+from tests.shipped import ROOT, program
 
 
 @pytest.fixture(scope="module")

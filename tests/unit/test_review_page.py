@@ -1,14 +1,11 @@
 """The page for the physicist is what the sources say now."""
 
 import re
-from pathlib import Path
 
 import pytest
 
 from rockref.conformance.rules import RULES
-from tests.shipped import program
-
-ROOT = Path(__file__).resolve().parents[2]
+from tests.shipped import ROOT, program
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,6 @@
 
 import json
 import re
-from pathlib import Path
 
 import pytest
 
@@ -10,9 +9,7 @@ from rockref import Model
 from rockref.report.terminal.comparison_text import print_comparison
 from tests.command import run
 from tests.printed import printed
-from tests.shipped import two_runs
-
-ROOT = Path(__file__).resolve().parents[3]
+from tests.shipped import ROOT, two_runs
 
 
 @pytest.fixture(scope="module")

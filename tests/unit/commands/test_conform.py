@@ -3,7 +3,6 @@
 import io
 import json
 import sys
-from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
@@ -13,10 +12,10 @@ from rockref.conformance.faults import run as zoo
 from rockref.conformance.judge import findings as judging
 from rockref.conformance.judge import offline
 from tests import command
+from tests.shipped import ROOT
 from tests.unit.commands import terminal
 
 run = command.of("conform")
-ROOT = Path(__file__).resolve().parents[3]
 #: The law with a gyroscope that is wrong by a half.
 WRONG = """from rockref.conformance.backends.law import NumpyEngine
 class Backend(NumpyEngine):

@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -10,12 +9,10 @@ from rockref.discover import diagnose as engine
 from rockref.discover.diagnosis_record import plain
 from rockref.measure.records.notice import Notice
 from tests import command
+from tests.shipped import ROOT
 from tests.unit.discover import fakes
 
 run = command.of("diagnose")
-
-
-ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture(scope="module")

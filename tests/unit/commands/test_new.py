@@ -3,15 +3,14 @@
 import json
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from rockref.measure import load_experiment
 from tests import foreign
 from tests.command import run
+from tests.shipped import ROOT
 
-ROOT = Path(__file__).resolve().parents[3]
 SIDES = ("--mass", "54kg", "--width", "100mm", "--height", "0.688")
 
 

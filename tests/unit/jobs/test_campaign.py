@@ -19,9 +19,9 @@ from rockref.identify.search import Settings, search
 from rockref.jobs import campaign as campaigns
 from rockref.jobs.campaign import campaign, split
 from rockref.model.errors import InputError
+from tests.shipped import ROOT
 from tests.unit.identify import analytic
 
-ROOT = Path(__file__).parents[3]
 ITEMS = list(np.random.default_rng(0).random((11, 3)))
 WANTED = analytic.bowl(0.3, ITEMS)
 

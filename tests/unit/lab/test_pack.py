@@ -1,7 +1,5 @@
 """What fills the page, and the listening run by which the page fits."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -14,8 +12,9 @@ from rockref.model.channel import DEGREES
 from rockref.model.errors import InputError
 from rockref.report.html.encoding import unpacked
 from rockref.report.html.inline import as_json
+from tests.shipped import ROOT
 
-EXPERIMENT = Path(__file__).resolve().parents[3] / "data/experiments/mystery-04"
+EXPERIMENT = ROOT / "data/experiments/mystery-04"
 
 
 @pytest.fixture(scope="module")

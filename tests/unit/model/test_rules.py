@@ -2,11 +2,11 @@
 
 import ast
 import re
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[3]
+from tests.shipped import ROOT
+
 MODEL = sorted((ROOT / "rockref/model").glob("*.py"))
 PAGE = (ROOT / "docs/reference/nomenclature.md").read_text(encoding="utf-8")
 

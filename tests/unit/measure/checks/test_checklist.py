@@ -1,9 +1,8 @@
 """The table of checks in the documentation is that of the code, and names every remark of a record."""
 
 import runpy
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[4]
+from tests.shipped import ROOT
 
 
 def test_every_check_says_what_follows():

@@ -1,7 +1,6 @@
 """From a logger's files to an experiment folder: what is found in each layout, and what is proposed."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,8 +11,8 @@ from rockref.measure.importing import Choices, import_logs, write_campaign
 from rockref.measure.importing.campaign import ImportedRun, hold_out, round_rate
 from tests import foreign
 from tests.refusal import refused
+from tests.shipped import ROOT
 
-ROOT = Path(__file__).resolve().parents[4]
 SIDES = (54.0, 0.100, 0.688)
 
 

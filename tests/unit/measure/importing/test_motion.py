@@ -1,7 +1,5 @@
 """The release in a recording, whatever a hand did to the block before it."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -9,8 +7,9 @@ from rockref.measure import load_experiment
 from rockref.measure.importing.motion import find_motion
 from rockref.measure.importing.recording import Recording
 from tests import foreign
+from tests.shipped import ROOT
 
-EXPERIMENT = Path(__file__).resolve().parents[4] / "data/experiments/mystery-05"
+EXPERIMENT = ROOT / "data/experiments/mystery-05"
 
 
 @pytest.fixture(scope="module")

@@ -1,14 +1,12 @@
 """The drawing of the block: what stands in it is what the law says."""
 
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rockref.report.charts.block_drawing import TILT, block_drawing, problem
-
-ROOT = Path(__file__).resolve().parents[4]
+from tests.shipped import ROOT
 
 
 def written(svg):
