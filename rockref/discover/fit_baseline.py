@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +70,7 @@ class BaselineFit:
     end: float
     seconds: float
     from_store: bool = False
-    run: str = field(default="")
+    run: str = ""
 
     @property
     def passed(self) -> bool:

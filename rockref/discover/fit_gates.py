@@ -45,15 +45,13 @@ class Gate:
         }  # fmt: skip
 
 
-def distances(parameters: Sequence[Parameter], a: np.ndarray, b: np.ndarray, width: np.ndarray) -> np.ndarray:
-    """Return how far two fits are apart in each number that all runs share, in parts of what is allowed; else 0."""
-    shared = np.array([p.run is None for p in parameters])
-    return np.where(shared, np.abs(a - b) / np.maximum(AGREE * width, KNOWN_WELL), 0.0)
-
-
 def same_place(name: str, parameters: Sequence[Parameter], a: np.ndarray, b: np.ndarray, width: np.ndarray) -> Gate:
-    """Return the gate, one of OTHER_FITS, that another fit a ends where b does; width (G,) standard deviations of z."""
-    off = distances(parameters, a, b, width)
+    """Return the gate, one of OTHER_FITS, that another fit ends at a where b is, in all numbers that all runs share.
+
+    width : (G,) standard deviations of z
+    """
+    shared = np.array([p.run is None for p in parameters])
+    off = np.where(shared, np.abs(a - b) / np.maximum(AGREE * width, KNOWN_WELL), 0.0)
     worst = int(np.argmax(off))
     apart = abs(float(a[worst] - b[worst]))
     sentence = (

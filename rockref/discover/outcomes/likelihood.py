@@ -54,8 +54,7 @@ def simulated(
 def likelihood(experiment: ShakenExperiment, outcomes: dict[str, np.ndarray]) -> Likelihood:
     """Return how probable the tests are, and each run of a test beside the others of that test."""
     names, runs = quantities(experiment), len(outcomes[FELL])
-    stood = np.zeros(len(experiment.motion)) if experiment.fell is None else experiment.fell
-    given = {FELL: stood, **experiment.maxima}
+    given = {FELL: falls(experiment), **experiment.maxima}
     measured = log_probabilities(names, given, outcomes)
     own = []
     for j in range(runs):
@@ -66,15 +65,15 @@ def likelihood(experiment: ShakenExperiment, outcomes: dict[str, np.ndarray]) ->
 
 
 def there(names: tuple[str, ...], experiment: ShakenExperiment) -> np.ndarray:
-    """Return whether a test has an outcome of each quantity (q, n), whether it fell or not."""
-    n = len(experiment.motion)
-    return np.array([np.ones(n, bool) if k == FELL else stated(k, experiment) for k in names])
+    """Return whether a test has an outcome of each quantity (q, n), as a test that fell would have had."""
+    fell = falls(experiment)
+    measured = {FELL: np.ones(len(fell), bool)} | {k: np.isfinite(x) for k, x in experiment.maxima.items()}
+    return np.array([measured[k] | (fell == 1.0) for k in names])
 
 
-def stated(quantity: str, experiment: ShakenExperiment) -> np.ndarray:
-    """Return whether a maximum is measured in a test (n,); a test that fell counts as one that would have been."""
-    fell = np.zeros(len(experiment.motion)) if experiment.fell is None else experiment.fell
-    return np.isfinite(experiment.maxima[quantity]) | (fell == 1.0)
+def falls(experiment: ShakenExperiment) -> np.ndarray:
+    """Return which tests fell (n,), 0 or 1; none where that is not stated."""
+    return np.zeros(len(experiment.motion)) if experiment.fell is None else experiment.fell
 
 
 def log_probabilities(

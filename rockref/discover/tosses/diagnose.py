@@ -260,32 +260,26 @@ def agreement(step: Step, found: dict[str, Any], base: Model) -> list[dict[str, 
         if name in values and f"centre_{axis}" in arcs:
             # The arcs see the centre of mass from the tracked point: the tag frame's offset is part of it.
             both = values[name]["value"] + values.get(f"tag_frame.{axis}", {"value": 0.0})["value"]
-            other = arcs[f"centre_{axis}"]
-            rows.append(_row(f"centre of mass, {axis}", "m", both, other["value"], other["se"], "flight arcs"))
+            rows.append(_row(f"centre of mass, {axis}", "m", both, arcs[f"centre_{axis}"], "flight arcs"))
     balance = found.get("measured_centre", {}).get("impulse_balance", {}).get("values", {})
     J = np.diag(np.asarray(apply(base, (), np.zeros(0)).body()[0].inertia))
     for k, axis in enumerate(("xx", "yy", "zz")):
         name = f"inertia_deviation.{axis}"
         if name in values and f"inertia_{axis}" in balance:
-            other = balance[f"inertia_{axis}"]
-            m = float(base.mass)
-            rows.append(
-                _row(f"inertia, {axis}", "kg m2", values[name]["value"] * J[k], other["value"] * m, other["se"] * m,
-                     "impulse balance of the first impact")
-            )  # fmt: skip
+            other = {key: value * float(base.mass) for key, value in balance[f"inertia_{axis}"].items()}
+            how = "impulse balance of the first impact"
+            rows.append(_row(f"inertia, {axis}", "kg m2", values[name]["value"] * J[k], other, how))
     corner = found.get("measured_centre", {}).get("corner", {}).get("values", {})
     if "friction" in corner:
-        c = corner["friction"]
-        rows.append(
-            _row("friction", "1", values["mu"]["value"], c["value"], c["se"], "impulse ratio of sliding corners")
-        )
+        how = "impulse ratio of sliding corners"
+        rows.append(_row("friction", "1", values["mu"]["value"], corner["friction"], how))
     return rows
 
 
-def _row(what: str, unit: str, contact: float, other: float, se: float, how: str) -> dict[str, Any]:
+def _row(what: str, unit: str, contact: float, other: dict[str, float], how: str) -> dict[str, Any]:
     return {
-        "quantity": what, "unit": unit, "with_contact_model": float(contact), "without": float(other),
-        "standard_error": float(se), "how": how,
+        "quantity": what, "unit": unit, "with_contact_model": float(contact), "without": float(other["value"]),
+        "standard_error": float(other["se"]), "how": how,
     }  # fmt: skip
 
 

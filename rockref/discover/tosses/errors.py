@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -40,7 +39,7 @@ class Errors:
 
 def _summary(a: np.ndarray) -> dict[str, float]:
     low, middle, high = np.quantile(a, (0.25, 0.5, 0.75))
-    values: Mapping[str, float] = {
+    values = {
         "mean": np.mean(a), "sd": np.std(a), "median": middle, "lower_quartile": low, "upper_quartile": high,
     }  # fmt: skip
     return {k: round(float(v), 3) for k, v in values.items()}
@@ -58,11 +57,5 @@ def errors(prediction: Prediction, poses: Poses, width: float) -> Errors:
     rotation = np.degrees(angle(prediction.Lambda, poses.Lambda))
     position = np.minimum(np.where(np.isfinite(position), position, LOST[0]), LOST[0] * 10)
     rotation = np.where(np.isfinite(rotation), rotation, LOST[1])
-    there = poses.measured
-    count = there.sum(axis=1)
-    return Errors(
-        position=np.sum(np.where(there, position, 0), axis=1) / count,
-        rotation=np.sum(np.where(there, rotation, 0), axis=1) / count,
-        position_at=np.where(there, position, np.nan),
-        rotation_at=np.where(there, rotation, np.nan),
-    )
+    position, rotation = (np.where(poses.measured, e, np.nan) for e in (position, rotation))
+    return Errors(np.nanmean(position, axis=1), np.nanmean(rotation, axis=1), position, rotation)

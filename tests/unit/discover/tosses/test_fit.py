@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from rockref.discover.tosses.descent import limits
-from rockref.discover.tosses.diagnose import Step, word
 from rockref.discover.tosses.errors import Errors
 from rockref.discover.tosses.gates import off_bounds, paired, uses_agree
 from rockref.discover.tosses.parameters import CANDIDATES, apply, effect_parameters, law_parameters
@@ -65,13 +64,3 @@ def test_a_number_at_its_bound_is_named_and_one_at_its_absence_is_not():
     assert low[0] == 0 and off_bounds(fit, np.array([0.0, high[1] / 2]))["passed"]
     found = off_bounds(fit, np.array([high[0], low[1]]))
     assert not found["passed"] and found["at_bounds"] == ["rounded_corners.radius", "gravity_deviation.scale"]
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "taken_over", "expected"),
-    [(0.5, 1.0, 0.5, "named"), (0.5, 1.0, 0.99, "class"), (-0.2, 0.5, 0.5, "indicated"), (-1.0, -0.1, 0.5, "none")],
-)
-def test_words_follow_the_proof(low, high, taken_over, expected):
-    step = Step("tag_frame", None, np.zeros(0), 0.2, taken_over)
-    step.proof = {"low": low, "high": high}
-    assert word(step) == expected
