@@ -163,9 +163,7 @@ def add_effect(
     base = baseline_model(experiment, model)
     if effect in (e.id for e in base.active_effects()):
         raise InputError("E-EFFECT", f"argument {effect}", "is in the model already", "Add another one.")
-    if store is not None:
-        store.open(whole)
-    fitter = prepared(experiment, model, end, workers, seed, StageCounter(STAGES, progress), store)
+    fitter = prepared(experiment, whole, model, end, workers, seed, StageCounter(STAGES, progress), store)
     problem = fitter.problem
     before, _, _ = fitted(fitter, problem.carried, base, store)
     after, known = joined(fitter, before, effect, model_start(problem, base), store)

@@ -29,8 +29,8 @@ from rockref.discover.fit.problem import END, FitProblem, fit_problem
 from rockref.discover.fit.stages import S1, S2, S3, F
 from rockref.discover.fit_gates import Gate, innovations_white, off_bounds, same_place, step_halved
 from rockref.discover.fit_store import FitStore
-from rockref.discover.hypotheses import candidates
 from rockref.discover.listening.records import opened
+from rockref.discover.plan import effect_z
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.provenance import versions
 from rockref.discover.selection.halving import halving
@@ -41,7 +41,6 @@ from rockref.discover.threads import one_blas_thread
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.rules import contradicting_run
 from rockref.effects import catalogue
-from rockref.effects.scale import to_scale
 from rockref.measure.records.release import Experiment
 
 #: Starts of a fit whose gates are asked for, at most; decided: two that end in one place are enough, and of two that do
@@ -130,9 +129,7 @@ def fit_baseline(
     started = time.perf_counter()
     asked = known_effects(effects)
     experiment, whole = opened(path)
-    if store is not None:
-        store.open(whole)
-    fitter = prepared(experiment, model, end, workers, seed, StageCounter(STAGES, progress), store)
+    fitter = prepared(experiment, whole, model, end, workers, seed, StageCounter(STAGES, progress), store)
     problem = fitter.problem
     own = problem.carried
     wanted = (*own, *(e for e in asked if e not in own))
@@ -178,15 +175,15 @@ def known_effects(effects: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def prepared(
-    experiment: Experiment, model: Model | None, end: float, workers: int | None, seed: int,
-    progress: StageCounter | None, store: FitStore | None,
+    experiment: Experiment, whole: Experiment, model: Model | None, end: float, workers: int | None, seed: int,
+    progress: StageCounter, store: FitStore | None = None,
 ) -> Fitter:  # fmt: skip
-    """Return the fitter of an experiment's fit runs, which leaves what it finds in the store."""
+    """Return the fitter of an experiment's fit runs, which leaves what it finds in the whole experiment's store."""
     problem = fit_problem(experiment, experiment.fit_runs(), baseline_model(experiment, model), end, workers, seed=seed)
-    problem.progress = progress or problem.progress
+    problem.progress = progress
     problem.tone = stated_tone(model)
     if store is not None:
-        problem.refined = store.note(problem)
+        problem.refined = store.open(whole).note(problem)
     return Fitter(problem)
 
 
@@ -242,11 +239,9 @@ def local_fit(fitter: Fitter, h: FittedModel) -> FittedModel:
 def model_start(problem: FitProblem, model: Model) -> np.ndarray:
     """Return z at which the shared numbers have the values of a model; those of a single run are zero."""
     z = problem.nominal(problem.carried)
-    effects = {e.id: e for e in model.effects}
     for k, p in enumerate(problem.parameters(problem.carried)):
-        kind, key = candidates.kind_and_key(p.name)
-        if p.run is None and kind is not None:
-            z[k] = np.clip(p.z_of(to_scale(kind, key, float(getattr(effects[kind.id], key)))), p.least, p.most)
+        if p.run is None and p.effect:
+            z[k] = np.clip(effect_z(p, model), p.least, p.most)
     return z
 
 

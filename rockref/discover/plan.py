@@ -230,14 +230,19 @@ def true_z(p: Parameter, model: Model) -> float:
     if p.run is not None:
         return 0.0
     if p.effect:
-        effect = next(e for e in model.effects if e.id == p.effect)
-        key = p.name.partition(".")[2]
-        return p.z_of(to_scale(type(effect), key, float(getattr(effect, key))))
+        return effect_z(p, model)
     if p.name == "K_T":
         return p.z_of(model.parameters.K_T / model.parameters.K_N)
     if p.name.startswith("delta_long_"):
         return p.z_of(model.parameters.delta_long[int(p.name[-1]) - 1])
     return p.z_of(getattr(model.parameters, p.name))
+
+
+def effect_z(p: Parameter, model: Model) -> float:
+    """Return the z of a number of an effect that a model has."""
+    effect = next(e for e in model.effects if e.id == p.effect)
+    key = p.name.partition(".")[2]
+    return p.z_of(to_scale(type(effect), key, float(getattr(effect, key))))
 
 
 def outlook(model: Model, known: Information, runs: Sequence[Release], effects: Sequence[type[Effect]]) -> Outlook:

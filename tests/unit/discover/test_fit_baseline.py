@@ -11,6 +11,7 @@ from rockref.discover.fit.fitter import FittedModel
 from rockref.discover.fit.stages import F
 from rockref.discover.fit_gates import Gate, off_bounds, same_place
 from rockref.discover.fit_store import FitStore
+from rockref.discover.progress import StageCounter
 from rockref.effects.catalogue import parse
 from tests.unit.discover.synthetic import experiment
 
@@ -70,7 +71,7 @@ def test_a_second_fit_starts_where_the_first_one_ended(monkeypatch):
 def test_a_model_begins_at_its_own_numbers():
     e = made()
     model = TRUE.replace(effects=(parse("quadratic_drag:c=0.4"),))
-    fitter = engine.prepared(e, model, 0.8, 1, 0, None, None)
+    fitter = engine.prepared(e, e, model, 0.8, 1, 0, StageCounter({}))
     z = engine.model_start(fitter.problem, engine.baseline_model(e, model))
     started = fitter.problem.job(fitter.parameters(FittedModel(("quadratic_drag",), z)), z).models[0]
     assert started.effects[0].values()["c"] == pytest.approx(0.4)
@@ -84,7 +85,7 @@ def test_the_frequency_of_a_shaking_base_is_the_model_s_own():
 
 def test_another_start_moves_the_law_and_leaves_effects_near(monkeypatch):
     e = made()
-    fitter = engine.prepared(e, TRUE.replace(effects=(parse("quadratic_drag:c=0.4"),)), 0.8, 1, 0, None, None)
+    fitter = engine.prepared(e, e, TRUE.replace(effects=(parse("quadratic_drag:c=0.4"),)), 0.8, 1, 0, StageCounter({}))
     parameters = fitter.problem.parameters(("quadratic_drag",))
     h = FittedModel(("quadratic_drag",), np.full(len(parameters), 0.8))
     z = engine.other_start(fitter, h, seed=1)
@@ -94,7 +95,7 @@ def test_another_start_moves_the_law_and_leaves_effects_near(monkeypatch):
 
 
 def test_gates_compare_shared_numbers_alone():
-    fitter = engine.prepared(made(), None, 0.8, 1, 0, None, None)
+    fitter = engine.prepared(made(), made(), None, 0.8, 1, 0, StageCounter({}))
     parameters = fitter.problem.parameters()
     z, width = np.zeros(len(parameters)), np.full(len(parameters), 0.01)
     at = [p.name for p in parameters].index("mu_int")
