@@ -15,3 +15,9 @@ def refused(call: Callable[..., Any], *arguments: Any, **named: Any) -> InputErr
     with pytest.raises(InputError) as caught:
         call(*arguments, **named)
     return caught.value
+
+
+def refusal(call: Callable[..., Any], *arguments: Any) -> tuple[str, str, str, str]:
+    """The four parts of that error: code, place, what is wrong, cure."""
+    error = refused(call, *arguments)
+    return error.code, error.where, error.what, error.cure

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rockref import InputError
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.catalogue import EFFECTS, OF_TOSSES, analogue, brought_in, digital, in_step_order, make, measured
+from tests.refusal import refusal
 
 T = np.arange(40) / 100
 CRV = np.outer(T, (1.0, 2.0, -1.0))
@@ -25,13 +25,6 @@ class Offset(Effect):
 
     def sensor(self, t, crv):
         return crv + self.b + t[:, None]
-
-
-def refusal(call, *arguments):
-    """The four parts of the error with which something is refused."""
-    with pytest.raises(InputError) as found:
-        call(*arguments)
-    return found.value.code, found.value.where, found.value.what, found.value.cure
 
 
 def test_effects_act_in_the_order_of_the_step_and_those_of_tosses_and_of_the_user_after_them():

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from rockref import InputError
 from rockref.effects import catalogue
 from rockref.effects.catalogue import EFFECTS, OF_TOSSES, SHOWN, file_beside, find, from_table, named, parse, to_table
+from tests.refusal import refusal
 
 MINE = """
 from dataclasses import dataclass
@@ -33,13 +33,6 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.setattr(catalogue, "OWN", {})
     monkeypatch.setattr(catalogue, "NAMED", set())
     return tmp_path
-
-
-def refusal(call, *arguments):
-    """The four parts of the error with which something is refused."""
-    with pytest.raises(InputError) as found:
-        call(*arguments)
-    return found.value.code, found.value.where, found.value.what, found.value.cure
 
 
 def test_words_and_paths_are_cut_where_they_say_least():

@@ -8,8 +8,9 @@ import pytest
 
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.activity import Leakage, activity, arc_shares, leakage, onset, out_of_plane
-from rockref.measure.signals.impacts import Impacts, main_impacts
+from rockref.measure.signals.impacts import main_impacts
 from rockref.measure.signals.noise import NoiseFloor, noise_floor
+from tests.unit.measure.struck import struck
 
 
 def test_leakage_of_a_misaligned_gyroscope_is_measured(rocking, sensed):
@@ -67,12 +68,6 @@ def test_motion_starts_before_the_impact_in_the_control(shipped):
 
 NONE = Leakage(np.zeros(2), np.zeros(2), np.zeros(2))
 T = np.arange(1000) / 1000.0
-
-
-def struck(*times):
-    """Impacts at these times, of which nothing else is known."""
-    nothing = np.zeros(len(times))
-    return Impacts(np.array(times, float), nothing, nothing, nothing, nothing.astype(int))
 
 
 def noise(sigma_y):

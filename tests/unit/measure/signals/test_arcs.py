@@ -9,6 +9,7 @@ import pytest
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.arcs import arcs, turned_angle
 from rockref.measure.signals.impacts import Impacts, main_impacts
+from tests.unit.measure.struck import struck
 
 
 def exact(motion, count):
@@ -62,11 +63,6 @@ def test_shipped_runs_fall_from_their_stated_tilt(shipped, number):
 
 T = 2.0 + np.arange(1000) / 1000.0
 ROOT = 2.5003
-
-
-def struck(*times):
-    nothing = np.zeros(len(times))
-    return Impacts(np.array(times, float), nothing, nothing, nothing, nothing.astype(int))
 
 
 def apex(w, *bounds, t=T):

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from rockref.measure.experiment import load_experiment
-from rockref.measure.signals.impacts import Impacts
 from rockref.measure.signals.ledger import energy_ledger, rocking_block
 from rockref.model.errors import InputError
+from tests.unit.measure.struck import struck
 
 BLOCK = rocking_block(54.0, 0.1, 0.688)
 ALPHA, P = BLOCK.alpha, BLOCK.rocking_rate
@@ -89,13 +89,6 @@ def test_signatures_of_the_shipped_experiments(shipped):
     assert loose.restitution[0] < 0.92 and loose.free_loss[0] < -0.05 < control.free_loss[0]
     # Rolling resistance takes from every arc, also from the release.
     assert ledgers(shipped, 5)["01"].release_loss > 0.01
-
-
-def struck(*times, sign=1):
-    """Impacts at these times, of which nothing else is known."""
-    nothing = np.zeros(len(times))
-    signs = sign * (-1) ** np.arange(len(times))
-    return Impacts(np.array(times, float), signs, nothing, nothing, nothing.astype(int))
 
 
 def along_x(wx):

@@ -8,8 +8,8 @@ import pytest
 
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.activity import Leakage
-from rockref.measure.signals.impacts import Impacts
 from rockref.measure.signals.phases import ERRATIC, PLANAR, QUASI_2D, REPEATABLE, phases
+from tests.unit.measure.struck import struck
 
 
 @pytest.fixture
@@ -64,11 +64,6 @@ def test_uneven_feet_stop_the_clatter(shipped):
 
 NONE = Leakage(np.zeros(2), np.zeros(2), np.zeros(2))
 T = 1.0 + np.arange(3000) / 1000.0
-
-
-def struck(*times):
-    nothing = np.zeros(len(times))
-    return Impacts(np.array(times, float), nothing, nothing, nothing, nothing.astype(int))
 
 
 def with_shares(*shares, times):
