@@ -74,7 +74,7 @@
       const tell = () => {
         const k = toggle.checked ? state.at[which] : 0;
         const best = k === d.optimum ? " (as found)" : k === 0 ? " (off)" : "";
-        said.textContent = `${d.sizes[k]}${best}: error ${d.errors[k].toPrecision(2)} deg/s, before ${data.error.toPrecision(2)}`;
+        said.textContent = `${d.sizes[k]}${best}: on its own off by ${d.errors[k].toPrecision(2)} deg/s RMS here, ${data.error.toPrecision(2)} without`;
         slider.setAttribute("aria-valuetext", said.textContent);
       };
       const act = () => {
