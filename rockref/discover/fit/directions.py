@@ -128,9 +128,11 @@ def axes(parameters: Sequence[Parameter], covariance: np.ndarray) -> list[Axis]:
 
 
 def along(covariance: np.ndarray) -> np.ndarray:
-    """Return the ends of the directions of a covariance, in rows."""
+    """Return the ends of the directions of a covariance, in rows; none is shorter than rounding lets its length be
+    known."""
     lengths, directions = np.linalg.eigh(covariance)
-    return (directions * np.sqrt(np.maximum(lengths, 0.0) * 2 * RISE / SOFTENED)).T
+    least = np.finfo(float).eps * lengths.max()
+    return (directions * np.sqrt(np.maximum(lengths, least) * 2 * RISE / SOFTENED)).T
 
 
 def shortened(end: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rockref.discover.fit.directions import SOFTENED, moved, softened, spread_about, way
+from rockref.discover.fit.directions import SOFTENED, axes, moved, softened, spread_about, way
 from rockref.discover.hypotheses.parameter import Parameter
 
 FREE = SimpleNamespace(least=-np.inf, most=np.inf, scale="linear", run=None)
@@ -51,6 +51,13 @@ def test_across_it_the_width_is_that_of_the_data():
     # difference see the exponential bend by another per cent.
     assert together @ covariance @ together == pytest.approx(1 / SAMPLES, rel=0.03)
     assert covariance[2, 2] == pytest.approx(1 / SAMPLES, rel=0.03)
+
+
+def test_a_number_that_is_known_beyond_rounding_has_a_direction():
+    # The level at which a gyroscope clips is told by every clipped sample; the computed variance may be below zero.
+    ends = np.array([axis.end for axis in axes((FREE,) * 3, np.diag([1e-4, 1e-6, -2.5e-26]))])
+    assert np.linalg.matrix_rank(ends, tol=0.0) == 3
+    assert np.isfinite(ends).all()
 
 
 def test_the_matrix_is_the_inverse_of_the_covariance():
