@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
+#: decided: below the usual 5 % two distributions are said to differ.
+DIFFERENT = 0.05
+
+
 def interval(found: dict[str, float], sign: str = "") -> str:
     """Return a mean with its interval."""
     return f"{found['mean']:{sign}.3f} ({found['low']:{sign}.3f} to {found['high']:{sign}.3f})"
@@ -72,9 +76,12 @@ def answers(record: dict[str, Any]) -> list[str]:
         )
     if not others and first is not None:
         found.append(f"{first['name']}: log loss {interval(first['log_loss'])}.")
+    # Both sides exchange whole motions: m of them make 2^(m - 1) different distances, and that of the tests is one.
+    least = 2.0 ** (1 - record["motions"])
+    few = f"; {record['motions']} motions allow none below {least:.3f}" if least >= DIFFERENT else ""
     for d in record["maxima"]:
-        gap = "differs from" if d["p_value"] < 0.05 else "is not told apart from"
-        found.append(f"Largest {d['quantity']} of {d['name']} {gap} the measured one (p = {d['p_value']:.3f}).")
+        gap = "differs from" if d["p_value"] < DIFFERENT else "is not told apart from"
+        found.append(f"Largest {d['quantity']} of {d['name']} {gap} the measured one (p = {d['p_value']:.3f}{few}).")
     return found
 
 
