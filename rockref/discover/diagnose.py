@@ -190,6 +190,7 @@ def diagnosis(
     experiment: Experiment, evidence: Evidence, decision: Verdict, model: Model, end: float, seconds: float
 ) -> Diagnosis:
     """Return a verdict with all that a reader wants to know of it; end [s] of each run that was used."""
+    advised = catalogue.find(decision.effects[0]).experiment if decision.effects else ""
     return Diagnosis(
         experiment=experiment,
         verdict=decision.word,
@@ -202,17 +203,12 @@ def diagnosis(
         gates=gates(decision, evidence),
         seconds=seconds,
         model=model,
-        separating_experiment=evidence.separating or experiment_of(decision),
+        separating_experiment=evidence.separating or advised,
         probability=decision.probability,
         detection_limits=evidence.limits,
         confusion=evidence.confusions,
         evidence=evidence,
     )
-
-
-def experiment_of(decision: Verdict) -> str:
-    """Return the experiment that the catalogue advises to confirm the first effect of a verdict, or ""."""
-    return catalogue.find(decision.effects[0]).experiment if decision.effects else ""
 
 
 def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experiment) -> Evidence:
@@ -225,11 +221,12 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     listener = problem.listener
     runs = experiment.holdout_runs()
     held = Listener(experiment, runs, listener.end, listener.workers) if runs else None
+    samples = {} if held is None else {run.id: int(3 * n) for run, n in zip(runs, held.valid.sum(axis=1), strict=True)}
     evidence = Evidence(
         experiment=experiment.name,
         digest=experiment.digest,
         samples=int(3 * listener.valid.sum()),
-        held_out_samples={} if held is None else samples_of(held),
+        held_out_samples=samples,
         hypotheses=list(said.values()),
         carried=problem.carried,
         remarks=tuple(sorted({notice.code for notice in experiment.notices})),
@@ -246,11 +243,6 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     best = next(h for h in kept if h.effects == ranked[0].evidence.effects)
     evidence.signature = misfit(fitter, null, best)
     return evidence
-
-
-def samples_of(listener: Listener) -> dict[str, int]:
-    """Return how many innovations each run has."""
-    return {run.id: int(3 * n) for run, n in zip(listener.runs, listener.valid.sum(axis=1), strict=True)}
 
 
 def null_of(evidence: Evidence) -> HypothesisEvidence:

@@ -38,10 +38,11 @@ def leaves_band(c: Comparison, model: int) -> list[Finding]:
         return finding(c, model, "leaves_band", text, runs=0)
     first, run = min(gone, key=lambda g: g[0].time)
     touching = listed([name for name, _ in first.points]) or "no point"
+    verb = "touch" if len(first.points) > 1 else "touches"
     text = (
         f"The model leaves the band of {yardstick} in {len(gone)} of {total} runs, first in run {run} at "
         f"{first.time:.3f} s ({_since(first.after_impact)}), about the {first.axis} axis, "
-        f"while {touching} touch{_s(first.points)}."
+        f"while {touching} {verb}."
     )
     return finding(
         c,
@@ -60,10 +61,6 @@ def _since(after: float | None) -> str:
     if after is None:
         return "before the first main impact"
     return f"{1e3 * after:.0f} ms after a main impact of the run"
-
-
-def _s(points: tuple) -> str:
-    return "" if len(points) > 1 else "es"
 
 
 def first_impact(c: Comparison, model: int) -> list[Finding]:

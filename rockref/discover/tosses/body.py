@@ -56,6 +56,11 @@ def corners(width: float, depth: float, height: float, K: float, C: float, mu: f
     )  # fmt: skip
 
 
+def nominal_corners(model: Model) -> np.ndarray:
+    """Return the contact points of the model without its effects, (n, 3) from the middle [m]."""
+    return np.array(model.body_without_effects()[1].P)
+
+
 def effect_of(model: Model, kind: type[Effect], **shapes: float):
     """Return the effect of this kind in a model, or one that is absent and has these shapes."""
     return next((effect for effect in model.effects if effect.id == kind.id), None) or kind(**shapes)

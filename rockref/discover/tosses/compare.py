@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.tosses.body import frames_of, nominal_model, throw_frame
+from rockref.discover.tosses.body import frames_of, nominal_corners, nominal_model, throw_frame
 from rockref.discover.tosses.errors import Errors, errors
 from rockref.discover.tosses.ledger import ledger
 from rockref.discover.tosses.predict import CLEARANCE, STARTS, predict
@@ -100,7 +100,7 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
     found = predict(model, poses, start)
     e = errors(found, poses, width)
     # Where a toss is in its course is said of the measurement, by the same drawn corners for every model.
-    frames, P = frames_of(plain_law(model), throw_frame(poses)), nominal_corners(model)
+    frames, P = frames_of(model.replace(effects=()), throw_frame(poses)), nominal_corners(model)
     seen = frames.over_plate(poses)
     where = stretch_of(seen, P)
     energy = ledger(model, found, poses, where)
@@ -112,15 +112,11 @@ def row_of(name: str, model: Model, poses: Poses, width: float, use: str, start:
     return Row(name, use, start, e, stretches, sliding)
 
 
-def nominal_corners(model: Model) -> np.ndarray:
-    """Return the contact points of the model without its effects, (n, 3) from the middle [m]."""
-    return np.array(model.body_without_effects()[1].P)
-
-
 def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str, Any]:
     """Return flight arcs, flat sliding; first impacts with the stated and with the measured centre of mass."""
     poses = side_by_side(chosen, tosses.rate)
-    own, P = frames_of(plain_law(model), throw_frame(poses)).over_plate(poses), nominal_corners(model)
+    frames, P = frames_of(model.replace(effects=()), throw_frame(poses)), nominal_corners(model)
+    own = frames.over_plate(poses)
     arcs = impact_balance.flight_arcs(own, flight_frames(own, P, CLEARANCE))
     found: dict[str, Any] = {"flight_arcs": arcs.to_dict()}
     if not arcs.values:
@@ -153,8 +149,3 @@ def measured(chosen: tuple[Toss, ...], tosses: Tosses, model: Model) -> dict[str
         first = flight_frames(own, P, CLEARANCE)
         found["energy_of_stated_velocities"] = stated_energy.rises(chosen, first, centre, J, -g[2])
     return found
-
-
-def plain_law(model: Model) -> Model:
-    """Return the model without its effects."""
-    return model.replace(effects=())

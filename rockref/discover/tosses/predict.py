@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.api import Model
-from rockref.discover.tosses.body import Frames, cut, effect_of, frames_of, in_the_step, throw_frame
+from rockref.discover.tosses.body import Frames, cut, effect_of, frames_of, in_the_step, nominal_corners, throw_frame
 from rockref.effects.loads.plate_tilt import PlateTilt
 from rockref.engines import has_numba
 from rockref.measure.tosses.flight import MOST, Poses, Starts, ballistic_starts, displaced, flight_frames, raw_starts
@@ -47,13 +47,9 @@ def starts_of(model: Model, poses: Poses, frames: Frames, kind: str = "flight") 
         W = poses.W @ frames.turn
         v = (frames.board_to_plate[:, 0] @ poses.v[..., None])[..., 0]
         return raw_starts(own, v + (own.Lambda[:, 0] @ np.cross(W, frames.centre)[..., None])[..., 0], W)
-    return ballistic_starts(own, flying(model, poses), gravity_of(model, float(block.g)), np.asarray(block.inertia))
-
-
-def flying(model: Model, poses: Poses) -> np.ndarray:
-    """Return how many frames every toss flies, by the corners of the plain body: effects must not choose what is
-    read."""
-    return flight_frames(poses, np.asarray(model.body_without_effects()[1].P), CLEARANCE)
+    # By the corners of the plain body: effects must not choose what is read.
+    flight = flight_frames(poses, nominal_corners(model), CLEARANCE)
+    return ballistic_starts(own, flight, gravity_of(model, float(block.g)), np.asarray(block.inertia))
 
 
 def predict(

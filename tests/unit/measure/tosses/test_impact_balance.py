@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rockref.discover.tosses.body import frames_of, throw_frame
-from rockref.discover.tosses.compare import measured, nominal_corners
+from rockref.discover.tosses.body import frames_of, nominal_corners, throw_frame
+from rockref.discover.tosses.compare import measured
 from rockref.discover.tosses.parameters import apply, law_parameters
 from rockref.effects.contact.orientation_dependent_damping import OrientationDependentDamping
 from rockref.effects.shape.inertia_deviation import InertiaDeviation
