@@ -8,7 +8,7 @@ import numpy as np
 from rockref.api import Model
 from rockref.discover.tosses.body import frames_of, nominal_model
 from rockref.discover.tosses.predict import STEPS_A_FRAME, simulated
-from rockref.measure.records.toss import Tosses
+from rockref.measure.records.toss import Toss, Tosses
 from rockref.measure.tosses.flight import Poses, Starts
 from rockref.measure.tosses.load import CUBE_MASS, CUBE_WIDTH
 from rockref.model.rotation import exponential, quaternion
@@ -19,6 +19,14 @@ RATE = 148.0
 def stated() -> Model:
     """The cube with stated values."""
     return nominal_model(Tosses(Path("."), "made", RATE, CUBE_MASS, CUBE_WIDTH, CUBE_WIDTH, ()))
+
+
+def tosses_of(model: Model, count: int, uses=("fit",), frames: int = 50, noise: float = 2e-5) -> Tosses:
+    """Tosses of a model, their uses in turn."""
+    x, Lambda, _ = made(model, count, frames=frames, seed=2, noise=noise)
+    t = np.arange(frames) / RATE
+    listed = tuple(Toss(str(i), str(i), uses[i % len(uses)], t, x[i], Lambda[i]) for i in range(count))
+    return Tosses(Path("made"), "made", RATE, CUBE_MASS, CUBE_WIDTH, CUBE_WIDTH, listed)
 
 
 def made(model: Model, count: int, frames: int = 100, seed: int = 0, noise: float = 0.0):

@@ -19,7 +19,7 @@ from rockref.discover.evidence.result import model_of
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.problem import END, fit_problem
-from rockref.discover.fit_store import FitStore, has_own, model_from, model_text, options_key
+from rockref.discover.fit_store import FitStore, model_from, model_text, options_key
 from rockref.discover.hypotheses.effects import candidate_effects
 from rockref.discover.kept_search import KeptSearch
 from rockref.discover.listening.listener import Listener
@@ -179,7 +179,7 @@ def kept_diagnosis(store: FitStore, key: str, experiment: Experiment) -> Diagnos
 def keep_diagnosis(store: FitStore, key: str, evidence: Evidence, model: Model, end: float, seconds: float) -> None:
     """Keep a diagnosis, but for that of a model with a user's own effect, whose file may move."""
     store.kept["searches"].pop(key, None)  # the state of its search is no longer needed
-    if not has_own(model):
+    if all(e.file is None for e in model.effects):
         store.kept["diagnoses"][key] = {
             "evidence": evidence.to_dict(), "model": model_text(model), "end": end, "seconds": seconds,
         }  # fmt: skip

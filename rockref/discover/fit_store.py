@@ -225,11 +225,6 @@ def options_key(base: Model, seed: int, end: float, own: Sequence[str]) -> str:
     return digest_of([model_text(plain_base), effects, seed, end, *own, *source_of(ids)])
 
 
-def has_own(model: Model) -> bool:
-    """Return whether a model has a user's own effect."""
-    return any(e.file is not None for e in model.effects)
-
-
 def model_text(model: Model) -> str:
     """Return a model as the text of its file."""
     with tempfile.TemporaryDirectory() as folder:

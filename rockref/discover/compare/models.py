@@ -296,11 +296,6 @@ def measured_runs(experiment: Experiment, runs: Sequence[Run]) -> tuple[Measured
     return tuple(found)
 
 
-def _first(t: np.ndarray, crv: np.ndarray) -> float | None:
-    times = main_impacts(t, crv).times
-    return float(times[0]) if len(times) else None
-
-
 def tilt_offset(m: MeasuredRun, stated: Prediction, experiment: Experiment) -> float:
     """Return by how much, rad, the release tilt has to change for the first main impact to come when it was measured.
 
@@ -308,11 +303,11 @@ def tilt_offset(m: MeasuredRun, stated: Prediction, experiment: Experiment) -> f
     """
     run, uncertainty = m.run, experiment.tilt_uncertainty
     assert run.t is not None and run.release_tilt is not None
-    modelled = _first(run.t, stated.at(run.t))
-    if not uncertainty or modelled is None or not np.isfinite(m.first_impact):
+    modelled = main_impacts(run.t, stated.at(run.t)).times
+    if not uncertainty or not len(modelled) or not np.isfinite(m.first_impact):
         return 0.0
     slope = impact_time_per_tilt(run.release_tilt, experiment.width, experiment.height)
-    return float(np.clip((m.first_impact - modelled) / slope, -uncertainty, uncertainty))
+    return float(np.clip((m.first_impact - modelled[0]) / slope, -uncertainty, uncertainty))
 
 
 def impact_time_per_tilt(tilt: float, width: float, height: float) -> float:

@@ -1,51 +1,40 @@
 """What is said of tosses where something is missing: a use without tosses, flights too short, corners never struck."""
 
 from dataclasses import replace
-from pathlib import Path
 
-import numpy as np
 import pytest
 
 from rockref.discover.tosses import compare as comparing
 from rockref.discover.tosses.body import nominal_model
 from rockref.discover.tosses.compare import compare, measured
 from rockref.discover.tosses.first_guess import first_guesses
-from rockref.measure.records.toss import Toss, Tosses
-from rockref.measure.tosses.load import CUBE_MASS, CUBE_WIDTH
 from rockref.model.errors import InputError
-from tests.tosses import RATE, made, stated
+from tests.tosses import stated, tosses_of
 
 pytest.importorskip("numba")
 
 
-def tosses_of(count=8, frames=50, use="fit"):
-    x, Lambda, _ = made(stated(), count, frames=frames, seed=2, noise=2e-5)
-    t = np.arange(frames) / RATE
-    listed = tuple(Toss(str(i), str(i), use, t, x[i], Lambda[i]) for i in range(count))
-    return Tosses(Path("made"), "made", RATE, CUBE_MASS, CUBE_WIDTH, CUBE_WIDTH, listed)
-
-
 @pytest.mark.parametrize("use", ["fit", "holdout"])
 def test_a_use_without_tosses_has_no_row(use):
-    found = compare(tosses_of(use=use))
+    found = compare(tosses_of(stated(), 8, (use,)))
     assert [(row.use, row.start) for row in found.rows] == [(use, "flight"), (use, "raw")]
 
 
 def test_no_toss_at_all_is_refused():
     with pytest.raises(InputError, match="holds no toss") as error:
-        compare(replace(tosses_of(), tosses=()))
+        compare(replace(tosses_of(stated(), 1), tosses=()))
     assert error.value.code == "E-SIZE"
 
 
 def test_flights_too_short_to_see_the_centre_leave_everything_else_open():
-    tosses = tosses_of(frames=6)
+    tosses = tosses_of(stated(), 8, frames=6)
     found = measured(tosses.tosses, tosses, nominal_model(tosses))
     assert set(found) == {"flight_arcs"} and found["flight_arcs"]["values"] == {}
     assert first_guesses(found, stated()) == {}
 
 
 def test_where_no_corner_was_struck_the_impacts_say_nothing(monkeypatch):
-    tosses = tosses_of()
+    tosses = tosses_of(stated(), 8)
 
     def first_impacts(*a):
         raise InputError("E-SIZE", "tosses", "strike no corner", "")

@@ -1,7 +1,6 @@
 """The staircase of a diagnosis of tosses: fits are made up at the known truth, everything after them is real."""
 
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,29 +12,24 @@ from rockref.discover.tosses.fit import TossFit
 from rockref.discover.tosses.fitting import at_values
 from rockref.discover.tosses.together import Stair
 from rockref.effects.shape.mass_eccentricity import MassEccentricity
-from rockref.measure.records.toss import Toss, Tosses
 from rockref.measure.tosses.flight import side_by_side
-from rockref.measure.tosses.load import CUBE_MASS, CUBE_WIDTH
+from rockref.measure.tosses.load import CUBE_WIDTH
 from rockref.model.errors import InputError
-from tests.tosses import RATE, made, stated
+from tests.tosses import RATE, stated, tosses_of
 
 pytest.importorskip("numba")
 HOLE = MassEccentricity(0.0, 0.0, 5e-3)
 UNUSED = ("plate_tilt", "rounded_corners")
 
 
-def tosses_of(effects, count=20):
+def half_held_out(*effects):
     """Tosses of a cube with these effects, every second one held out."""
-    x, Lambda, _ = made(stated().replace(effects=effects), count, frames=50, seed=2, noise=2e-4)
-    t = np.arange(50) / RATE
-    uses = ("fit", "holdout") * (count // 2)
-    listed = tuple(Toss(str(i), str(i), use, t, x[i], Lambda[i]) for i, use in enumerate(uses))
-    return Tosses(Path("made"), "made", RATE, CUBE_MASS, CUBE_WIDTH, CUBE_WIDTH, listed)
+    return tosses_of(stated().replace(effects=effects), 20, ("fit", "holdout"), noise=2e-4)
 
 
 @pytest.fixture(scope="module")
 def hollow():
-    return tosses_of((HOLE,))
+    return half_held_out(HOLE)
 
 
 def step_gate(passed):
@@ -91,7 +85,7 @@ def test_what_a_model_has_is_no_candidate(no_fits, hollow):
 
 
 def test_at_the_floor_of_the_starts_nothing_is_looked_for(no_fits):
-    found = diagnose(tosses_of(()), candidates=UNUSED)
+    found = diagnose(half_held_out(), candidates=UNUSED)
     assert no_fits == [] and (found.verdict, found.effects) == ("none", ()) and found.not_needed == UNUSED
     assert found.sentence == "No effect of the catalogue makes the held-out tosses better."
     assert len(found.steps) == 1 and found.model.effects == ()
