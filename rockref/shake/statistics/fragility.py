@@ -49,7 +49,9 @@ def fit_fragility(x: Any, fell: Any, link: Link = "probit") -> Fragility:
     regression = fit_binary(_design(x), fell, link)
     constant, slope = regression.coefficients
     beta = 1.0 / slope if slope else math.inf
-    return Fragility(math.exp(-constant * beta), beta, regression)
+    with np.errstate(over="ignore"):  # where falls do not depend on x, the median may lie beyond all numbers
+        theta = float(np.exp(-constant * beta))
+    return Fragility(theta, beta, regression)
 
 
 def _design(x: Any) -> np.ndarray:

@@ -55,3 +55,11 @@ def test_monotone_curve_is_the_largest_of_least_means():
 def test_sizes_must_be_positive():
     with pytest.raises(InputError, match="E-RANGE"):
         fit_fragility([0.0, 1.0], [0, 1])
+
+
+@pytest.mark.parametrize("link", ["probit", "logit"])
+def test_where_nothing_fell_the_median_may_lie_beyond_all_numbers(link):
+    # Even in the logarithm about its mean: the slope is zero but for rounding, and one over it has no bound.
+    found = fit_fragility([0.5, 1.0, 2.0, 4.0], [0, 0, 0, 0], link)
+    assert abs(found.beta) > 1e6
+    assert (found.probability([0.5, 4.0]) < 0.25).all()
