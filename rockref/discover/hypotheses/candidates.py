@@ -39,8 +39,6 @@ SHAPES = spreads(lambda p: p.role == "shape")
 OF_EACH_FOOT = spreads(lambda p: p.role == "shape" and p.scale == "log" and p.centre == 1.0)
 SELDOM = spreads(lambda p: p.role in ("size", "form") and p.deviation == TYPICALLY_NONE)
 FORMS = spreads(lambda p: p.role == "form")
-#: Prior standard deviation of what is typically none, in spreads.
-SELDOM_PRIOR = TYPICALLY_NONE
 #: Steps of finite differences, in spreads: of what all runs share, and of what each has of its own.
 STEP, STEP_OF_RUN = 0.05, 0.1
 

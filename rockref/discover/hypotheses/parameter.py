@@ -14,15 +14,13 @@ from rockref.api import Model
 #: Deviations beyond which a bounded number comes no nearer to its bounds; decided: 99.95 % of the prior lies within.
 FARTHEST = 3.5
 
-SCALES = ("linear", "log", "uniform", "log_uniform")
-
 
 @dataclass(frozen=True)
 class Parameter:
     """One number to be found, counted in prior deviations z: each z has a standard normal prior.
 
-    linear : centre + spread z;  log : centre exp(spread z)
-    uniform, log_uniform : every value (or logarithm) between low and high is alike a priori; the normal distribution
+    scale : linear, centre + spread z;  log, centre exp(spread z);  uniform and log_uniform,
+        every value (or logarithm) between low and high is alike a priori; the normal distribution
         function of z gives the share of the way.
     set(model, value) -> model, for run `run` or for all (None).  typical : z of one typical size of an effect, else 0.
     low, high : hard limits.  moves_target : whether the number changes what the run listens to.  by_ratio : whether it
