@@ -185,7 +185,7 @@ def add_effect(
         end=problem.listener.end,
         seconds=time.perf_counter() - started,
         from_store=known,
-        without=next(m for m in problem.job(fitter.parameters(before), before.z).models if m is not None),
+        without=fitter.model(before),
     )
 
 

@@ -157,7 +157,7 @@ def diagnose(
 def of_class(fitter: Fitter, fits: Sequence[FittedModel], decision: Verdict, end: float) -> str:
     """Return the run that tells the members of a class apart best, in a sentence, or ""."""
     null = next(h for h in fits if h.effects == fitter.problem.carried)
-    model = next(m for m in fitter.problem.job(fitter.parameters(null), null.z).models if m is not None)
+    model = fitter.model(null)
     leader = next(h for h in fits if h.effects == decision.best.effects)
     own = zip(fitter.parameters(leader), leader.z, strict=True)
     size = [z for p, z in own if p.effect == decision.effects[0] and p.typical > 0 and p.run is None]

@@ -27,7 +27,7 @@ class ReleaseProblem(FitProblem):
 def held_out_fit(fitter: Fitter, h: FittedModel, listener: Listener) -> tuple[Fitter, FittedModel]:
     """Return a fit of the releases of held-out runs with the shared numbers of h."""
     problem = fitter.problem
-    base = next(m for m in problem.job(fitter.parameters(h), h.z).models if m is not None)
+    base = fitter.model(h)
     own = {k: v for k, v in base.origin.items() if k not in OF_ONE_RELEASE}
     released = ReleaseProblem(
         problem.experiment, listener, base.replace(origin=own), tone=problem.tone, progress=problem.progress

@@ -15,7 +15,7 @@ from rockref.discover.provenance import OF_ONE_RELEASE, versions
 def model_of(fitter: Fitter, h: FittedModel, said: HypothesisEvidence, made_by: str, **notes: Any) -> Model:
     """Return the model of a fit with its uncertainty (shared numbers only) and its origin; absent effects left out."""
     problem = fitter.problem
-    model = next(m for m in problem.job(fitter.parameters(h), h.z).models if m is not None)
+    model = fitter.model(h)
     kept = {k: v for k, v in model.origin.items() if k not in (*OF_ONE_RELEASE, "source")}
     experiment = problem.experiment
     origin = {

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from rockref.api import Model
 from rockref.discover.fit.differences import NARROWER, WIDEST, Residuals, jacobian
 from rockref.discover.fit.directions import SOFTENED, Spread, moved, softened, spread_about, way, wider
 from rockref.discover.fit.objective import inflation_for, loss, mean_loss, objective, weight
@@ -30,6 +31,8 @@ LONGEST = 1.5
 FOLLOWING = 1
 #: Nats that a step must gain for another one to follow (decided: neighbouring valleys differ by more).
 LEAST_GAIN = 3.0
+#: Share of the objective that a step must gain far from the valley (decided).
+SHARE = 0.02
 #: Mean loss that inflated noise leaves, and the move [prior deviations] below which a tempered fit has arrived
 #: (decided).
 TEMPERED, SMALL_MOVE = 1.5, 0.02
@@ -72,6 +75,12 @@ class Fitter:
     def parameters(self, h: FittedModel) -> tuple[Parameter, ...]:
         """Return the numbers of a hypothesis."""
         return self.problem.parameters(h.effects)
+
+    def model(self, h: FittedModel) -> Model:
+        """Return the model of a hypothesis, released as in the first run."""
+        model = self.problem.job(self.parameters(h), h.z, only=[0]).models[0]
+        assert model is not None
+        return model
 
     def residuals(self, stage: Stage) -> Residuals:
         """Return the innovations at a stage; widths of differences are kept from stage to stage."""
@@ -153,19 +162,19 @@ class Fitter:
             self._set(h, found[best], residuals)
         return float(gain)
 
-    def refine(self, h: FittedModel, stage: Stage, most: int, least_gain: float = LEAST_GAIN) -> FittedModel:
+    def refine(self, h: FittedModel, stage: Stage, most: int) -> FittedModel:
         """Take at most so many Gauss-Newton steps at a stage."""
         self.evaluate(h, stage)
         for _ in range(most):
             J = self.slopes(h, stage)
             assert h.r is not None
             h.H, _ = normal_equations(J, h.r, h.z)
-            if self.descend(h, stage, J) < least_gain:
+            if self.descend(h, stage, J) < LEAST_GAIN:
                 break
         self.problem.refined(h, stage)
         return h
 
-    def polish(self, h: FittedModel, stage: Stage, most: int, least_gain: float = LEAST_GAIN) -> FittedModel:
+    def polish(self, h: FittedModel, stage: Stage, most: int) -> FittedModel:
         """Take at most so many Gauss-Newton steps along the directions of the posterior, and keep its spread.
 
         It goes on while a step gains, or the valley turns out wider than it was known to be.
@@ -173,12 +182,12 @@ class Fitter:
         """
         self.evaluate(h, stage)
         for _ in range(most):
-            if not self.polished(h, stage, least_gain):
+            if not self.polished(h, stage):
                 break
         self.problem.refined(h, stage)
         return h
 
-    def polished(self, h: FittedModel, stage: Stage, least_gain: float = LEAST_GAIN) -> bool:
+    def polished(self, h: FittedModel, stage: Stage) -> bool:
         """Take one step of `polish` from h, evaluated at the stage; return whether another one may gain."""
         if h.spread is not None:
             known = h.spread.covariance(SOFTENED)
@@ -187,14 +196,14 @@ class Fitter:
         assert h.r is not None
         h.spread = spread_about(self.residuals(stage), self.parameters(h), h.z, h.r, known)
         gain = self.descend(h, stage, h.spread.J.reshape(len(h.z), -1), h.spread.moves)
-        return gain >= least_gain or wider(h.spread.covariance(SOFTENED), known)
+        return gain >= LEAST_GAIN or wider(h.spread.covariance(SOFTENED), known)
 
-    def settle(self, h: FittedModel, stage: Stage, most: int, share: float = 0.02) -> FittedModel:
-        """Go on while a step gains more than a share of the objective."""
+    def settle(self, h: FittedModel, stage: Stage, most: int) -> FittedModel:
+        """Go on while a step gains more than SHARE of the objective."""
         for _ in range(most):
             before = h.objective
             self.refine(h, stage, 1)
-            if h.objective > (1 - share) * before:
+            if h.objective > (1 - SHARE) * before:
                 break
         return h
 

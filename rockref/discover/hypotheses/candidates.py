@@ -14,7 +14,7 @@ from rockref.discover.hypotheses.parameter import Parameter as PriorParameter
 from rockref.effects import catalogue
 from rockref.effects.base import Effect
 from rockref.effects.natural import SOURCE, NaturalUnits, factor_of, natural_units
-from rockref.effects.prior import ROLES, TYPICALLY_NONE, Prior
+from rockref.effects.prior import ROLES
 from rockref.effects.scale import from_scale, prior_of
 
 #: Candidates that no window can judge by a derivative: what has a phase of its own in every run, and what cuts samples.
@@ -28,17 +28,6 @@ PRIORS = {
 }  # fmt: skip
 
 
-def spreads(chosen: Callable[[Prior], bool]) -> dict[tuple[str, str], float]:
-    """Return the spreads of the numbers whose priors are chosen, by effect and name."""
-    return {key: prior.spread for key, prior in PRIORS.items() if chosen(prior)}
-
-
-#: Numbers that shape an effect but do not bring it in; factors among them on what the feet have in common; numbers that
-#: are typically none; those among them that turn one form of a law into another one.
-SHAPES = spreads(lambda p: p.role == "shape")
-OF_EACH_FOOT = spreads(lambda p: p.role == "shape" and p.scale == "log" and p.centre == 1.0)
-SELDOM = spreads(lambda p: p.role in ("size", "form") and p.deviation == TYPICALLY_NONE)
-FORMS = spreads(lambda p: p.role == "form")
 #: Steps of finite differences, in spreads: of what all runs share, and of what each has of its own.
 STEP, STEP_OF_RUN = 0.05, 0.1
 
@@ -154,13 +143,6 @@ def within_base(p: P, model: Model) -> P:
     if kind is None or kind.largest_on(key, model.width, model.depth) >= p.high:
         return p
     return replace(p, high=kind.largest_on(key, model.width, model.depth))
-
-
-def value_of(parameter: Parameter, z: float) -> float:
-    """Return the effect's own number at z (an inverse is turned back)."""
-    kind, key = kind_and_key(parameter.name)
-    value = parameter.value(z)
-    return value if kind is None else from_scale(kind, key, value)
 
 
 def kinds(points: str, leave_out: Iterable[str] = (), own: Iterable[str] = ()) -> tuple[type[Effect], ...]:

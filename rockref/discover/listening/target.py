@@ -22,6 +22,8 @@ TICK_RATE = 2000.0
 NODES = 6
 #: How far a record is looked at beyond the last tick [s]; decided: a low-pass of 10 Hz has forgotten it by then.
 BEYOND = 0.1
+#: How far a run listens beyond its end [s] (decided).
+FARTHER = 0.03
 #: Share of an interval by which instants may be uneven and are taken as they are (decided: 0.03 ms at 1 kHz).
 UNEVEN = 0.03
 
@@ -47,11 +49,11 @@ class Grid:
         return self.interval * np.arange(self.count)
 
 
-def grid(sample_rate: float, end: float, beyond: float = 0.03) -> Grid:
-    """Return the ticks up to `end` s and a little `beyond`: whole parts of a sample, at TICK_RATE or above."""
+def grid(sample_rate: float, end: float) -> Grid:
+    """Return the ticks up to `end` s and a little beyond: whole parts of a sample, at TICK_RATE or above."""
     parts = math.ceil(TICK_RATE / sample_rate - 1e-9)
     interval = 1.0 / (sample_rate * parts)
-    return Grid(interval, int((end + beyond) / interval) + 2)
+    return Grid(interval, int((end + FARTHER) / interval) + 2)
 
 
 @dataclass(frozen=True)

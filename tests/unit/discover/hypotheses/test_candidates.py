@@ -11,21 +11,21 @@ from rockref.discover import plan as planning
 from rockref.discover.fit_baseline import known_effects
 from rockref.discover.hypotheses import candidates
 from rockref.discover.hypotheses.candidates import (
-    FORMS,
     LEFT_OUT,
-    OF_EACH_FOOT,
-    SELDOM,
-    SHAPES,
+    PRIORS,
     kinds,
     parameters_of,
-    value_of,
     within_base,
 )
 from rockref.effects import catalogue
+from rockref.effects.prior import TYPICALLY_NONE
 from rockref.effects.scale import prior_of, to_scale
 from tests.unit.discover.hypotheses.counted import PARAMETERS
 
 TABLE = Model.table_3_1()
+#: Numbers that shape an effect but do not bring it in, and those that are typically none.
+SHAPES = {key for key, p in PRIORS.items() if p.role == "shape"}
+SELDOM = {key: p.spread for key, p in PRIORS.items() if p.role in ("size", "form") and p.deviation == TYPICALLY_NONE}
 PLAIN = [kind for kind in catalogue.IN_STEP_ORDER if kind.id != "base_vibration"]
 
 
@@ -58,12 +58,13 @@ def test_what_the_effects_declare_is_what_fits_have_counted():
 
 def test_the_tables_are_read_from_the_effects():
     assert LEFT_OUT == ("base_vibration", "gyro_saturation")
-    assert len(SHAPES) == 12 and {id for id, _ in OF_EACH_FOOT} == {"rounded_feet"} and len(OF_EACH_FOOT) == 4
-    assert set(FORMS.values()) == {1.0} and len(FORMS) == 8
+    assert len(SHAPES) == 12
+    forms = {key: p.spread for key, p in PRIORS.items() if p.role == "form"}
+    assert set(forms.values()) == {1.0} and len(forms) == 8
     seldom = {("quadratic_drag", "c_v"): 20.0}
     seldom |= {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
     seldom |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}
-    assert FORMS | seldom == SELDOM
+    assert forms | seldom == SELDOM
 
 
 def test_no_effect_is_named_where_its_numbers_are_read():
@@ -194,7 +195,6 @@ def test_numbers_of_a_users_own_that_are_infinite_none_or_only_shape(tmp_path):
     assert [p.name for p in parameters] == ["mine.range", "mine.push"]
     assert put(kind, 0.0).active_effects() == ()
     assert put(kind, 0.5).active_effects() == (kind(range=1.0, push=0.5, shape=3.0),)
-    assert [value_of(p, 0.5) for p in parameters] == [1.0, 0.5]
     np.testing.assert_allclose(z_in(parameters, kind, put(kind, 0.5)), [0.5, 0.5])
 
 
