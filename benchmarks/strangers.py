@@ -6,7 +6,7 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | twelfth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | thirteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
@@ -41,6 +41,7 @@ import strangers_seventh
 import strangers_sixth
 import strangers_tenth
 import strangers_third
+import strangers_thirteenth
 import strangers_twelfth
 from strangers_list import HARMLESS, Mistake
 
@@ -66,6 +67,7 @@ LISTS = {
     "tenth": strangers_tenth.MISTAKES,
     "eleventh": strangers_eleventh.MISTAKES,
     "twelfth": strangers_twelfth.MISTAKES,
+    "thirteenth": strangers_thirteenth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 
@@ -207,6 +209,7 @@ IN_PYTHON = (
     *strangers_tenth.IN_PYTHON,
     *strangers_eleventh.IN_PYTHON,
     *strangers_twelfth.IN_PYTHON,
+    *strangers_thirteenth.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)

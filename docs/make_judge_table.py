@@ -13,7 +13,7 @@ NAMES = {
     "first": "first list of mistakes", "second": "second list", "third": "third list", "fourth": "fourth list",
     "fifth": "fifth list", "sixth": "sixth list", "seventh": "seventh list", "eighth": "eighth list",
     "ninth": "ninth list", "tenth": "tenth list", "eleventh": "eleventh list",
-    "twelfth": "twelfth list",
+    "twelfth": "twelfth list", "thirteenth": "thirteenth list",
     "scheme": "mistakes in other integrators", "fourth scheme": "fourth list, in further integrators",
     "fifth scheme": "fifth list, in further integrators",
     "variants": "correct variants", "zoo": "zoo",
