@@ -1,10 +1,10 @@
 """Measure how well the judge judges, and write `benchmarks/judged.csv`: `python benchmarks/judged.py [PART...]`.
 
-Parts: first to thirteenth (lists of mistakes), scheme, "fourth scheme" and "fifth scheme" (other integrators), variants
-(correct ones), zoo. What is not measured keeps its rows; the rows of a first judgement are never written anew. Without
-a part all are measured: an hour of processor time. Each mistake that is judged is kept in `judged.partial` beside:
-whoever is interrupted types the same again, and goes on where the measurement ended, unless the judge has changed
-since. What is not named is printed.
+Parts: first to thirteenth (lists of mistakes), scheme and "fourth", "fifth", "thirteenth scheme" (other integrators),
+variants (correct ones), zoo. What is not measured keeps its rows; the rows of a first judgement are never written anew.
+Without a part all are measured: an hour of processor time. Each mistake that is judged is kept in `judged.partial`
+beside: whoever is interrupted types the same again, and goes on where the measurement ended, unless the judge has
+changed since. What is not named is printed.
 `python docs/make_judge_table.py` makes the table of the documentation of it.
 """
 
@@ -28,12 +28,7 @@ ROOT = FILE.parents[1]
 KEPT = FILE.with_suffix(".partial")
 ZOO = ROOT / "benchmarks/zoo.csv"
 COLUMNS = ("judged", "way", "when", "asked", "detected", "named", "top_two")
-OF_SCHEMES = {
-    "scheme": strangers.of_schemes,
-    "fourth scheme": strangers.of_fourth_schemes,
-    "fifth scheme": strangers.of_fifth_schemes,
-}
-PARTS = (*strangers.LISTS, *OF_SCHEMES, "variants", "zoo")
+PARTS = (*strangers.LISTS, *strangers.OF_SCHEMES, "variants", "zoo")
 Row = dict[str, Any]
 
 
@@ -63,7 +58,11 @@ def of_list(part: str) -> Iterator[Row]:
     """A list of mistakes, by pieces, by runs, by runs without forces."""
     digest = judge_digest()
     known, found = kept(digest), []
-    pairs = list(OF_SCHEMES[part]()) if part in OF_SCHEMES else [(m, None) for m in strangers.LISTS[part]]
+    pairs = (
+        list(strangers.OF_SCHEMES[part]())
+        if part in strangers.OF_SCHEMES
+        else [(m, None) for m in strangers.LISTS[part]]
+    )
     for mistake, scheme in pairs:
         key = f"{part}: {mistake.says}, {scheme}"
         if key not in known:

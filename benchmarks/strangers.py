@@ -9,7 +9,7 @@ time.
     --list first | second | ... | thirteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
-                                fourth` those of `strangers_fourth.py`, with `fifth` of `strangers_fifth.py`)
+                                fourth` those of `strangers_fourth.py`, with `fifth` or `thirteenth` of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -185,6 +185,12 @@ def of_fifth_schemes() -> Iterator[tuple[Mistake, str]]:
     yield from in_turn(strangers_fifth.MISTAKES, list(strangers_fifth.SCHEMES))
 
 
+def of_thirteenth_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The thirteenth list in all integrators."""
+    schemes = (*strangers_schemes.SCHEMES, *strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
+    yield from in_turn(strangers_thirteenth.MISTAKES, list(schemes))
+
+
 def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
     """The mistakes that runs show and that lie outside the law's step, each in the next integrator."""
     source = SOURCE.read_text()
@@ -196,6 +202,13 @@ def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple
             yield mistake, scheme
 
 
+#: Lists whose mistakes are planted in backends with another integrator.
+OF_SCHEMES = {
+    "scheme": of_schemes,
+    "fourth scheme": of_fourth_schemes,
+    "fifth scheme": of_fifth_schemes,
+    "thirteenth scheme": of_thirteenth_schemes,
+}
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
 IN_PYTHON = (
@@ -289,7 +302,7 @@ def main() -> None:
         (m, None) for k, v in LISTS.items() if given.list in (None, k) for m in v
     ]
     if given.profile == "scheme":
-        asked = list({"fourth": of_fourth_schemes, "fifth": of_fifth_schemes}.get(given.list, of_schemes)())
+        asked = list(OF_SCHEMES.get(f"{given.list} scheme", of_schemes)())
     found = []
     for mistake, scheme in asked:
         if given.only in mistake.says:

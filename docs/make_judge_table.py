@@ -16,6 +16,7 @@ NAMES = {
     "twelfth": "twelfth list", "thirteenth": "thirteenth list",
     "scheme": "mistakes in other integrators", "fourth scheme": "fourth list, in further integrators",
     "fifth scheme": "fifth list, in further integrators",
+    "thirteenth scheme": "thirteenth list, in all of them",
     "variants": "correct variants", "zoo": "zoo",
 }  # fmt: skip
 

@@ -296,9 +296,14 @@ def asked_for(vector: Vector, out: dict[str, Any], profile: str = "float64") -> 
 
 
 def stand_ins(vector: Vector, out: dict[str, Any], profile: str) -> list[Check]:
-    """Return what stands in for results that are shown, where it is outside: what happens after them."""
+    """Return what stands in for results that are shown, where it is outside: what happens after them.
+
+    Forces that are shown and right are summed wrongly (A1), where the block is moved wrongly by them, or their moments
+    are (A2), where it is turned.
+    """
     left = vector.expect.keys() - set(asked_for(vector, out, profile))
-    return [c for c in (compare_one(name, vector, out, profile) for name in vector.expect if name in left) if c.failed]
+    found = [c for c in (compare_one(name, vector, out, profile) for name in vector.expect if name in left) if c.failed]
+    return [replace(c, rule="A2" if c.name.startswith("Lambda") else "A1") for c in found]
 
 
 def no_answer(vector: Vector, note: str) -> list[Check]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from rockref.conformance import vectors
 from rockref.conformance.backends import call, richardson
+from rockref.conformance.judge.causes.data_flow import with_consequences_marked
 from rockref.conformance.judge.causes.steps_of_a_run import step_is_wrong
 from rockref.conformance.judge.claims import ClaimCheck, judge_claims
 from rockref.conformance.judge.compare_answer import (
@@ -132,10 +133,12 @@ def judge(
         report = None if progress is None else (lambda share, layer=layer: progress(layer, share))
         _layer(backend, findings, layer, report, examples)
     findings.checks = of_the_right_shape(findings.checks)
-    if profile == "float64":
+    if profile == "float64" and not findings.failures:
         # Where nothing is wrong yet, the rows after the forces are looked at, too.
-        late = [] if findings.failures else [c for v, out in findings.answers for c in stand_ins(v, out, profile)]
-        findings.checks += late
+        findings.checks += [c for v, out in findings.answers for c in stand_ins(v, out, profile)]
+    if profile != "float32":
+        findings.checks = with_consequences_marked(findings.checks, findings.answers)
+    if profile == "float64":
         findings.checks += left_behind(backend, findings)
         findings.step_is_wrong = wrong_in_a_run(backend, findings)
     findings.remarks += getattr(backend, "remarks", [])

@@ -31,9 +31,9 @@ SMALL = ("L0", "L1", "L2", "L3", "L7")
 SHORT = ("L5s", "LS")
 #: Of another integrator `rotate` shows the exponential, and not what is multiplied with it, and on which side.
 NOT_BY_PIECES = {"I3"}
-#: Places in L5s behind the runs that show moments of normal forces alone, behind the first that shows friction, and
-#: behind those that show moments of friction.
-AFTER_PUSHING, AFTER_DRAGGING, AFTER_TURNING = 35.9, 45.6, 64.55
+#: Places in L5s behind the runs that show moments of normal forces alone, behind those that show a second step of
+#: normal forces, behind the first that shows friction, and behind those that show moments of friction.
+AFTER_PUSHING, AFTER_STEPPING, AFTER_DRAGGING, AFTER_TURNING = 35.9, 42.45, 45.6, 64.55
 
 
 @dataclass
@@ -123,12 +123,14 @@ def places() -> dict[str, float]:
 @lru_cache
 def stand_ins() -> dict[tuple[str, str], float]:
     """Return from where on what stands in for forces is judged, by vector and result: a moment turns the block, too,
-    whatever the normal force is, and moves it where friction holds the feet."""
+    whatever the normal force is, and moves it where friction holds the feet; a second step shows the first, too."""
     found: dict[tuple[str, str], float] = {}
     for v in layer("L5s"):
         for name, e in v.expect.items():
             if e.instead_of.startswith("F_T"):
                 found[v.id, name] = AFTER_TURNING if name.startswith("Lambda") else AFTER_DRAGGING
+            elif e.instead_of == "F_N@1" and e.rule != "S1":
+                found[v.id, name] = AFTER_STEPPING
             elif e.instead_of and name.startswith("Lambda"):
                 found[v.id, name] = AFTER_PUSHING
     return found

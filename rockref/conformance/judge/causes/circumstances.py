@@ -29,6 +29,7 @@ Answers = Sequence[tuple[Vector, dict[str, Any]]]
 #: believed.
 CIRCUMSTANCES: Circumstances = (
     ("T5", "feet touch anew", lambda f: f["new"]),
+    ("T5", "feet touch anew beside others that are tied", lambda f: f["beside"]),
     ("T5", "stretched feet stand beside one that touches anew", lambda f: f["spring"] & f["company"]),
     ("T5", "anchors are those of the step before", lambda f: f["later"] & ~f["new"] & f["spring"]),
     ("T1", "dampers of friction work", lambda f: f["damper"]),
@@ -65,6 +66,9 @@ ALONE = {"I4": "turned", "I5": "displaced"}
 MOST, SOME = 0.9, 3
 VELOCITY = "Dampers of friction are right where {} alone: the sliding velocity is wrong."
 RATE = "Normal dampers are right where {} alone: the rate of penetration is wrong."
+UNDAMPED = "Feet at rest are right, and feet that move are wrong, where no damper works: the velocity is wrong."
+#: Parts of the velocity of a foot.
+PARTS = ("drift", "spin", "fall", "tilt")
 #: The two parts of a velocity, along the plate and across it: that which is asked, the other, and the other in words.
 ALONG: Parts = (("drift", "spin", "the block turns"), ("spin", "drift", "the block drifts"))
 ACROSS: Parts = (("fall", "tilt", "the block turns"), ("tilt", "fall", "the block falls"))
@@ -85,6 +89,8 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
         return rule, ""
     if rule == "T1" and (words := right_alone(wrong, right, sticking_damper, ALONG)):
         return "K1", VELOCITY.format(words)
+    if rule == "T1" and undamped(wrong, right, slides_or_is_damped):
+        return "K1", UNDAMPED
     scores = [agreement(meets, wrong, right) for _, _, meets in CIRCUMSTANCES]
     own = max((s for s, (r, _, _) in zip(scores, CIRCUMSTANCES, strict=True) if r == rule),
               default=agreement(always, wrong, right))  # fmt: skip
@@ -120,8 +126,12 @@ def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[st
 
     Where those of open feet are wrong, and of feet that touch: K1; S1 where none of them is in a first row.
     """
-    if rule == "N1" and (words := right_alone(*parted(by_run(answers, pushes(check))), normal_damper, ACROSS)):
-        return "K1", RATE.format(words)
+    if rule == "N1":
+        seen = parted(by_run(answers, pushes(check)))
+        if words := right_alone(*seen, normal_damper, ACROSS):
+            return "K1", RATE.format(words)
+        if undamped(*seen, normal_damper):
+            return "K1", UNDAMPED
     if not check.name.startswith("F_"):
         return rule, ""
     of_runs = by_run(answers, normal)
@@ -138,6 +148,24 @@ def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[st
     return best[0], NORMAL.format(best[1])
 
 
+def undamped(wrong: Sequence[Feet], right: Sequence[Feet], works: Circumstance) -> bool:
+    """Return whether touching feet that move show a wrong force where none of their dampers works, and feet at rest do
+    not: a velocity that should be zero is not.
+
+    works : feet whose damper is asked
+    """
+
+    def moves(f: Feet) -> np.ndarray:
+        return np.any([f[part] for part in PARTS], axis=0)
+
+    def stands(f: Feet) -> np.ndarray:
+        return f["touching"] & np.all([f[f"no {part}"] for part in PARTS], axis=0)
+
+    idle = sum(bool(np.all(moves(f) & ~works(f) & f["touching"])) for f in wrong)
+    resting = [sum(bool(np.all(stands(f))) for f in of) for of in (wrong, right)]
+    return idle > 1 and not resting[0] and resting[1] >= SOME
+
+
 def pushes(check: Check) -> Callable[..., Any]:
     """Return what is looked at of a row to see its normal forces: themselves, or what stands in for them."""
     return normal if check.name.startswith("F_N@") else friction
@@ -146,6 +174,11 @@ def pushes(check: Check) -> Callable[..., Any]:
 def sticking_damper(f: Feet) -> np.ndarray:
     """Return which feet stick, with a damper of friction that works."""
     return f["damper"] & ~f["slides"]
+
+
+def slides_or_is_damped(f: Feet) -> np.ndarray:
+    """Return which feet slide, or have a damper of friction that works."""
+    return f["damper"] | f["slides"]
 
 
 def normal_damper(f: Feet) -> np.ndarray:

@@ -1,8 +1,9 @@
-"""Whether a fall that is wrong speaks of the place (I1), of the acceleration (A1), or of the start (S2).
+"""Whether a fall that is wrong speaks of the place (I1), the velocity (I4), the acceleration (A1), or the start (S2).
 
 A wrong place loses the same in each step: what it is off by grows as the number of steps. A wrong acceleration changes
 the velocity, too: what the place is off by grows as their square. A first evaluation that is wrong loses the same in
-each step as well, but not where the start brings its own acceleration.
+each step as well, but not where the start brings its own acceleration. A wrong velocity is seen a step later than a
+wrong acceleration. A wrong clock makes turns wrong, too.
 """
 
 from __future__ import annotations
@@ -17,21 +18,53 @@ from rockref.conformance.vectors import Vector
 
 #: How far a ratio of two differences may be from that of a rule. Decided: far above rounding, far below the next one.
 NEAR = 0.05
+#: So many runs have to be right for what they show to be right. Decided.
+SOME = 3
 AS_THE_STEPS = "What the place is off by grows as the number of steps: the velocity is right."
 AT_THE_START = "Where the start brings its own acceleration, the fall is right: the first evaluation is wrong."
 
+A_STEP_LATE = "The first step of every fall is right, and the second of some is not: the velocity is wrong."
+ON_TIME = "Turns are right at the same instants: the place is wrong, and not the clock."
 
-def rule_of_a_fall(answers: Sequence[tuple[Vector, dict[str, Any]]], rule: str) -> tuple[str, str]:
-    """Return I1 or S2, and a sentence, where runs above the plate that A1 is blamed for lose the same way in every
-    step."""
+Answers = Sequence[tuple[Vector, dict[str, Any]]]
+
+
+def rule_of_a_fall(answers: Answers, rule: str) -> tuple[str, str]:
+    """Return I1, I4 or S2, and a sentence, where runs above the plate tell it from the rule that is blamed for them.
+
+    I1 or S2 where they lose the same way in every step; I4 where nothing is lost in the first one.
+    """
+    if rule == "S2":
+        return ("I1", ON_TIME) if on_time(answers) else (rule, "")
     if rule != "A1":
         return rule, ""
+    if a_step_late(answers):
+        return "I4", A_STEP_LATE
     runs = [(v, out) for v, out in answers if v.layer == "L5s" and free(v)]
     ratios = [g for v, out in runs for g in growth(v, out)]
     if len(ratios) < 2 or any(abs(g - 2) >= NEAR for g in ratios):
         return rule, ""
     own = [same(out, "x", 1, rows_of_the_law(v.id)[1].x) for v, out in runs if lifted(v)]
     return ("S2", AT_THE_START) if own and all(own) else ("I1", AS_THE_STEPS)
+
+
+def on_time(answers: Answers) -> bool:
+    """Return whether in runs of one step above the plate all places are wrong of what moves, and no turn is."""
+    runs = [(v, out, rows_of_the_law(v.id)[1]) for v, out in answers if v.layer == "L5s" and free(v)]
+    turned = [same(out, "Lambda", 1, row.Lambda) for v, out, row in runs if np.any(v.inputs["W"])]
+    moved = [same(out, "x", 1, row.x) for v, out, row in runs if np.any(v.inputs["v"]) and not np.any(v.inputs["W"])]
+    return len(turned) >= SOME and all(turned) and len(moved) >= SOME and not any(moved)
+
+
+def a_step_late(answers: Answers) -> bool:
+    """Return whether all runs above the plate that evaluate their start are right after a step, and some are wrong
+    after two."""
+    runs = [
+        (rows_of_the_law(v.id), out) for v, out in answers if v.layer == "L5s" and free(v) and v.inputs.get("a") is None
+    ]
+    first = [same(out, "x", 1, rows[1].x) for rows, out in runs]
+    second = [same(out, "x", 2, rows[2].x) for rows, out in runs if len(rows) > 2]
+    return len(first) >= SOME and all(first) and not all(second)
 
 
 def free(vector: Vector) -> bool:

@@ -50,7 +50,10 @@ def rule_of_friction(
         rule, words = rule_of_one_foot(vector.inputs, out, check)
         if words:
             return rule, words
-        other = check.name == "sliding" and check.got is False and shows_another_trial(vector.inputs, out)
+        held = check.name == "sliding" and check.got is False
+        # Where the sliding force is right, the foot slides, and the flag alone is wrong.
+        right = any(c.vector == check.vector and c.name == "F_T" and c.grade in ("bitwise", "inside") for c in checks)
+        other = held and not right and shows_another_trial(vector.inputs, out)
         return ("T1", OTHER_TRIAL) if other else (check.rule, "")
     if vector.piece != "simulate":
         return check.rule, ""

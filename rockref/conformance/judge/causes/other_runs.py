@@ -8,6 +8,7 @@ from typing import Any
 from rockref.conformance.judge.causes.circumstances import rule_in_common, rule_of_normal_forces
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
 from rockref.conformance.judge.causes.friction import DAMPER, moves_alone, rule_of_friction
+from rockref.conformance.judge.causes.turns import rule_of_a_turn
 from rockref.conformance.judge.compare_answer import Check
 from rockref.conformance.vectors import Vector
 
@@ -20,7 +21,7 @@ def cause_of(
     """Return the rule that a failure speaks of, and a sentence where that is another than its own.
 
     Its own numbers are asked first, then the normal forces of its row, then what all runs have in common that are
-    wrong, then how a fall goes on.
+    wrong, then how a fall or a turn goes on.
     """
     rule, words = rule_of_friction(answers, checks, check)
     if (words and words != DAMPER) or profile != "float64" or check.layer != "L5s":
@@ -31,4 +32,6 @@ def cause_of(
         other, says = ask(answers, check, rule)
         if says:
             return other, says
-    return (rule, words) if words else rule_of_a_fall(answers, rule)
+    if words or check.note:
+        return rule, words
+    return rule_of_a_turn(answers, rule) if rule == "I3" else rule_of_a_fall(answers, rule)

@@ -89,6 +89,7 @@ def what_feet_do(problem: Any, r: Any, i: int, before: Any, v: np.ndarray, W: np
     slid, new = np.asarray(before.sliding, bool), ~np.asarray(before.anchored, bool)
     found = {
         "touching": touching, "new": touching & new, "company": touching & ~new & np.any(new & touching),
+        "beside": touching & new & ~np.all(new),
         "spring": spring > SHARE * size, "damper": damper > SHARE * size, "slides": r.sliding[i], "slid": slid & ~new,
         "moved": slid & ~new & (i > 0), "between": (p.mu * F_N < size) & (size <= p.mu_0 * F_N),
         "later": np.full(len(F_N), i > 0), "push": np.abs(p.C_N * k.xi_rate) > SHARE * np.abs(p.K_N * k.xi),

@@ -95,6 +95,20 @@ def test_normal_dampers_that_are_right_where_the_block_turns_alone_speak_of_the_
         assert rule_of_normal_forces(answers, check, "N1")[0] == rule
 
 
+@pytest.mark.parametrize(("component", "told_rule", "name"), [(0, "T1", "F_T@0"), (2, "N1", "F_N@0")])
+def test_feet_that_move_and_are_wrong_where_no_damper_works_speak_of_the_velocity(right, component, told_rule, name):
+    idle = "damper" if component == 0 else "push"
+
+    def moves(f):
+        return f["touching"] & ~f["slides"] & (f["drift"] | f["spin"] | f["fall"] | f["tilt"])
+
+    for meets, rule in ((moves, "K1"), (lambda f: f["touching"] & f[idle], told_rule)):
+        answers, told = changed_where(right, meets, component)
+        check = Check(told[0], "L5s", told_rule, name, "outside", float("inf"))
+        ask_ = rule_in_common if component == 0 else rule_of_normal_forces
+        assert ask_(answers, check, told_rule)[0] == rule
+
+
 def test_friction_of_feet_whose_normal_force_is_wrong_speaks_of_that(right):
     answers, told = changed_where(right, lambda f: f["touching"] & f["push"] & f["slid"], 2)
     check = Check(told[-1], "L5s", "T5", "F_T@1", "outside", float("inf"))
@@ -130,6 +144,18 @@ def test_a_fall_that_loses_the_same_way_in_each_step_is_wrong_in_its_place(right
     off = [(v, out | {"x": out["x"] + 1e-6 * np.arange(len(out["x"]))[:, None] ** power}) for v, out in right]
     assert rule_of_a_fall(off, "A1")[0] == rule
     assert rule_of_a_fall(off, "K1") == ("K1", "")
+
+
+def test_a_fall_that_is_right_after_a_step_and_wrong_after_two_is_wrong_in_its_velocity(right):
+    late = [(v, out | {"x": out["x"] + 1e-6 * (np.arange(len(out["x"])) > 1)[:, None]}) for v, out in right]
+    assert rule_of_a_fall(late, "A1")[0] == "I4"
+
+
+def test_places_that_are_wrong_where_turns_are_right_are_no_matter_of_the_clock(right):
+    off = [(v, out | {"x": out["x"] + 1e-6 * (np.arange(len(out["x"])) > 0)[:, None]}) for v, out in right]
+    assert rule_of_a_fall(off, "S2")[0] == "I1"
+    slow = [(v, out | {"Lambda": out["Lambda"] + 1e-6 * bool(np.any(v.inputs["W"]))}) for v, out in off]
+    assert rule_of_a_fall(slow, "S2") == ("S2", "")
 
 
 class Slips(RulesBackend):

@@ -1,0 +1,53 @@
+"""Whether a turn that is wrong speaks of the exponential (I3) or of the increment (I2)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance.judge.causes.falls import SOME, free
+from rockref.conformance.judge.causes.rows_of_the_law import SAME, rows_of_the_law, same
+from rockref.conformance.judge.causes.slips import rotation_vector
+from rockref.conformance.vectors import Vector
+
+#: How far two directions may be apart to be one [rad]. Decided: far above rounding, far below the next axis.
+ALONG = 1e-3
+ALONG_A = "What the turns are off by points along the angular acceleration, and where that is zero they are right."
+
+
+def rule_of_a_turn(answers: Sequence[tuple[Vector, dict[str, Any]]], rule: str) -> tuple[str, str]:
+    """Return I2, and a sentence, where runs above the plate that I3 is blamed for are off by a share of the angular
+    acceleration."""
+    if rule != "I3":
+        return rule, ""
+    steady, along = [], []
+    for vector, out in answers:
+        if vector.layer != "L5s" or not free(vector) or not np.any(vector.inputs["W"]):
+            continue
+        row, A = rows_of_the_law(vector.id)[1], angular_acceleration(vector.inputs)
+        right = same(out, "Lambda", 1, row.Lambda)
+        if np.any(A) and not right:
+            along.append(is_along(vector.inputs["Lambda"], out, row.Lambda, A))
+        elif not np.any(A):
+            steady.append(right)
+    sure = len(steady) >= SOME and all(steady) and len(along) > 1 and all(along)
+    return ("I2", ALONG_A) if sure else (rule, "")
+
+
+def angular_acceleration(q: dict[str, Any]) -> np.ndarray:
+    """Return the angular acceleration (3,) [rad/s2] of a start above the plate, in body axes (I2)."""
+    J, W = q["inertia"], np.asarray(q["W"])
+    T = np.zeros(3) if q.get("T") is None else np.asarray(q["T"])
+    return np.linalg.solve(J, T - np.cross(W, J @ W))
+
+
+def is_along(start: np.ndarray, out: dict[str, Any], right: np.ndarray, A: np.ndarray) -> bool:
+    """Return whether the turn of a step from an attitude is off by a multiple of A (3,), as far as digits show."""
+    pose = np.asarray(out["Lambda"], float)[1]
+    if not np.all(np.isfinite(pose)) or np.max(np.abs(pose.T @ pose - np.eye(3))) > SAME:
+        return False
+    apart = rotation_vector(start.T @ pose) - rotation_vector(start.T @ right)
+    across = np.linalg.norm(np.cross(apart, A)) / np.linalg.norm(A)
+    return bool(across <= ALONG * np.linalg.norm(apart) + SAME)
