@@ -89,7 +89,7 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
         return rule, ""
     if rule == "T1" and (words := right_alone(wrong, right, sticking_damper, ALONG)):
         return "K1", VELOCITY.format(words)
-    if rule == "T1" and undamped(wrong, right, slides_or_is_damped):
+    if rule == "T1" and undamped(wrong, right, has_friction):
         return "K1", UNDAMPED
     scores = [agreement(meets, wrong, right) for _, _, meets in CIRCUMSTANCES]
     own = max((s for s, (r, _, _) in zip(scores, CIRCUMSTANCES, strict=True) if r == rule),
@@ -176,9 +176,9 @@ def sticking_damper(f: Feet) -> np.ndarray:
     return f["damper"] & ~f["slides"]
 
 
-def slides_or_is_damped(f: Feet) -> np.ndarray:
-    """Return which feet slide, or have a damper of friction that works."""
-    return f["damper"] | f["slides"]
+def has_friction(f: Feet) -> np.ndarray:
+    """Return which feet slide, or have a spring or a damper of friction that works."""
+    return f["spring"] | f["damper"] | f["slides"]
 
 
 def normal_damper(f: Feet) -> np.ndarray:
