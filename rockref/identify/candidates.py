@@ -17,8 +17,9 @@ from rockref.identify.models import model_of
 from rockref.identify.target import Target
 from rockref.measure.gyroscope import record
 from rockref.model.errors import InputError
-from rockref.model.problem import Block, ContactPoints, Problem, stack
-from rockref.model.simulate import output_steps
+from rockref.model.problem import Block, ContactPoints, Problem, State, stack
+from rockref.model.release import release_postures
+from rockref.model.simulate import output_steps, whole_part
 from rockref.model.simulate import simulate as law
 
 #: The source's step [s], and an output rate at which the gyroscope's low-pass is exact enough [Hz].
@@ -56,31 +57,47 @@ def _by_the_law(problems: Sequence[Problem]) -> np.ndarray:
     return law(stack(list(problems)), keep_going=True).W
 
 
-def problem_for(
-    model: Model,
-    target: Target,
-    tilt: float,
-    step: float = STEP,
-    start: dict | None = None,
-    body: tuple[Block, ContactPoints] | None = None,
-) -> Problem:
-    """Return the release of `model` at `tilt` [rad] as the target's was, long enough to be compared with it.
-
-    body : what `model.body()` returns, where it is known already.
-    """
-    how = {"turned": target.turned, "theta_0": tilt, "body": body, **(start or {})}
-    return model.problem(target.duration, step, OUTPUT_RATE, **how)
-
-
 class Releases(NamedTuple):
     """Models to be released as the run of a target was: at tilts [rad], each with what its release needs beside, and
-    its body where that is known."""
+    its body (None where that is refused); duration [s] of each run, long enough to be compared with the target."""
 
     target: Target
     models: Sequence[Model]
     tilts: Sequence[float]
     starts: Sequence[dict]
     bodies: Sequence[tuple[Block, ContactPoints] | None]
+    duration: float
+
+    def problems(self, step: float) -> dict[int, Problem]:
+        """Return the runs by their index; none of a model that cannot be released."""
+        known = {i: body for i, body in enumerate(self.bodies) if body is not None}
+        rolls = [self.starts[i].get("out_of_plane", 0.0) for i in known]
+        turned = [self.target.turned] * len(known)
+        postures = _postures(list(known.values()), [self.tilts[i] for i in known], turned, rolls)
+        return {
+            i: self.models[i].problem(self.duration, step, OUTPUT_RATE, body=known[i], posture=posture)
+            for i, posture in zip(known, postures, strict=True)
+            if posture is not None
+        }
+
+
+def _postures(
+    bodies: Sequence[tuple[Block, ContactPoints]],
+    tilts: Sequence[float],
+    turned: Sequence[bool],
+    rolls: Sequence[float],
+) -> list[State | None]:
+    """Return the release posture of each body, None where that is refused: of halves, where one of a batch is."""
+    if not bodies:
+        return []
+    try:
+        return list(release_postures(bodies, tilts, turned, rolls))
+    except InputError:
+        if len(bodies) == 1:
+            return [None]
+    half = len(bodies) // 2
+    first = _postures(bodies[:half], tilts[:half], turned[:half], rolls[:half])
+    return first + _postures(bodies[half:], tilts[half:], turned[half:], rolls[half:])
 
 
 def records(
@@ -91,28 +108,36 @@ def records(
     All runs are one batch. A model that cannot be released (tilt beyond its tipping angle) or loses its numbers has
     NaN.
     """
-    problems: dict[tuple[int, int], Problem] = {}
-    for k, (target, *each) in enumerate(asked):
-        for i, (model, tilt, start, body) in enumerate(zip(*each, strict=True)):
-            try:
-                problems[k, i] = problem_for(model, target, tilt, step, start, body)
-            except InputError:
-                continue
-    whole = rates(list(problems.values()), workers) if problems else np.zeros((0, 0, 3))
+    problems = [each.problems(step) for each in asked]
+    whole = rates([p for own in problems for p in own.values()], workers) if any(problems) else np.zeros((0, 0, 3))
+    edges = np.cumsum([0, *map(len, problems)])
     made = []
-    for k, (target, models, *_) in enumerate(asked):
-        at = [n for n, (of, _) in enumerate(problems) if of == k]
-        if not at:
+    for (target, models, *_, duration), own, first, last in zip(asked, problems, edges[:-1], edges[1:], strict=True):
+        if not own:
             made.append((target.t, np.full((len(models), len(target.t), 3), np.nan)))
             continue
-        own = [i for of, i in problems if of == k]
-        found = whole[at, : len(output_steps(problems[k, own[0]]))]
-        times, seen = record(np.arange(found.shape[1]) / OUTPUT_RATE, np.nan_to_num(found), target.gyro)
-        seen[~np.isfinite(found[:, -1]).all(axis=-1)] = np.nan
+        found = whole[first:last, : _rows(duration)]
+        lost = np.logical_not(np.all(np.isfinite(found[:, -1]), axis=-1))
+        found = _continued(np.where(lost[:, np.newaxis, np.newaxis], 0.0, found), _rows(target.duration))
+        times, seen = record(np.arange(found.shape[1]) / OUTPUT_RATE, found, target.gyro)
+        seen[lost] = np.nan
         crv = np.full((len(models), *seen.shape[1:]), np.nan)
-        crv[own] = seen
+        crv[list(own)] = seen
         made.append((times, crv))
     return made
+
+
+def _rows(duration: float) -> int:
+    return whole_part(duration * OUTPUT_RATE) + 1
+
+
+def _continued(W: np.ndarray, rows: int) -> np.ndarray:
+    """Return rates (B, T, 3) of at least so many rows, shorter ones continued at their last rates.
+
+    The step of the low-pass is a mean over all rows, which rounds otherwise for another number of them: so no bit of a
+    record hangs on how far beyond it a run was simulated.
+    """
+    return np.pad(W, ((0, 0), (0, max(0, rows - W.shape[1])), (0, 0)), "edge")
 
 
 def evaluate(
@@ -144,14 +169,17 @@ def releases(
     chromosomes: Sequence[Sequence[np.ndarray]],
     step: float = STEP,
     workers: int | None = 1,
+    durations: Sequence[float] | None = None,
 ) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return `records` of the chromosomes (B, G) of each target, released as it was.
 
-    The gene theta_0 says how far the stated tilt is off, the same for every target.
+    The gene theta_0 says how far the stated tilt is off, the same for every target.  durations : (R,) [s] of the runs
+    of each target; by default as long as the cost looks.
     """
     asked, tilt_gene = [], space.names.index("theta_0")
     bodies: dict[bytes, tuple[Block, ContactPoints] | None] = {}
-    for target, own in zip(targets, chromosomes, strict=True):
+    ends = [t.duration for t in targets] if durations is None else durations
+    for target, own, end in zip(targets, chromosomes, ends, strict=True):
         models = [model_of(space, u) for u in own]
         tilts = [target.tilt + (m.parameters.theta_0 - space.model.parameters.theta_0) for m in models]
         keys = [np.delete(u, tilt_gene).tobytes() for u in own]
@@ -159,7 +187,7 @@ def releases(
             if key not in bodies:
                 bodies[key] = _body(model)
         starts = [start_of(space, u) for u in own]
-        asked.append(Releases(target, models, tilts, starts, [bodies[key] for key in keys]))
+        asked.append(Releases(target, models, tilts, starts, [bodies[key] for key in keys], end))
     return records(asked, step, workers)
 
 

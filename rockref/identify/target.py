@@ -46,6 +46,12 @@ class Target:
         (decided)."""
         return 1.06 * self.until + 0.02
 
+    @property
+    def residual_duration(self) -> float:
+        """Return how long a simulation must be for the residual up to `until` [s]: a sample of the gyroscope further,
+        and 20 ms (decided: a spline carries a quarter from one output to the one before, nothing over forty)."""
+        return self.until + 1 / self.gyro.sample_rate + 0.02
+
 
 def target(name: str, t: np.ndarray, crv: np.ndarray, gyro: Gyro, tilt: float, turned: bool = False) -> Target:
     """Return a target from a record t (N,) [s], crv (N, 3) [rad/s].

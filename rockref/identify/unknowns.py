@@ -80,7 +80,7 @@ def residuals(
     unknowns, columns = Unknowns(space, targets), []
     every = [np.array([unknowns.chromosome(z, k) for z in zs]) for k in range(len(targets))]
     distinct, which = zip(*(np.unique(u, axis=0, return_inverse=True) for u in every), strict=True)
-    runs = releases(space, targets, [list(u) for u in distinct], step, workers)
+    runs = releases(space, targets, [list(u) for u in distinct], step, workers, [t.residual_duration for t in targets])
     for target, (t, crv), rows in zip(targets, runs, which, strict=True):
         n = int(np.searchsorted(target.t, target.until))
         seen = np.stack([[np.interp(target.t[:n], t, run[:, j]) for j in range(3)] for run in crv])

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable
+from functools import lru_cache
 
 import numpy as np
 
@@ -39,6 +40,7 @@ def low_pass(crv: np.ndarray, step: float, bandwidth: float, damping: float = DA
     return lfilter(numerator, denominator, crv, axis=-2, zi=settled[:, np.newaxis] * crv[..., :1, :])[0]
 
 
+@lru_cache(maxsize=64)
 def _held_first_order(omega: float, damping: float, step: float) -> tuple[np.ndarray, np.ndarray]:
     """Return numerator and denominator (3,) in 1/z of omega^2/(s^2 + 2 damping omega s + omega^2) at `step` s.
 

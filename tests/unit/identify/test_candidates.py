@@ -24,5 +24,5 @@ def test_without_the_compiled_engine_the_law_itself_is_asked(table_3_1, monkeypa
 def test_where_no_model_can_be_released_every_record_is_nothing(table_3_1, twin):
     tipped = [0.2, 0.3]
     assert max(np.arctan2(table_3_1.width, table_3_1.height), 0.0) < min(tipped)
-    [(t, crv)] = records([Releases(twin, [table_3_1] * 2, tipped, [{}] * 2, [None] * 2)])
+    [(t, crv)] = records([Releases(twin, [table_3_1] * 2, tipped, [{}] * 2, [table_3_1.body()] * 2, 0.1)])
     assert crv.shape == (2, len(t), 3) and np.isnan(crv).all()

@@ -71,7 +71,8 @@ def test_the_cost_is_the_chromosome_s_own(twin, table_3_1):
 
 
 def test_a_block_that_cannot_be_released_is_only_a_bad_one(twin, table_3_1):
-    [(t, crv)] = records([Releases(twin, [table_3_1, table_3_1], [0.117, 0.2], [{}, {}], [None, None])])
-    assert np.isfinite(crv[0]).all() and np.isnan(crv[1]).all()
+    bodies = [table_3_1.body(), table_3_1.body(), None]
+    [(t, crv)] = records([Releases(twin, [table_3_1] * 3, [0.117, 0.2, 0.117], [{}] * 3, bodies, twin.duration)])
+    assert np.isfinite(crv[0]).all() and np.isnan(crv[1:]).all()
     space = space_12(table_3_1, 0.117)
     assert np.isfinite(feature_costs(space, [twin], np.full((1, 12), 0.5)))

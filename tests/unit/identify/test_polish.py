@@ -12,7 +12,7 @@ from rockref.identify.genes import chromosome, space_12
 from rockref.identify.identifiability import identifiability, profile
 from rockref.identify.polish import Effort, polish
 from rockref.identify.runs import run_error
-from rockref.identify.target import seen_until, target
+from rockref.identify.target import Target, seen_until, target
 from rockref.identify.unknowns import Unknowns, residuals, signal_costs
 from rockref.model.parameters import TABLE_3_1
 from tests.unit.identify.analytic import alone
@@ -68,6 +68,16 @@ def test_from_half_a_digit_off_long_moves_lead_out_of_dents(space, truth, noisy_
     # valley, in which heights and diagonal trade off.
     assert off[[space.names.index(n) for n in ("K_N", "K_T", "beta_ext", "mu_ext", "theta_0")]].max() < 0.5
     assert (off / errors).max() < 5, dict(zip(known.names, zip(off, errors, strict=True), strict=True))
+
+
+@pytest.mark.parametrize("sample_rate", [1000.0, 700.0], ids=["outputs", "between outputs"])
+def test_a_simulation_ends_where_the_residual_does(space, truth, twin, sample_rate, monkeypatch):
+    """What is simulated beyond it does not change a bit, by a spline through the outputs either."""
+    seen = replace(twin, gyro=replace(twin.gyro, sample_rate=sample_rate))
+    own = residuals(space, [seen], truth[None])
+    assert seen.residual_duration < seen.duration
+    monkeypatch.setattr(Target, "residual_duration", property(lambda one: one.duration))
+    np.testing.assert_array_equal(own, residuals(space, [seen], truth[None]))
 
 
 def test_the_residual_is_the_noise(end):
