@@ -1,8 +1,9 @@
 """Forward selection with backward elimination over {nothing, each effect, pairs, triples}, one budget for all.
 
 1. Fit the baseline at short memories. Innovations that stay above white contradict it.
-2. If contradicted: try all effects with the law as it is stated. If none explains the runs there: fit the baseline from
-   starts over the whole prior, and look for the law and an effect together; then for one more effect, and the law anew.
+2. If contradicted: try all effects with the law as it is stated, at S1, then at S2 for what S1 smooths away. If none
+   explains the runs there: fit the baseline from starts over the whole prior, and look for the law and an effect
+   together; then for one more effect, and the law anew.
 3. Lengthen the memory. At the longest the score test proposes more effects; those that gain enough join.
 4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
 5. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
@@ -21,7 +22,7 @@ from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.ridges import kicked
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import global_fit, released
-from rockref.discover.selection.halving import WORTH, halving, say, sized_at_release, within
+from rockref.discover.selection.halving import WORTH, halving, proposed, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.together import from_anywhere, from_statement
 from rockref.discover.selection.tone import tone
@@ -53,7 +54,7 @@ FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
 #: Times that they are compared from the law of the best (decided: twice, should the best change).
 EXCHANGES = 2
 #: Steps at the later stages.
-STEPS = {"S3": 3, "F": 4}
+STEPS = {"S2": 3, "S3": 3, "F": 4}
 #: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
 REPLACING = 4
 #: Words for the stages of longer memory.
@@ -176,6 +177,8 @@ class Search:
         progress.begin("effects", f"comparing {self.compared(null)}", null.name)
         added, leader = from_statement(self.fitter, null, self.nominal(), UNEXPLAINED)
         self.add(beam, added)
+        if not self.is_explained(self.best(beam)):
+            self.add(beam, self.sharper(null))
         if self.is_explained(best := self.best(beam)) and self.moved(best) < STAYED:
             return
         progress.begin("starts", "fitting the baseline from other starts", best.name)
@@ -183,10 +186,20 @@ class Search:
         found = global_fit(self.fitter, nominal.effects, nominal.z)
         beam.append(self.settled(found.best))
         self.problem.say(f"the law from anywhere: mean loss {found.best.loss:.2f}")
+        if not self.is_explained(self.best(beam)):
+            self.add(beam, self.sharper(beam[-1]))
         if leader is not None and not self.is_explained(self.best(beam)):
             beam.append(self.anywhere(leader))
         if not self.is_explained(self.best(beam)):
             self.add(beam, from_anywhere(self.fitter, found))
+
+    def sharper(self, h: FittedModel) -> list[FittedModel]:
+        """Return the best additions of one effect to a model at S2, where what S1 smooths away shows."""
+        field = proposed(self.fitter, h.copy(), S2, ADDED)
+        for k in field:
+            self.fitter.refine(k, S2, STEPS["S2"])
+        say(self.fitter, "what S1 smooths", field)
+        return field
 
     def add(self, beam: list[FittedModel], added: Sequence[FittedModel]) -> None:
         """Add hypotheses to a beam, and let the best go on at S2."""
@@ -263,7 +276,8 @@ class Search:
         best = beam[0]
         self.test = score_test(self.fitter, self.fitter.evaluate(best, F), F)
         added = proposals(self.fitter, best, F, ADDED, self.test)
-        for h in added:
+        for h in added:  # it has seen no smoother stage; at the longest memory alone it may stop half way
+            self.fitter.refine(h, S3, STEPS["S3"])
             self.fitter.polish(h, F, 2)
         self.remember(added)
         bar = best.objective * (1 - JOINS)
