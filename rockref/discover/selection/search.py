@@ -53,8 +53,8 @@ EQUALS = 2
 FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
 #: Times that they are compared from the law of the best (decided: twice, should the best change).
 EXCHANGES = 2
-#: Steps at the later stages.
-STEPS = {"S2": 3, "S3": 3, "F": 4}
+#: Steps at the later stages, and those at S2 of what S1 smooths away.
+STEPS, SHARPER = {"S3": 3, "F": 4}, 3
 #: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
 REPLACING = 4
 #: Words for the stages of longer memory.
@@ -197,7 +197,7 @@ class Search:
         """Return the best additions of one effect to a model at S2, where what S1 smooths away shows."""
         field = proposed(self.fitter, h.copy(), S2, ADDED)
         for k in field:
-            self.fitter.refine(k, S2, STEPS["S2"])
+            self.fitter.refine(k, S2, SHARPER)
         say(self.fitter, "what S1 smooths", field)
         return field
 
