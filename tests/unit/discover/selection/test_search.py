@@ -1,0 +1,39 @@
+"""The search asks the stage at which an effect shows."""
+
+import pytest
+
+from rockref import Model
+from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.problem import fit_problem
+from rockref.discover.fit.stages import S1, S2
+from rockref.discover.selection.search import Search
+from rockref.effects import catalogue
+from tests.unit.discover.synthetic import experiment
+
+MODEL = Model.table_3_1()
+#: Bandwidth of the gyroscope [Hz]: its slope is late by 3 ms, which is less than what S1 smooths over.
+BANDWIDTH = 70.0
+
+
+@pytest.fixture(scope="module")
+def search() -> Search:
+    slow = MODEL.replace(effects=(catalogue.find("gyro_bandwidth")(frequency=BANDWIDTH),))
+    made = experiment(slow, [{}, {"tilt": 0.1}], duration=1.2, noisy=True)
+    candidates = ("gyro_bandwidth", "mass_eccentricity", "stribeck_friction", "dimension_deviation")
+    return Search(Fitter(fit_problem(made, made.runs, MODEL, end=1.1, workers=1, candidates=candidates)))
+
+
+def test_what_the_shortest_memory_smooths_away_is_found_at_the_next(search):
+    null = FittedModel((), search.problem.nominal())
+    at = {stage.name: search.fitter.evaluate(null.copy(), stage).loss for stage in (S1, S2)}
+    assert at["S2"] > 2 * at["S1"]  # S1 hardly shows it
+    best, *others = sorted(search.sharper(null), key=lambda h: h.objective)
+    assert best.effects == ("gyro_bandwidth",)
+    assert all(h.objective > 2 * best.objective for h in others)
+    (bandwidth,) = (
+        p.value(z)
+        for p, z in zip(search.fitter.parameters(best), best.z, strict=True)
+        if p.name == "gyro_bandwidth.frequency"
+    )
+    # Fitted as 1/frequency; S2 knows it to a few per cent.
+    assert 1 / bandwidth == pytest.approx(BANDWIDTH, rel=0.05)
