@@ -35,8 +35,8 @@ def _flat(parent: ET.Element) -> Iterator[tuple[str, str, str]]:
             inner = list(_flat(element))
             yield from [(_head("g", attributes), "", ""), *inner, ("</g>", "", "")] if attributes and inner else inner
         elif name == "path" and "id" not in attributes and "transform" not in attributes:
-            d = attributes.pop("d", "")
-            yield _head("path", {"d": "\0", **attributes}, "/"), _path(d), ""
+            if path := _path(attributes.pop("d", "")):  # one of which nothing is in view has none
+                yield _head("path", {"d": "\0", **attributes}, "/"), path, ""
         elif name == "defs":
             yield "<defs>", "", ""
             yield from _flat(element)

@@ -51,3 +51,8 @@ def test_words_keep_their_turn_and_lose_their_font():
 def test_marks_are_found_by_their_names():
     made = of('<defs><path id="m1" d="M -3 3 L 3 3 L 3 -3 z"/></defs><use xlink:href="#m1" x="2.46" y="1"/>')
     assert made == '<defs><path id="m1" d="M-3 3h6v-6z"/></defs><use href="#m1" x="2.5" y="1"/>'
+
+
+def test_a_path_without_data_is_left_out():
+    svg = '<svg xmlns="http://www.w3.org/2000/svg"><path d="" style="fill: none; stroke: #000000"/></svg>'
+    assert shortened(svg) == ""
