@@ -31,7 +31,8 @@ LONGEST = 1.5
 FOLLOWING = 1
 #: Nats that a step must gain for another one to follow (decided: neighbouring valleys differ by more).
 LEAST_GAIN = 3.0
-#: Share of the objective that a step must gain far from the valley (decided).
+#: Share of the objective that a step must gain for another one to follow far from the valley (decided: there steps gain
+#: a half and more, and nats by the thousand say nothing).
 SHARE = 0.02
 #: Mean loss that inflated noise leaves, and the move [prior deviations] below which a tempered fit has arrived
 #: (decided).

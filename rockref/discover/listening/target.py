@@ -22,7 +22,8 @@ TICK_RATE = 2000.0
 NODES = 6
 #: How far a record is looked at beyond the last tick [s]; decided: a low-pass of 10 Hz has forgotten it by then.
 BEYOND = 0.1
-#: How far a run listens beyond its end [s] (decided).
+#: How far a run listens beyond its end [s] (decided: the electronics of a gyroscope of 100 Hz have passed on by then
+#: what happens at the end).
 FARTHER = 0.03
 #: Share of an interval by which instants may be uneven and are taken as they are (decided: 0.03 ms at 1 kHz).
 UNEVEN = 0.03

@@ -53,8 +53,10 @@ EQUALS = 2
 FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
 #: Times that they are compared from the law of the best (decided: twice, should the best change).
 EXCHANGES = 2
-#: Steps at the later stages, and those at S2 of what S1 smooths away.
-STEPS, SHARPER = {"S3": 3, "F": 4}, 3
+#: Steps at the later stages.
+STEPS = {"S3": 3, "F": 4}
+#: Steps at S2 of what S1 smooths away (decided: as many as what comes from S1 takes there).
+SHARPER = 3
 #: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
 REPLACING = 4
 #: Words for the stages of longer memory.
