@@ -6,10 +6,11 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | thirteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | fourteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
-                                fourth` those of `strangers_fourth.py`, with `fifth` or `thirteenth` of theirs)
+                                fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth` or `fourteenth`
+                                of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -32,6 +33,7 @@ import strangers_controls_c
 import strangers_eighth
 import strangers_eleventh
 import strangers_fifth
+import strangers_fourteenth
 import strangers_fourth
 import strangers_list
 import strangers_ninth
@@ -68,8 +70,11 @@ LISTS = {
     "eleventh": strangers_eleventh.MISTAKES,
     "twelfth": strangers_twelfth.MISTAKES,
     "thirteenth": strangers_thirteenth.MISTAKES,
+    "fourteenth": strangers_fourteenth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
+#: Other integrators, as lines of the function that makes a step.
+STEPS = {**strangers_fourth.SCHEMES, **strangers_fifth.SCHEMES, **strangers_fourteenth.SCHEMES}
 
 
 def made(text: str, says: str) -> Any:
@@ -100,7 +105,7 @@ def with_step(scheme: str | None) -> str:
         return text
     if scheme in strangers_schemes.SCHEMES:
         return strangers_schemes.exchanged(text, scheme)
-    return strangers_fourth.exchanged(text, {**strangers_fourth.SCHEMES, **strangers_fifth.SCHEMES}[scheme])
+    return strangers_fourth.exchanged(text, STEPS[scheme])
 
 
 class Runs:
@@ -191,6 +196,12 @@ def of_thirteenth_schemes() -> Iterator[tuple[Mistake, str]]:
     yield from in_turn(strangers_thirteenth.MISTAKES, list(schemes))
 
 
+def of_fourteenth_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The same of the fourteenth list and its integrators."""
+    yield from strangers_fourteenth.OF_STEPS
+    yield from in_turn(strangers_fourteenth.MISTAKES, list(strangers_fourteenth.SCHEMES))
+
+
 def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
     """The mistakes that runs show and that lie outside the law's step, each in the next integrator."""
     source = SOURCE.read_text()
@@ -208,6 +219,7 @@ OF_SCHEMES = {
     "fourth scheme": of_fourth_schemes,
     "fifth scheme": of_fifth_schemes,
     "thirteenth scheme": of_thirteenth_schemes,
+    "fourteenth scheme": of_fourteenth_schemes,
 }
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
@@ -223,9 +235,9 @@ IN_PYTHON = (
     *strangers_eleventh.IN_PYTHON,
     *strangers_twelfth.IN_PYTHON,
     *strangers_thirteenth.IN_PYTHON,
+    *strangers_fourteenth.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
-STEPS = (*strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
 
 
 def variants() -> Iterator[tuple[str, Any, list[str], str]]:
