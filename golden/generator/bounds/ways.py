@@ -120,6 +120,27 @@ static void step(void) {
     started = 1, turned(mean, h, L), evaluate(v, W);
 }
 """
+#: The turn of a step by a quaternion that gains h/2 q W and is normalised: by 2 atan(h |W| / 2) for h |W|.
+QUATERNION = """static void step(void) {
+    real R[3], half;
+    kicked(W, W, W, h), half = h / 2 * sqrt(W[0] * W[0] + W[1] * W[1] + W[2] * W[2]);
+    for (int j = 0; j < 3; j++) v[j] += h * a[j], x[j] += h * v[j], R[j] = W[j] * (half > 0 ? atan(half) / half : 1);
+    turned(R, h, L), evaluate(v, W);
+}
+"""
+#: The turn of a step about one axis of the body after another, there and back, as free tops are split.
+AXIS_BY_AXIS = """static void step(void) {
+    static const int axis[5] = {0, 1, 2, 1, 0};
+    kicked(W, W, W, h / 2);
+    for (int j = 0; j < 3; j++) v[j] += h / 2 * a[j], x[j] += h * v[j];
+    for (int i = 0; i < 5; i++) {
+        real R[3] = {0, 0, 0};
+        R[axis[i]] = W[axis[i]], turned(R, i == 2 ? h : h / 2, L);
+    }
+    evaluate(v, W), kicked(W, W, W, h / 2);
+    for (int j = 0; j < 3; j++) v[j] += h / 2 * a[j];
+}
+"""
 #: An integrator that looks back at the step before forgets it where the next run begins.
 FORGETTING: Changes = (("mass = plain(", "started = 0, mass = plain("),)
 #: Where the step of the tutorial begins and ends.
@@ -131,8 +152,10 @@ SCHEMES: dict[str, str | None] = {
     "midpoint": MIDPOINT,
     "velocities before": None,
 }
-#: Of those of short runs one that looks back a step is a part, too: its first step is a poorer one.
-OF_SHORT_RUNS = (*SCHEMES, "Adams-Bashforth")
+#: Of those of short runs others are a part, too: one that looks back a step, the first of which is a poorer one, and
+#: two that do not turn by the exponential.
+OF_SHORT_RUNS = (*SCHEMES, "Adams-Bashforth", "quaternion", "axis by axis")
+NOT_OF_LONG_RUNS = {"Adams-Bashforth": ADAMS_BASHFORTH, "quaternion": QUATERNION, "axis by axis": AXIS_BY_AXIS}
 #: The law's own step with the forces of the velocities of the step before.
 VELOCITIES_BEFORE: Changes = (("evaluate(v_p, W_p);", "(void)v_p, (void)W_p, evaluate(v, W);"),)
 
@@ -148,7 +171,7 @@ def changed(text: str, changes: Changes) -> str:
 
 def with_scheme(text: str, name: str) -> str:
     """Return the text with the step of another integrator."""
-    step = ADAMS_BASHFORTH if name == "Adams-Bashforth" else SCHEMES[name]
+    step = (SCHEMES | NOT_OF_LONG_RUNS)[name]
     if step is None:
         return changed(text, VELOCITIES_BEFORE)
     if step is ADAMS_BASHFORTH:

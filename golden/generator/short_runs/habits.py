@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from golden.generator.bounds.bars import Case
-from golden.generator.questions.drawing import Draw, diagonal, table_3_1
+from golden.generator.questions.drawing import Draw, diagonal, rotation, table_3_1
 from golden.generator.questions.scenes import EVEN, PER_POINT
 from golden.generator.short_runs.alone import DRIFT, TIP, UNLOADED, fly
 from golden.generator.short_runs.askew import C_T
-from golden.generator.short_runs.basic import GLUE, ICE, IN, UP, Z, ask, held, placed, standing
+from golden.generator.short_runs.basic import GLUE, ICE, IN, UP, WEIGHTLESS, Z, ask, held, placed, standing
 
 #: So slow that engines take a body for one at rest [m/s, rad/s]; the way of a step still has all its digits.
 SLOW = 2.0**-22
@@ -113,8 +113,37 @@ def turned_twice() -> Iterator[tuple[float, Case]]:
     yield 16.9, fly({"Lambda@2": "I3"}, "torque-free top, the second turn", 2, **top)
 
 
+def rising() -> Iterator[tuple[float, Case]]:
+    """Yield T1 of feet that rise while they are dragged: the damper of friction does not ask for the direction."""
+    up: Any = {"v": [0.0625, -0.03125, 2.0**-8], **held(Draw(84).vectors(1e-5, 8, 2))}
+    yield 49.95, ask({"F_T@0": "T1"}, "spring and damper while rising", 1, standing(), made=GLUE, **up)
+
+
+def pulled_back() -> Iterator[tuple[float, Case]]:
+    """Yield T4 of feet that slide for one step, and are pulled back: where the anchor has been left.
+
+    From the static threshold, and from less than half a micrometre beyond the only one.
+    """
+    way = np.array([0.8, 0.6, 0.0])
+    for place, share, mu_0, flag in (
+        (73.2, 3.0, 0.5, "slides for a step from the static threshold"),
+        (73.3, 1.2, 0.25, "slides for a step by less than half a micrometre"),
+    ):
+        made = {"mu": 0.25, "mu_0": mu_0, "C_T": 0.0}
+        yield place, ask({"F_T@1": "T4"}, flag, 2, standing(), made=made, v=0.0625 * way, **held(TIP * share))
+
+
+def loads() -> Iterator[tuple[float, Case]]:
+    """Yield A1 of a block that falls while it turns, I4 of one that the start alone pulls sideways."""
+    turning: Any = {"v": DRIFT, "W": Draw(85).vector(4), "Lambda": rotation((0.3, -0.2, 0.5))}
+    yield 6.6, fly({"x@1": "A1"}, "falling while it turns", **turning)
+    pulled: Any = {"g": WEIGHTLESS, "a": np.array([3.0, -2.0, 1.5]), "T": np.zeros(3), "F": np.zeros((8, 3))}
+    yield 4.35, fly({"x_T@2": "I4"}, "pulled by what the start brings, the second step", 2, v=DRIFT, **pulled)
+
+
 def habits() -> Iterator[Case]:
     """Yield all of them."""
     return placed(
-        slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied, let_go, turned_twice
-    )
+        slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied, let_go, turned_twice,
+        rising, pulled_back, loads,
+    )  # fmt: skip

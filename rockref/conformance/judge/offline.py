@@ -44,7 +44,7 @@ def questions(layers: Iterable[str], profile: str = "float64") -> Iterator[dict[
 def with_smaller_steps() -> Iterator[dict[str, Any]]:
     """Yield the requests of LS with half and a quarter of their step."""
     for v in vectors.layer("LS"):
-        for parts, name in zip(richardson.PARTS[1:], ("half", "quarter"), strict=True):
+        for parts, name in zip(richardson.parts_of(v)[1:], ("half", "quarter"), strict=False):
             problem = richardson.refined(vectors.problem_of(v.inputs), parts)
             yield json_lines.of_problem(f"{v.id}-{name}", "simulate", problem)
 

@@ -9,7 +9,11 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-from rockref.conformance.judge.causes.flags import without_flags_in_company, without_late_flags
+from rockref.conformance.judge.causes.flags import (
+    without_flags_in_company,
+    without_late_flags,
+    without_lost_numbers,
+)
 from rockref.conformance.judge.causes.other_runs import cause_of
 from rockref.conformance.judge.causes.whole_steps import rule_of_a_step
 from rockref.conformance.judge.compare_answer import ELSEWHERE, OTHERWISE, Check
@@ -29,8 +33,9 @@ ANEW = "The answer is that of a start evaluated anew: the a, T and F that the st
 SMALL = ("L0", "L1", "L2", "L3", "L7")
 #: Short runs: those of the law's scheme, and those of other ones.
 SHORT = ("L5s", "LS")
-#: Of another integrator `rotate` shows the exponential, and not what is multiplied with it, and on which side.
-NOT_BY_PIECES = {"I3"}
+#: Of another integrator `rotate` shows the exponential, and not what is multiplied with it, and on which side;
+#: `assemble` shows the force, and not the mass by which it is divided.
+NOT_BY_PIECES = {"I3", "A1"}
 #: Places in L5s behind the runs that show moments of normal forces alone, behind those that show a second step of
 #: normal forces, behind the first that shows friction, and behind those that show moments of friction.
 AFTER_PUSHING, AFTER_STEPPING, AFTER_DRAGGING, AFTER_TURNING = 35.9, 42.45, 45.6, 64.55
@@ -160,7 +165,7 @@ def all_asked(findings: Findings) -> bool:
 def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
     """Return the first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
     checks, pieces = without_late_flags(findings.checks), findings.pieces
-    checks = without_flags_in_company(checks, findings.answers)
+    checks = without_lost_numbers(without_flags_in_company(checks, findings.answers))
     good = {r for r, s in status_of_rules([c for c in checks if c.layer in SMALL]).items() if s in ("pass", "look")}
     if findings.profile == "scheme":
         good -= NOT_BY_PIECES
@@ -224,7 +229,9 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     """Weigh the findings. `backend` is asked once more for its fingerprint, where the pieces do not name the rule."""
     rules = status_of_rules(findings.checks)
     rule, check, says = suspect(findings)
-    if check is not None and rule == check.rule and says in ("", COMPANY):
+    # Of another integrator a run alone shows what its step hands to the pieces.
+    asked = ("", COMPANY, LOOP) if findings.profile == "scheme" else ("", COMPANY)
+    if check is not None and rule == check.rule and says in asked:
         rule, words = cause_of(findings.answers, findings.checks, check, findings.profile)
         says = " ".join(filter(None, (says, words)))
     if check is not None and not check.weighed:

@@ -67,6 +67,7 @@ MOST, SOME = 0.9, 3
 VELOCITY = "Dampers of friction are right where {} alone: the sliding velocity is wrong."
 RATE = "Normal dampers are right where {} alone: the rate of penetration is wrong."
 UNDAMPED = "Feet at rest are right, and feet that move are wrong, where no damper works: the velocity is wrong."
+ANEW = "Feet that touch anew are wrong, and tied ones are right: it is the anchor, and not the trial force."
 #: Parts of the velocity of a foot.
 PARTS = ("drift", "spin", "fall", "tilt")
 #: The two parts of a velocity, along the plate and across it: that which is asked, the other, and the other in words.
@@ -91,6 +92,8 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
         return "K1", VELOCITY.format(words)
     if rule == "T1" and undamped(wrong, right, has_friction):
         return "K1", UNDAMPED
+    if rule == "T1" and anew_alone(wrong, right):
+        return "T5", ANEW
     scores = [agreement(meets, wrong, right) for _, _, meets in CIRCUMSTANCES]
     own = max((s for s, (r, _, _) in zip(scores, CIRCUMSTANCES, strict=True) if r == rule),
               default=agreement(always, wrong, right))  # fmt: skip
@@ -119,6 +122,12 @@ def right_alone(wrong: Sequence[Feet], right: Sequence[Feet], works: Circumstanc
         if guilty and guilty >= MOST * (guilty + innocent) and not blamed and free >= SOME:
             return words
     return ""
+
+
+def anew_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
+    """Return whether a foot touches anew wherever forces are wrong, and springs and dampers of others are right."""
+    tied = [f for f in right if not np.any(f["new"]) and np.any(f["spring"] & f["damper"] & ~f["slides"])]
+    return len(tied) >= SOME and all(bool(np.any(f["new"])) for f in wrong)
 
 
 def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[str, str]:

@@ -1,10 +1,13 @@
-"""Flags of contact that speak of no rule of their own: they follow from forces, or are handed out otherwise."""
+"""Failures that speak of no rule of their own: flags of contact that follow from forces, or are handed out otherwise,
+and rows whose numbers are lost."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 from rockref.conformance.judge.compare_answer import Check
 from rockref.conformance.vectors import Vector
@@ -19,6 +22,14 @@ def without_late_flags(checks: list[Check]) -> list[Check]:
     are handed out late leave the forces as they are."""
     late = [c for c in checks if c.failed and c.layer in ("L5s", "LS") and c.name.startswith("F_N@") and later(c)]
     return [c for c in checks if not (late and c.rule == "S2" and c.name.startswith("anchored@"))]
+
+
+def without_lost_numbers(checks: list[Check]) -> list[Check]:
+    """Return the checks without those of sixteen steps (LS) that are no numbers, where others are wrong numbers: a
+    division by zero on the way may be of any rule, and a wrong number tells more."""
+    lost = [c.failed and c.layer == "LS" and c.weighed and c.got is not None and not np.isfinite(c.got) for c in checks]
+    wrong = any(c.failed and c.layer == "LS" and not is_lost for c, is_lost in zip(checks, lost, strict=True))
+    return [c for c, is_lost in zip(checks, lost, strict=True) if not is_lost] if wrong else checks
 
 
 def later(check: Check) -> bool:

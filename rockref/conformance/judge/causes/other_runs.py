@@ -8,6 +8,8 @@ from typing import Any
 from rockref.conformance.judge.causes.circumstances import rule_in_common, rule_of_normal_forces
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
 from rockref.conformance.judge.causes.friction import DAMPER, moves_alone, rule_of_friction
+from rockref.conformance.judge.causes.moments import rule_of_a_moment
+from rockref.conformance.judge.causes.other_integrators import first_rows, rule_of_sixteen_steps
 from rockref.conformance.judge.causes.turns import rule_of_a_turn
 from rockref.conformance.judge.compare_answer import Check
 from rockref.conformance.vectors import Vector
@@ -23,9 +25,15 @@ def cause_of(
     Its own numbers are asked first, then the normal forces of its row, then what all runs have in common that are
     wrong, then how a fall or a turn goes on.
     """
+    if profile != "float32" and check.rule in ("A2", "A3"):
+        return rule_of_a_moment(answers, checks, check)
+    if profile == "scheme" and check.layer == "LS":
+        return rule_of_sixteen_steps(answers, check) if check.weighed else (check.rule, "")
     rule, words = rule_of_friction(answers, checks, check)
-    if (words and words != DAMPER) or profile != "float64" or check.layer != "L5s":
+    if (words and words != DAMPER) or profile == "float32" or check.layer != "L5s":
         return rule, words
+    if profile == "scheme":
+        answers = first_rows(answers)
     if rule == "N1" and moves_alone(answers, checks, check, "F_N@0"):
         return "A1", PUSHES_ALONE
     for ask in (rule_of_normal_forces, rule_in_common):

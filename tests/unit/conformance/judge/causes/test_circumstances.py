@@ -171,3 +171,14 @@ def test_a_step_that_is_wrong_in_a_run_alone_is_asked_by_itself():
     standing = next(v for v in vectors.layer("L5s") if not np.any(v.inputs["C_N"]) and "S" in "".join(v.branch["rows"]))
     assert step_is_wrong(Slips(), standing) and not step_is_wrong(RulesBackend(), standing)
     assert not any(step_is_wrong(Slips(), v) for v in vectors.layer("L5s")[:3])
+
+
+def test_feet_that_touch_anew_near_their_old_anchors_speak_of_the_anchor(right):
+    """Most new feet are right: no circumstance that is met by all of them agrees."""
+    first = {v.id: rows_of_the_law(v.id)[0].feet for v, _ in right if rows_of_the_law(v.id)}
+    anew = [id_ for id_, feet in first.items() if feet is not None and np.any(feet["touching"] & feet["new"])]
+    near = [(v, out) for v, out in right if v.id in anew[-3:]]
+    wrong, told = changed_where(near, lambda f: f["touching"] & f["new"], 0)
+    answers = [*wrong, *(a for a in right if a[0].id not in {v.id for v, _ in near})]
+    check = Check(told[0], "L5s", "T1", "F_T@0", "outside", float("inf"))
+    assert rule_in_common(answers, check, "T1")[0] == "T5"

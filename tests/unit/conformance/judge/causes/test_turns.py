@@ -45,3 +45,15 @@ def test_an_attitude_that_is_no_rotation_speaks_of_the_exponential():
         (v, out | {"Lambda": out["Lambda"] * (1 + 1e-6)}) for v, out in turned(lambda W, A, h: h * W + h * h / 2 * A)
     ]
     assert rule_of_a_turn(answers, "I3") == ("I3", "")
+
+
+@pytest.mark.parametrize(("second", "rule"), [(1e-9, "A2"), (0.0, "I3")])
+def test_turns_that_are_right_where_the_start_brings_its_moment_speak_of_a_moment_of_no_foot(second, rule):
+    answers = []
+    for v, out in turned(lambda W, A, h: (h - h * h / 20) * W + h * h / 2 * A):
+        if v.inputs.get("T") is not None:
+            out = dict(ask(NumpyEngine(), v))
+            out["Lambda"] = np.array(out["Lambda"])
+            out["Lambda"][2:] += second
+        answers.append((v, out))
+    assert rule_of_a_turn(answers, "I3")[0] == rule

@@ -1,0 +1,141 @@
+"""What a failure of another integrator speaks of beside its own rule.
+
+The forces of the start are the law's, whatever the integrator: what the feet do there tells as much as of the law's own
+scheme. What sixteen steps add up to tells less: where forces are not shown, the block is moved by their sum and turned
+by their moment.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from rockref.conformance.judge.causes.data_flow import law_extrapolated
+from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
+from rockref.conformance.judge.compare_answer import Check
+from rockref.conformance.vectors import Vector
+
+Answers = Sequence[tuple[Vector, dict[str, Any]]]
+#: A share of the way of sixteen steps from which on a place is another one, and how much of that share a turn may be
+#: off by to be right. Decided: integrators differ by a millionth after two extrapolations; a block that is moved
+#: otherwise turns otherwise by a thousandth of it, and a wrong force turns it by a tenth or more.
+SHARE, HARDLY = 1e-5, 1e-2
+#: A share of the rates of a ball by which no integrator changes them. Decided: far above rounding.
+STEADY = 1e-9
+#: How many times as much the place of a drifting block is off after two steps as after one, where its velocity changes
+#: in each step: 3 where it changes before the place, 4 or more where it changes after it; 2 where the place loses the
+#: same in each step. Decided: between these.
+GROWTH = 2.5
+SUMMED = "Springs alone turn the block as they should, and move it otherwise."
+RATE = "Springs alone push as they should; dampers turn the block as they should, and move it otherwise."
+SLOWED = "The rates of a ball that nothing turns change."
+PULLED = "What the place of a drifting block is off by grows faster than the steps: its velocity changes."
+
+
+def first_rows(answers: Answers) -> list[tuple[Vector, dict[str, Any]]]:
+    """Return the answers to short runs of the law's own scheme, the first row of each: no step has been made there."""
+    return [(v, {k: cut(a) for k, a in out.items()}) for v, out in answers if v.layer == "L5s"]
+
+
+def cut(rows: Any) -> Any:
+    """Return the first of some rows; what has none as it is."""
+    try:
+        return rows[:1]
+    except TypeError:
+        return rows
+
+
+def rule_of_sixteen_steps(answers: Answers, check: Check) -> tuple[str, str]:
+    """Return the rule that a failure of LS speaks of, and a sentence where that is another than its own."""
+    if check.rule == "S2" and gains_speed(answers):
+        return "A1", PULLED
+    if check.rule == "I2" and balls_are_slowed(answers):
+        return "I5", SLOWED
+    if check.rule == "N1":
+        return rule_of_pushes(answers)
+    return check.rule, ""
+
+
+def rule_of_pushes(answers: Answers) -> tuple[str, str]:
+    """Return N1; A1 where springs alone move the block wrongly and turn it rightly; K1 where that holds for dampers,
+    and springs alone are right."""
+    pushed = [(v, out) for v, out in answers if v.layer == "LS" and "Lambda@1" in v.expect and on_ice(v)]
+    springs = [shares_off(v, out) for v, out in pushed if not np.any(v.inputs["C_N"])]
+    dampers = [shares_off(v, out) for v, out in pushed if np.any(v.inputs["C_N"]) and np.any(v.inputs["W"])]
+    if springs and all(moved_alone(*s) for s in springs):
+        return "A1", SUMMED
+    right = bool(springs) and all(max(s) <= SHARE for s in springs)
+    return ("K1", RATE) if right and dampers and all(moved_alone(*s) for s in dampers) else ("N1", "")
+
+
+def moved_alone(moved: float, turned: float) -> bool:
+    """Return whether a block is moved otherwise, and turned as it should be, by shares."""
+    return moved > SHARE and turned <= HARDLY * moved
+
+
+def on_ice(vector: Vector) -> bool:
+    """Return whether feet that push have no friction."""
+    q = vector.inputs
+    lowest = float(np.min((q["x"] + q["P"] @ q["Lambda"].T)[:, 2]))
+    return lowest < 0 and not np.any(q["mu_0"]) and bool(np.any(vector.expect["Lambda@1"].value != q["Lambda"]))
+
+
+def shares_off(vector: Vector, out: dict[str, Any]) -> tuple[float, float]:
+    """Return by which share of its way a block is elsewhere after sixteen steps, and by which share of its turn;
+    infinite where no rows are shown."""
+    right, q = law_extrapolated(vector.id), vector.inputs
+    shares = []
+    for key in ("x", "Lambda"):
+        try:
+            off = np.linalg.norm(np.asarray(out[key], float)[1] - right[key][1])
+        except (KeyError, TypeError, ValueError, IndexError):
+            return np.inf, np.inf
+        shares.append(float(off / np.linalg.norm(right[key][1] - q[key])))
+    return shares[0], shares[1]
+
+
+def balls_are_slowed(answers: Answers) -> bool:
+    """Return whether the rates of balls above the plate change, which no gyroscopic moment does."""
+    for vector, out in answers:
+        if vector.layer != "LS" or vector.rule != "I3" or not is_ball(vector):
+            continue
+        W = np.asarray(vector.inputs["W"], float)
+        try:
+            got = np.asarray(out["W"], float)[1]
+        except (KeyError, TypeError, ValueError, IndexError):
+            continue
+        if not np.linalg.norm(got - W) <= STEADY * np.linalg.norm(W):
+            return True
+    return False
+
+
+def is_ball(vector: Vector) -> bool:
+    """Return whether all moments of inertia are alike."""
+    J = vector.inputs["inertia"]
+    return np.array_equal(J, J[0, 0] * np.eye(3))
+
+
+def gains_speed(answers: Answers) -> bool:
+    """Return whether blocks that nothing pulls drift with another velocity from step to step."""
+    ratios = [g for v, out in answers if v.layer == "L5s" and v.rule == "S2" for g in growth(v, out)]
+    return bool(ratios) and all(g > GROWTH for g in ratios)
+
+
+def growth(vector: Vector, out: dict[str, Any]) -> list[float]:
+    """Return how many times as much the place of a drifting block is off after two steps as after one; nothing where it
+    is right, is pulled, or has fewer rows a step apart."""
+    rows = rows_of_the_law(vector.id)
+    q = vector.inputs
+    if len(rows) < 3 or not np.any(q["v"]) or q.get("a") is not None or any(np.any(row.F) for row in rows):
+        return []
+    way = rows[1].x - rows[0].x
+    try:
+        first, second = (float((np.asarray(out["x"], float)[i] - rows[i].x) @ way) for i in (1, 2))
+    except (KeyError, TypeError, ValueError, IndexError):
+        return []
+    least = 1e-12 * float(way @ way)
+    if not abs(second) > least:
+        return []
+    return [abs(second) / max(abs(first), least)]

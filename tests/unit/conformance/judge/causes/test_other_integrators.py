@@ -1,0 +1,115 @@
+"""Mistakes in other integrators have a name: by forces of the start, by sums, velocities, drifts at the stated step."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rockref.conformance import vectors
+from rockref.conformance.backends import richardson, rule_set
+from rockref.conformance.backends.law import RulesBackend
+from rockref.conformance.backends.other_scheme import kick_and_drift
+from rockref.conformance.backends.rule_set import law
+from rockref.conformance.judge.causes.flags import without_lost_numbers
+from rockref.conformance.judge.compare_answer import Check
+from rockref.conformance.judge.findings import judge
+from rockref.conformance.judge.verdict import verdict
+from rockref.model.contact import point_kinematics
+
+
+class Other:
+    """Runs of another integrator by some rules; `shown` what of a row."""
+
+    precision = "float64"
+
+    def __init__(self, shown=("t", "W", "x", "Lambda", "F", "anchored"), step=kick_and_drift, **planted):
+        self.name, self.shown = "another integrator", shown
+        self.backend = RulesBackend(law().replace(step=step, **planted))
+
+    def simulate(self, problem):
+        rows = self.backend.simulate(problem)
+        rows = rows if isinstance(rows, dict) else vars(rows)
+        return {k: rows[k] for k in self.shown}
+
+
+HIDDEN = ("t", "W", "x", "Lambda")
+
+
+def named(backend):
+    found = verdict(judge(backend, ["L5s", "LS"], "scheme"))
+    return found.rule, found
+
+
+def without_the_fall(x, Lambda, v, W, P):
+    k, still = point_kinematics(x, Lambda, v, W, P), point_kinematics(x, Lambda, 0 * v, W, P)
+    return k._replace(xi_rate=still.xi_rate)
+
+
+def test_forces_of_the_start_tell_the_velocity_from_the_damper():
+    rule, found = named(Other(kinematics=without_the_fall))
+    assert rule == "K1" and "turns alone" in found.says, (rule, found.check)
+
+
+def test_where_forces_are_hidden_dampers_that_turn_rightly_speak_of_the_velocity():
+    assert named(Other(HIDDEN, kinematics=without_the_fall))[0] == "K1"
+
+
+def test_where_forces_are_hidden_a_sum_without_a_foot_moves_the_block_and_turns_it_rightly():
+    def force(F, mass, g):
+        return law().force(F[..., :-1, :], mass, g)
+
+    assert named(Other(HIDDEN, force=force))[0] == "A1"
+    assert named(Other(HIDDEN, normal=lambda xi, rate, K, C: law().normal(xi, rate, 0.9 * K, C)))[0] == "N1"
+
+
+def test_where_forces_are_right_a_sum_of_four_feet_at_a_time_shows_in_what_happens_then():
+    def force(F, mass, g):
+        return law().force(F[..., : F.shape[-2] // 4 * 4, :], mass, g)
+
+    assert named(Other(force=force))[0] == "A1", "three feet carry nothing"
+
+
+def dragged(rules, problem, state, inertia):
+    """The step, and a hundredth of the velocity lost each second."""
+    return kick_and_drift(rules, problem, replace(state, a=state.a - 0.01 * state.v), inertia)
+
+
+def test_a_velocity_that_is_lost_is_no_clock():
+    rule, found = named(Other(step=dragged))
+    assert rule == "A1" and "faster than the steps" in found.says
+
+
+def half_a_step_first(rules, problem, state, inertia):
+    return kick_and_drift(rules, replace(problem, step=problem.step * (1.0 if state.count else 0.5)), state, inertia)
+
+
+def test_a_first_step_that_is_too_short_is_not_extrapolated_away():
+    assert named(Other(step=half_a_step_first))[0] == "S2"
+    drift = next(v for v in vectors.layer("LS") if v.rule == "S2")
+    assert richardson.parts_of(drift) == (1,)
+
+
+@pytest.mark.parametrize("shown", [HIDDEN, (*HIDDEN, "F", "anchored")])
+def test_anchors_that_turn_with_the_block_speak_of_anchors(shown):
+    def step(rules, problem, state, inertia):
+        after = kick_and_drift(rules, problem, state, inertia)
+        turn = after.Lambda @ state.Lambda.T
+        s = np.concatenate([after.s, np.zeros((len(after.s), 1))], axis=1) @ turn.T
+        return replace(after, s=np.where(after.anchored[:, None], s[:, :2], after.s))
+
+    assert named(Other(shown, step=step))[0] == "T5"
+
+
+def test_a_ball_that_nothing_turns_keeps_its_rates():
+    def body_moment(Lambda, M):
+        return rule_set.law().body_moment(Lambda, M) - 0.05
+
+    assert named(Other(body_moment=body_moment))[0] in ("A2", "I5")
+
+
+def test_numbers_that_are_lost_tell_less_than_wrong_ones():
+    lost = Check("LS-T2-0129", "LS", "T2", "x_T@1", "outside", float("inf"), got=float("nan"))
+    wrong = replace(lost, vector="LS-T3-0149", rule="T3", worst=1e3, got=0.2)
+    assert without_lost_numbers([lost, wrong]) == [wrong] and without_lost_numbers([lost]) == [lost]
+    early = replace(lost, layer="L5s")
+    assert without_lost_numbers([early, wrong]) == [early, wrong], "of the law's own steps the first one tells"
