@@ -20,7 +20,7 @@ from rockref.conformance.vectors import Vector
 Answers = Sequence[tuple[Vector, dict[str, Any]]]
 #: Shares of a moment by which two are of one size: as the turn of one step shows it, with seven digits, and as that of
 #: sixteen steps does, in which the moment changes. Decided: far below what another attitude or another lever makes.
-SIZE = {"L5s": 1e-5, "LS": 1e-3}
+SIZE = {"L5s": 1e-5, "LS": 1e-4}
 #: So many runs have to be right for an attitude to be right. Decided.
 SOME = 2
 OF_FRICTION = (
@@ -41,35 +41,48 @@ def rule_of_a_moment(answers: Answers, checks: Sequence[Check], check: Check) ->
         ]
         return ("A2", OF_FRICTION) if len(on_ice) >= SOME and not failed & set(on_ice) else (check.rule, "")
     if check.rule == "A2" and check.name == "Lambda@1" and points_another_way(vector, out):
-        upright = [v.id for v, _ in answers if v.layer == check.layer and v.rule == "A2" and is_upright(v)]
-        wrong = {c.vector for c in checks if c.failed and c.name == check.name}
-        return ("A3", TURNED) if len(upright) >= SOME and not wrong & set(upright) else (check.rule, "")
+        shown = [moments(v, out) for v, out in answers if v.layer == check.layer and is_upright(v)]
+        largest = max((float(np.linalg.norm(wanted)) for _, wanted in shown), default=0.0)
+        upright = [pair for pair in shown if not np.linalg.norm(pair[1]) <= SIZE["LS"] * largest]
+        right = all(is_as_it_should_be(*pair, SIZE[check.layer]) for pair in upright)
+        return ("A3", TURNED) if len(upright) >= SOME and right else (check.rule, "")
     return check.rule, ""
 
 
 def is_upright(vector: Vector) -> bool:
-    """Return whether body axes are plate axes at the start, and a turn is looked at."""
-    return "Lambda@1" in vector.expect and np.array_equal(vector.inputs["Lambda"], np.eye(3))
+    """Return whether the moment alone turns a block, the body axes of which are plate axes at the start."""
+    q = vector.inputs
+    resting = not np.any(q["W"]) and q.get("T") is None
+    return resting and vector.rule == "A2" and "Lambda@1" in vector.expect and np.array_equal(q["Lambda"], np.eye(3))
+
+
+def moments(vector: Vector, out: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Return the inertia times the turn (3,) from the start to the second row, as it is and as it should be; not
+    numbers where it is not shown."""
+    q = vector.inputs
+    of_the_law = law_extrapolated(vector.id)["Lambda"] if vector.layer == "LS" else None
+    right = [row.Lambda for row in rows_of_the_law(vector.id)] if of_the_law is None else of_the_law
+    nothing = np.full(3, np.nan)
+    try:
+        pose = np.asarray(out["Lambda"], float)[1]
+    except (KeyError, TypeError, ValueError, IndexError):
+        return nothing, nothing
+    if len(right) < 2 or not np.all(np.isfinite(pose)):
+        return nothing, nothing
+    got, wanted = (q["inertia"] @ rotation_vector(q["Lambda"].T @ L) for L in (pose, right[1]))
+    return got, wanted
+
+
+def is_as_it_should_be(got: np.ndarray, wanted: np.ndarray, share: float) -> bool:
+    """Return whether two vectors are one, to a share of their size."""
+    return bool(np.linalg.norm(got - wanted) <= share * np.linalg.norm(wanted))
 
 
 def points_another_way(vector: Vector, out: dict[str, Any]) -> bool:
     """Return whether the moment that turns a block from rest has the right size, and neither the right direction nor
     the opposite one."""
-    q = vector.inputs
-    if np.any(q["W"]) or q.get("T") is not None:
+    if np.any(vector.inputs["W"]) or vector.inputs.get("T") is not None:
         return False
-    right = (
-        law_extrapolated(vector.id)["Lambda"]
-        if vector.layer == "LS"
-        else [r.Lambda for r in rows_of_the_law(vector.id)]
-    )
-    try:
-        pose = np.asarray(out["Lambda"], float)[1]
-    except (KeyError, TypeError, ValueError, IndexError):
-        return False
-    if len(right) < 2 or not np.all(np.isfinite(pose)):
-        return False
-    got, wanted = (q["inertia"] @ rotation_vector(q["Lambda"].T @ L) for L in (pose, right[1]))
-    size = SIZE[vector.layer] * float(np.linalg.norm(wanted))
-    same = abs(float(np.linalg.norm(got) - np.linalg.norm(wanted))) <= size
-    return same and min(float(np.linalg.norm(got - wanted)), float(np.linalg.norm(got + wanted))) > size
+    (got, wanted), share = moments(vector, out), SIZE[vector.layer]
+    same = abs(float(np.linalg.norm(got) - np.linalg.norm(wanted))) <= share * float(np.linalg.norm(wanted))
+    return same and not is_as_it_should_be(got, wanted, share) and not is_as_it_should_be(-got, wanted, share)
