@@ -9,11 +9,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-from rockref.conformance.judge.causes.flags import (
-    without_flags_in_company,
-    without_late_flags,
-    without_lost_numbers,
-)
+from rockref.conformance.judge.causes.flags import telling
 from rockref.conformance.judge.causes.other_runs import cause_of
 from rockref.conformance.judge.causes.whole_steps import rule_of_a_step
 from rockref.conformance.judge.compare_answer import ELSEWHERE, OTHERWISE, Check
@@ -164,8 +160,7 @@ def all_asked(findings: Findings) -> bool:
 
 def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
     """Return the first wrong rule, the check that shows it, and a sentence where the rule is inferred."""
-    checks, pieces = without_late_flags(findings.checks), findings.pieces
-    checks = without_lost_numbers(without_flags_in_company(checks, findings.answers))
+    checks, pieces = telling(findings.checks, findings.answers), findings.pieces
     good = {r for r, s in status_of_rules([c for c in checks if c.layer in SMALL]).items() if s in ("pass", "look")}
     if findings.profile == "scheme":
         good -= NOT_BY_PIECES
