@@ -6,9 +6,11 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
-from strangers import counted, of_mistake, planted, seen
+from strangers import Runs, counted, made, of_mistake, planted, seen, with_step
 from strangers_list import HARMLESS, MISTAKES
 
+from rockref.conformance.judge.findings import judge
+from rockref.conformance.judge.verdict import verdict
 from rockref.conformance.rules import BY_ID
 
 
@@ -30,6 +32,13 @@ def test_with_pieces_a_mistake_is_named(mistake):
 def test_what_nothing_follows_from_passes(mistake):
     ways = of_mistake(mistake)["ways"]
     assert len(ways) == 3 and not any(a["detected"] for a in ways.values())
+
+
+@pytest.mark.parametrize("scheme", ["quaternion and Euler", "implicit midpoint"])
+def test_integrators_that_do_not_turn_by_the_exponential_or_look_within_a_step_pass(scheme):
+    backend = Runs(made(with_step(scheme), scheme), {}, ("F", "anchored"))
+    found = verdict(judge(backend, ["L5s", "LS"], "scheme"))
+    assert found.passed, found.check
 
 
 def test_ways_are_counted_apart():
