@@ -66,21 +66,22 @@ class Descent:
         self.defect: np.ndarray | float = 0.0
 
     def residuals(self, zs: np.ndarray) -> np.ndarray:
-        return self._with_step(zs, self.step) + self.defect
+        return self.with_step(zs, self.step) + self.defect
 
     def correct(self, z: np.ndarray) -> bool:
         """Take off all residuals from here on what the step does at z (Z,), and forget the ends found before.
 
         Where that is too much, it holds at z alone: nothing is taken off, and False returned.
         """
-        whole, finer = (self._with_step(z[None], step)[0] for step in (self.step, self.step / FINER))
+        whole, finer = (self.with_step(z[None], step)[0] for step in (self.step, self.step / FINER))
         # The scheme is of first order where points land: what is left at a part of the step is that part of it.
         defect = (finer - whole) * FINER / (FINER - 1)
         holds = bool(np.sqrt(np.mean(np.square(defect))) < LARGEST_DEFECT)
         self.defect, self.ends = defect if holds else 0.0, []
         return holds
 
-    def _with_step(self, zs: np.ndarray, step: float) -> np.ndarray:
+    def with_step(self, zs: np.ndarray, step: float) -> np.ndarray:
+        """Return residuals (B, M) of zs (B, Z) by simulations with another step [s], nothing taken off."""
         return residuals(self.unknowns.space, self.unknowns.targets, zs, step, self.workers)
 
     def place(self, z: np.ndarray) -> Place:
@@ -145,24 +146,27 @@ def _steps(J: np.ndarray, change: float) -> np.ndarray:
     return np.clip(change / np.where(size > 0, size, 1e-30), SMALLEST, LARGEST)
 
 
-def damped_steps(J: np.ndarray, r: np.ndarray, z: np.ndarray, dampings: Sequence[float]) -> np.ndarray:
+def damped_steps(
+    J: np.ndarray, r: np.ndarray, z: np.ndarray, dampings: Sequence[float], metric: np.ndarray | None = None
+) -> np.ndarray:
     """Return where damped steps lead, (D, Z), along free directions only: an unknown that would leave its range stays
-    at the end of it."""
-    normal: dict[bytes, tuple[np.ndarray, np.ndarray]] = {}
-    return np.array([np.clip(z + _damped(J, r, z, damping, normal), 0.0, 1.0) for damping in dampings])
+    at the end of it.
+
+    metric : (Z, Z) what a damping multiplies, by default the diagonal of the information.
+    """
+    A, b = J.T @ J, -J.T @ r
+    scale = np.diag(np.diag(A)) if metric is None else metric
+    return np.array([np.clip(z + _damped(A, b, z, damping * scale), 0.0, 1.0) for damping in dampings])
 
 
-def _damped(J: np.ndarray, r: np.ndarray, z: np.ndarray, damping: float, normal: dict) -> np.ndarray:
-    """Return one step (Z,); normal : matrix and right side of the normal equations, by the directions that are free."""
+def _damped(A: np.ndarray, b: np.ndarray, z: np.ndarray, damping: np.ndarray) -> np.ndarray:
+    """Return one step (Z,) by normal equations A (Z, Z), b (Z,), of the unknowns that stay in their ranges."""
     free = np.ones(len(z), bool)
     d = np.zeros(len(z))
     for _ in range(len(z)):
-        key = free.tobytes()
-        if key not in normal:
-            normal[key] = J[:, free].T @ J[:, free], -J[:, free].T @ r
-        A, b = normal[key]
+        part = np.ix_(free, free)
         d = np.zeros(len(z))
-        d[free] = np.linalg.solve(A + damping * np.diag(np.diag(A)) + ridge(A), b)
+        d[free] = np.linalg.solve(A[part] + damping[part] + ridge(A[part]), b[free])
         out = ((z + d < 0) & (z <= 0)) | ((z + d > 1) & (z >= 1))
         if not np.any(out & free):
             break

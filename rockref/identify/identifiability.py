@@ -3,8 +3,8 @@ believed.
 
 At the end of a least-squares fit with white noise the covariance of the unknowns is chi2 (J^T J)^-1, J the slope of the
 residual over the noise (Cramer-Rao; for example S. M. Kay, Fundamentals of Statistical Signal Processing, 1993, ch. 3).
-That holds for one smooth valley. Here there are many dents that are as good; the scatter of the ends found in them is
-added to the errors.
+That holds at the bottom of one smooth valley, by slopes that are exact. So what the step of the simulation does to the
+slopes, and what the slopes say is left to the bottom, are added to the errors.
 """
 
 from __future__ import annotations
@@ -14,8 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rockref.identify.candidates import STEP
 from rockref.identify.genes import Space
 from rockref.identify.polish import Polished
+from rockref.identify.refine import RESIDUALS, covariance
 from rockref.identify.target import Target
 from rockref.identify.unknowns import Unknowns, residuals
 from rockref.model.parameters import TABLE_3_1
@@ -54,15 +56,9 @@ class Identifiability:
 def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> Identifiability:
     """Return errors, correlations and trade-offs at the end of a polish."""
     unknowns = Unknowns(space, targets)
-    information = end.jacobian.T @ end.jacobian
-    # A direction that the data do not see at all has no information; the pseudo-inverse would call it certain.
-    w, v = np.linalg.eigh(information)
-    w = np.maximum(w, 1e-12 * w[-1])
-    covariance = max(1.0, end.chi2) * (v / w) @ v.T
-    scatter = end.alike - end.z
-    covariance = covariance + scatter.T @ scatter / len(scatter)
-    sd = np.sqrt(np.diag(covariance))
-    correlation = covariance / np.outer(sd, sd)
+    seen = max(1.0, end.chi2) * covariance(end.jacobian, end.doubt) + np.outer(end.remainder, end.remainder)
+    sd = np.sqrt(np.diag(seen))
+    correlation = seen / np.outer(sd, sd)
     values, slopes = unknowns.in_units(end.z)
     names = unknowns.names
     pairs = [
@@ -71,6 +67,7 @@ def identifiability(space: Space, targets: Sequence[Target], end: Polished) -> I
         for j in range(i + 1, len(names))
         if abs(correlation[i, j]) > TRADE_OFF
     ]
+    _, v = np.linalg.eigh(end.jacobian.T @ end.jacobian)
     order = np.argsort(-np.abs(v[:, 0]))
     weakest = {names[i]: float(v[i, 0]) for i in order if abs(v[i, 0]) > 0.1}
     pairs.sort(key=lambda p: -abs(p[2]))
@@ -90,7 +87,7 @@ def profile(
     values, slopes = unknowns.in_units(end.z)
     shifts = np.linspace(-reach, reach, points)
     J, others = end.jacobian, np.arange(len(end.z)) != i
-    r = residuals(space, targets, end.z[None])[0]
+    r = residuals(space, targets, end.z[None], STEP / RESIDUALS)[0]
     trials = []
     for shift in shifts:
         z = end.z.copy()
@@ -98,5 +95,5 @@ def profile(
         answer = np.linalg.lstsq(J[:, others], -(r + J[:, i] * (z[i] - end.z[i])), rcond=1e-10)[0]
         z[others] += answer
         trials.append(np.clip(z, 0.0, 1.0))
-    rs = residuals(space, targets, np.array(trials))
+    rs = residuals(space, targets, np.array(trials), STEP / RESIDUALS)
     return values[i] + shifts, np.mean(np.square(rs), axis=1)

@@ -8,7 +8,8 @@ following, and the descent begins again from the best of these places.
 What is wrong early is wrong by much more later: the residual over the whole time has its valley only where everything
 is nearly right. So the first descents look at the record up to the first main impact, and then further and further.
 The last of these ends in a valley that only the end of the record cuts across; it is walked (`identify.valley`), and
-again beside an end that long moves have found.
+again beside an end that long moves have found. The last descent takes finer steps (`identify.refine`): most dents are
+made by the step.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ import numpy as np
 from rockref.identify.candidates import STEP
 from rockref.identify.descent import CHANGES, NEARLY, STEPS, Descent, Place, ridge
 from rockref.identify.genes import Space
+from rockref.identify.refine import Bottom, refine
 from rockref.identify.target import Target, seen_until
 from rockref.identify.unknowns import Unknowns, mean_squares
 from rockref.identify.valley import along, beside
@@ -45,9 +47,6 @@ ASTRAY = 1.25
 FLOOR = 1.07
 #: Moves end where a round gains less than this share; decided: 4000 samples of noise scatter the mean square by 2 %.
 LEAST_ROUND_GAIN = 5e-3
-#: Ends are as good as the best one where their mean squares are above it by less than this share. Decided: by so much
-#: the step of 1e-5 s raised that of the truth above that of the fit, in the worst of eight twins.
-ALIKE = 0.06
 #: Moves within a window end where a round gains less than this share; decided: the scatter of the noise.
 LEAST_WINDOW_GAIN = 0.02
 
@@ -71,7 +70,8 @@ class Polished:
     rms : (R, 3) [rad/s] residual per target and axis up to the second main impact
     chi2 : mean square of the residual over the noise (1: at the noise floor)
     z : (Z,) the unknowns in [0, 1];  jacobian : (M, Z) of the scaled residual there;  names : of its columns
-    alike : (K, Z) where other descents ended that are as good but for `ALIKE`: dents that the data do not tell apart
+    doubt : (Z, Z) what the step adds to the information of the slopes
+    remainder : (Z,) from z to where the slopes say that the bottom of the valley is
     """
 
     u: np.ndarray
@@ -81,7 +81,8 @@ class Polished:
     z: np.ndarray
     jacobian: np.ndarray
     names: tuple[str, ...]
-    alike: np.ndarray
+    doubt: np.ndarray
+    remainder: np.ndarray
 
     @property
     def at_floor(self) -> bool:
@@ -118,22 +119,31 @@ def polish(
     if short is not None and effort.walks:
         at = along(short, descent, start, effort.walks)
     else:
-        descent.correct(start)
-        at = descent.place(start)
+        at = _corrected(descent, start)
         for change in CHANGES:
             at = descent.descend(at, change)
         at = beside(descent, at) if effort.walks else at
+    end = _refined(descent, at)
     for _ in range(effort.moves):
-        before = at.chi2
-        if before < NEARLY:
+        if end.place.chi2 < NEARLY:
             break
-        at = descent.descend(_long_moves(descent, at), CHANGES[2])
-        if at.chi2 < before and effort.walks:
-            at = beside(descent, at)
-        if at.chi2 > (1 - LEAST_ROUND_GAIN) * before:
+        at = descent.descend(_long_moves(descent, _corrected(descent, end.place.z)), CHANGES[2])
+        again = _refined(descent, beside(descent, at) if effort.walks else at)
+        gained = again.place.chi2 < (1 - LEAST_ROUND_GAIN) * end.place.chi2
+        end = min(end, again, key=lambda e: e.place.chi2)
+        if not gained:
             break
-    alike = [end.z for end in descent.ends if end.chi2 < (1 + ALIKE) * at.chi2]
-    return _result(unknowns, at, descent.slopes(at, CHANGES[1])[0], np.array(alike))
+    return _result(unknowns, end)
+
+
+def _corrected(descent: Descent, z: np.ndarray) -> Place:
+    """Return the place at z (Z,), from which on what the step does there is taken off."""
+    descent.correct(z)
+    return descent.place(z)
+
+
+def _refined(descent: Descent, at: Place) -> Bottom:
+    return refine(descent, at, descent.slopes(at, CHANGES[1])[0])
 
 
 def _long_moves(descent: Descent, at: Place) -> Place:
@@ -179,8 +189,8 @@ def _moved(J: np.ndarray, at: Place, i: int, shift: float) -> list[np.ndarray]:
     return [alone, together]
 
 
-def _result(unknowns: Unknowns, at: Place, J: np.ndarray, alike: np.ndarray) -> Polished:
-    space, targets = unknowns.space, unknowns.targets
+def _result(unknowns: Unknowns, end: Bottom) -> Polished:
+    space, targets, at = unknowns.space, unknowns.targets, end.place
     rms, first = [], 0
     for target in targets:
         n = 3 * int(np.searchsorted(target.t, target.until))
@@ -191,4 +201,4 @@ def _result(unknowns: Unknowns, at: Place, J: np.ndarray, alike: np.ndarray) -> 
     tilts = np.array([t.tilt for t in targets]) + values - space.model.parameters.theta_0
     u = unknowns.chromosome(at.z, 0)
     u[unknowns.tilt_gene] = np.mean(at.z[len(unknowns.shared) :])
-    return Polished(u, tilts, np.array(rms), at.chi2, at.z, J, unknowns.names, alike)
+    return Polished(u, tilts, np.array(rms), at.chi2, at.z, end.jacobian, unknowns.names, end.doubt, end.remainder)

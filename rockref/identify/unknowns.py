@@ -11,6 +11,11 @@ from rockref.identify.candidates import STEP, releases
 from rockref.identify.genes import Space
 from rockref.identify.target import Target
 
+#: Longest move of an unknown for a slope, in parts of its range, and of one that is searched by its logarithm. Decided:
+#: a hundredth is one last digit of the heights and of the diagonal, beyond which the valley bends; a tenth changes a
+#: friction by 17 %, which the residual hardly sees.
+REACH, REACH_LOGARITHMIC = 0.01, 0.1
+
 
 @dataclass(frozen=True, eq=False)
 class Unknowns:
@@ -34,6 +39,12 @@ class Unknowns:
     def names(self) -> tuple[str, ...]:
         """Return names of the unknowns."""
         return (*(self.space.names[i] for i in self.shared), *(f"theta_0 of {t.name}" for t in self.targets))
+
+    @property
+    def reach(self) -> np.ndarray:
+        """Return how far a finite difference moves an unknown at most, (Z,)."""
+        logarithmic = {gene.name: gene.logarithmic for gene in self.space.genes}
+        return np.array([REACH_LOGARITHMIC if logarithmic.get(name, False) else REACH for name in self.names])
 
     @property
     def moves(self) -> list[list[tuple[int, slice]]]:

@@ -23,7 +23,7 @@ class Ground(Descent):
         super().__init__(alone(*names))
         self.end, self.mark = end, mark
 
-    def _with_step(self, zs, step):
+    def with_step(self, zs, step):
         noise = np.tile([1.0, -1.0], 50)
         alike = 2000.0 * (zs[:, 1:] - bent(zs[:, :1]))
         off = zs[:, :1] - TRUTH
@@ -70,9 +70,9 @@ def test_a_stride_that_refits_cannot_mend_is_given_up():
     class Walled(Ground):
         asked = 0
 
-        def _with_step(self, zs, step):
+        def with_step(self, zs, step):
             behind = np.where(zs[:, :1] > START[0] + 2.5 * STRIDE, 10.0, 1.0)
-            return behind * super()._with_step(zs, step)
+            return behind * super().with_step(zs, step)
 
         def jacobian(self, at, h):
             self.asked += 1
