@@ -62,14 +62,13 @@ class Descent:
     ):
         self.unknowns, self.step, self.workers, self.steps = unknowns, step, workers, steps
         self.report = report or (lambda chi2: None)
-        self.ends: list[Place] = []
         self.defect: np.ndarray | float = 0.0
 
     def residuals(self, zs: np.ndarray) -> np.ndarray:
         return self.with_step(zs, self.step) + self.defect
 
     def correct(self, z: np.ndarray) -> bool:
-        """Take off all residuals from here on what the step does at z (Z,), and forget the ends found before.
+        """Take off all residuals from here on what the step does at z (Z,).
 
         Where that is too much, it holds at z alone: nothing is taken off, and False returned.
         """
@@ -77,7 +76,7 @@ class Descent:
         # The scheme is of first order where points land: what is left at a part of the step is that part of it.
         defect = (finer - whole) * FINER / (FINER - 1)
         holds = bool(np.sqrt(np.mean(np.square(defect))) < LARGEST_DEFECT)
-        self.defect, self.ends = defect if holds else 0.0, []
+        self.defect = defect if holds else 0.0
         return holds
 
     def with_step(self, zs: np.ndarray, step: float) -> np.ndarray:
@@ -137,7 +136,6 @@ class Descent:
             self.report(at.chi2)
             if gain < LEAST_GAIN:
                 break
-        self.ends.append(at)
         return at
 
 

@@ -33,7 +33,7 @@ PLACES, LEAST_GAIN = 2, 0.02
 def along(short: Descent, whole: Descent, z: np.ndarray, rounds: int) -> Place:
     """Return best place of `whole` along the valley of `short`, which looks at the record without its end, from z (Z,).
 
-    Then the whole record is walked in half strides, both ways: that is a profile. Its places join the ends of `whole`.
+    Then the whole record is walked in half strides, both ways.
     """
     at = whole.place(z)
     for _ in range(rounds):
@@ -42,16 +42,14 @@ def along(short: Descent, whole: Descent, z: np.ndarray, rounds: int) -> Place:
         at = whole.place(at.z)
         before = at.chi2
         at = _best_end(whole, [at, *_both_ways(short, whole, at.z, STRIDE, LEFT)], CHANGES)
-        at = beside(whole, at)
         if corrected and (at.chi2 < NEARLY or at.chi2 > (1 - LEAST_GAIN) * before):
             break
-    return at
+    return beside(whole, at)
 
 
 def beside(whole: Descent, at: Place) -> Place:
-    """Return the best place beside an end: the whole record walked in half strides, which join the ends of `whole`."""
+    """Return the best place beside an end: the whole record walked in half strides, both ways."""
     near = _both_ways(whole, whole, at.z, STRIDE / 2, LEFT_WHOLE)
-    whole.ends.extend(near)
     return _best_end(whole, [at, *near], CHANGES[1:])
 
 

@@ -50,13 +50,6 @@ def test_a_descent_stops_in_a_dent_and_the_walk_does_not(grounds):
     assert end.chi2 < NEARLY and np.abs(end.z - TRUTH).max() < STRIDE
 
 
-def test_the_way_is_kept_beside_the_end_as_a_profile(grounds):
-    short, whole = grounds
-    end = along(short, whole, START, 1)
-    near = [p for p in whole.ends if p.chi2 < 1.5 * end.chi2]
-    assert len({round(float(p.z[0]), 3) for p in near}) > 2
-
-
 def test_a_walk_ends_where_nothing_is_gained_or_the_range_ends(grounds):
     short, whole = grounds
     assert len(walk(short, whole, START, STRIDE)) <= PATIENCE + 2
