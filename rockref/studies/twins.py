@@ -12,14 +12,15 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.identify.descent import Descent
+from rockref.identify.candidates import STEP
 from rockref.identify.genes import chromosome, space_12
 from rockref.identify.identifiability import identifiability
 from rockref.identify.identification import identify
 from rockref.identify.polish import Effort
+from rockref.identify.refine import JUDGED
 from rockref.identify.search import Settings
 from rockref.identify.target import twin
-from rockref.identify.unknowns import Unknowns
+from rockref.identify.unknowns import Unknowns, signal_costs
 from rockref.jobs.campaign import Campaign, campaign
 from rockref.model.parameters import TABLE_3_1
 
@@ -58,8 +59,7 @@ def twin_experiment(model: Model, seed: int, settings: Settings, effort: Effort 
         end = identify(space, [reference], [reference], replace(settings, seed=seed), here, rounds=0, effort=effort)
     known = identifiability(space, [reference], end.polished)
     truth = chromosome(space, model.parameters)
-    at_truth = Descent(Unknowns(space, [reference]), workers=1)
-    at_truth.correct(at_truth.unknowns.z(truth))
+    at_truth = Unknowns(space, [reference]).z(truth)
     precision = np.array([given.precision for given in TABLE_3_1.values()])
     off = (space.values(end.polished.u) - space.values(truth)) / precision
     spread = {name.split(" of ")[0]: value for name, value in known.digits().items()}
@@ -68,7 +68,7 @@ def twin_experiment(model: Model, seed: int, settings: Settings, effort: Effort 
         "seed": seed,
         "cost": end.found.cost,
         "chi2": end.polished.chi2,
-        "chi2_of_the_truth": at_truth.place(at_truth.unknowns.z(truth)).chi2,
+        "chi2_of_the_truth": signal_costs(space, [reference], STEP / JUDGED, [at_truth])[0],
         "at_floor": end.at_floor,
         "parameters": {
             name: {"off": float(off[i]), "error": spread[name], "determined": determined[name]}
