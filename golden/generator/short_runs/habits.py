@@ -138,12 +138,21 @@ def loads() -> Iterator[tuple[float, Case]]:
     turning: Any = {"v": DRIFT, "W": Draw(85).vector(4), "Lambda": rotation((0.3, -0.2, 0.5))}
     yield 6.6, fly({"x@1": "A1"}, "falling while it turns", **turning)
     pulled: Any = {"g": WEIGHTLESS, "a": np.array([3.0, -2.0, 1.5]), "T": np.zeros(3), "F": np.zeros((8, 3))}
-    yield 4.35, fly({"x_T@2": "I4"}, "pulled by what the start brings, the second step", 2, v=DRIFT, **pulled)
+    yield 8.05, fly({"x_T@2": "I4"}, "pulled by what the start brings, the second step", 2, v=DRIFT, **pulled)
+
+
+def thrown_up() -> Iterator[tuple[float, Case]]:
+    """Yield N2 of feet that leave the plate in a step at whose end they come down again: they are open, and damp
+    nothing."""
+    made = ICE | {"K_N": 100.0, "K_T": 100.0, "C_N": 1.0}
+    # Up by three quarters of what gravity takes away in a step.
+    up: Any = {"step": 2.0**-10, "g": 1024.0, "v": 0.75 * Z, **held(np.zeros((8, 2)))}
+    yield 22.96, ask({"F_N@1": "N2"}, "open after a step, and coming down", 2, standing(2.0**-13), made=made, **up)
 
 
 def habits() -> Iterator[Case]:
     """Yield all of them."""
     return placed(
         slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied, let_go, turned_twice,
-        rising, pulled_back, loads,
+        rising, pulled_back, loads, thrown_up,
     )  # fmt: skip
