@@ -55,8 +55,8 @@ class Stage:
 #: rate, which wanders by 50 urad in three seconds; pulled after it faster, the right model leaves more than its noise.
 S1 = Stage("S1", 0.005, 0.5, smoothing=8e-3, steps=6, rate=1000.0)
 S2 = Stage("S2", 0.010, 0.5, smoothing=2e-3, steps=12)
-S3 = Stage("S3", 0.020, 0.5, jitter=0.05e-3)
-F = Stage("F", 0.040, 1.0, jitter=0.05e-3)
+S3 = Stage("S3", 0.014, 0.5, jitter=0.05e-3)
+F = Stage("F", 0.020, 2.0, jitter=0.05e-3)
 
 
 def time_scale(model: Model) -> float:

@@ -282,7 +282,7 @@ class Search:
             self.fitter.refine(h, S3, STEPS["S3"])
             self.fitter.polish(h, F, 2)
         self.remember(added)
-        bar = best.objective * (1 - JOINS)
+        bar = best.objective - WORTH
         return within([*beam, *(h for h in added if h.objective < bar)], BEAM, MARGINS["F"])
 
     def eliminate(self, beam: list[FittedModel]) -> list[FittedModel]:
