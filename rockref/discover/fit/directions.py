@@ -23,10 +23,10 @@ from rockref.discover.hypotheses.parameter import FARTHEST, Parameter
 
 #: Nats by which the objective is expected to rise at the ends of a difference; decided: the roughness of the objective
 #: at the longest memory is 30 to 100 nats, and a difference must see across it.
-RISE = 48.0
+RISE = 56.0
 #: Nats of the likelihood that count as one for the length of a direction, beside the prior, and its longest component
 #: in prior deviations (decided: where the data say little, the prior keeps it short).
-SOFTENED, LONGEST_END = 6.0, 1.5
+SOFTENED, LONGEST_END = 7.0, 1.5
 #: Factor by which the width of a number may grow and the valley count as known (decided: widths are told to a fifth).
 KNOWN = 1.2
 
