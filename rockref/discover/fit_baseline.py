@@ -3,7 +3,7 @@
 1. Start from what an earlier command has found; without it, from nominal numbers at the shortest memory.
 2. Where the innovations contradict the local start, start over the whole prior.
 3. Add the effects that are asked for, each by one step of everything, or from its own starts.
-4. Lengthen the memory to 40 ms.
+4. Lengthen the memory.
 5. Check: stages, starts, step, bounds, innovations. Innovations that are not white say that an effect is missing.
 """
 

@@ -22,7 +22,7 @@ from rockref.discover.fit.objective import weight
 from rockref.discover.hypotheses.parameter import FARTHEST, Parameter
 
 #: Nats by which the objective is expected to rise at the ends of a difference; decided: the roughness of the objective
-#: at the longest memory is 30 to 100 nats, and a difference must see across it.
+#: at the longest memory is 20 to 50 nats, and a difference must see across it.
 RISE = 56.0
 #: Nats of the likelihood that count as one for the length of a direction, beside the prior, and its longest component
 #: in prior deviations (decided: where the data say little, the prior keeps it short).

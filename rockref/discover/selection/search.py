@@ -42,7 +42,7 @@ STAYED = 0.5
 #: Factor on the best objective up to which a model goes on after each stage (decided: a longer memory changes the order
 #: of models by less).
 MARGINS = {"S3": 1.06, "F": 1.02}
-#: Models that go on, additions that are refined, effects at most.
+#: Models that go on, additions that are refined (by what one step gains, and by what it promises), effects at most.
 BEAM, ADDED, MOST = 4, 2, 3
 #: Hypotheses within the margin beside which one more effect is tried.
 EQUALS = 2
