@@ -47,7 +47,7 @@ STAGES = {"baseline": 5.0, "effects": 30.0, "starts": 29.0, "S3": 15.0, "F": 12.
 #: Remarks that tell of a fault of the sensor, which no hypothesis about the block explains.
 SENSOR_CODES = ("W-ZERO", "W-LAG", "W-HUM")
 STRETCH = (
-    "innovations of a model that listens to the record with a memory of 20 ms, over the first {end:.2g} s of each run; "
+    "innovations of a model that listens to the record with a memory of 40 ms, over the first {end:.2g} s of each run; "
     "the worst tenth of blocks of 50 ms left out"
 )
 

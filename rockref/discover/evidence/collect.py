@@ -14,7 +14,7 @@ from rockref.discover.evidence.widths import deviations
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.floor import floor
 from rockref.discover.fit.objective import WHITE, loss
-from rockref.discover.fit.stages import F
+from rockref.discover.fit.stages import TOLD, F
 from rockref.discover.hypotheses.effects import own_value
 from rockref.discover.hypotheses.parameter import Parameter, centring
 from rockref.discover.listening.listener import Listener
@@ -68,11 +68,10 @@ def add_held_out(said: HypothesisEvidence, fitter: Fitter, h: FittedModel, held:
 def errors(fitter: Fitter, h: FittedModel) -> dict[str, float]:
     """Return the root mean square of the innovations by axis and in all [deg/s], the worst tenth of blocks left out.
 
-    Innovations are those of h as evaluated, without the jitter by which steep parts count less.
+    Innovations are those of a longer memory, without the jitter by which steep parts count less.
     """
     listener, parameters = fitter.problem.listener, fitter.parameters(h)
-    stage = replace(F, jitter=0.0)
-    r = fitter.residuals(stage).at(parameters, [h.z])[0] * listener.sigma[:, None, :]
+    r = fitter.residuals(TOLD).at(parameters, [h.z])[0] * listener.sigma[:, None, :]
     length = max(1, round(BLOCK * listener.gyro.sample_rate))
     n = r.shape[1] // length * length
     square = (np.degrees(r[:, :n]) ** 2).reshape(r.shape[0], -1, length, 3).mean(axis=2)

@@ -58,6 +58,9 @@ S1 = Stage("S1", 0.005, 0.5, smoothing=8e-3, steps=6, rate=1000.0)
 S2 = Stage("S2", 0.010, 0.5, smoothing=2e-3, steps=12)
 S3 = Stage("S3", 0.014, 0.5, jitter=0.05e-3)
 F = Stage("F", 0.020, 2.0, jitter=0.05e-3)
+#: By which errors in deg/s are told: it forgets more slowly than any fit, so that more of what is missing is seen
+#: (decided).
+TOLD = Stage("told", 0.040, 1.0)
 
 
 def time_scale(model: Model) -> float:

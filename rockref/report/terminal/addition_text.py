@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 NOTE = (
-    "Innovations of a model that listens to the record with a memory of 20 ms, the worst tenth of blocks of 50 ms left "
+    "Innovations of a model that listens to the record with a memory of 40 ms, the worst tenth of blocks of 50 ms left "
     "out. Two repeated runs are compared whole, and differ by more than one run and its model."
 )
 
