@@ -170,7 +170,7 @@ def add_effect(
     problem.progress.begin("held-out", "checking on held-out runs", after.name)
     states = [state_of(fitter, h, whole) for h in (before, after)]
     problem.progress.begin("intervals", "computing intervals")
-    said = hypothesis_evidence(fitter, after, calibration().temperature)
+    said = hypothesis_evidence(fitter, after, *calibration().widths)
     history = [*earlier(base, problem.carried), *(state.to_dict() for state in states)]
     return Addition(
         experiment=whole,

@@ -217,7 +217,7 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     null = next(h for h in fits if h.effects == problem.carried)
     kept = list(dict.fromkeys([*fits[:STORED], null]))
     problem.progress.begin("evidence", "weighing the evidence", fits[0].name)
-    said = {h.effects: hypothesis_evidence(fitter, h, calibration().temperature) for h in kept}
+    said = {h.effects: hypothesis_evidence(fitter, h, *calibration().widths) for h in kept}
     listener = problem.listener
     runs = experiment.holdout_runs()
     held = Listener(experiment, runs, listener.end, listener.workers) if runs else None

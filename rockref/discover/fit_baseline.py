@@ -137,7 +137,7 @@ def fit_baseline(
     if check:
         gates, h, said = checked(fitter, h, earlier, seed)
     else:
-        gates, said = [], hypothesis_evidence(fitter, h, calibration().temperature)
+        gates, said = [], hypothesis_evidence(fitter, h, *calibration().widths)
     outcome, run = outcome_of(gates, said)
     state = {"effects": list(h.effects), "fit_deg_s": said.error["total"]}
     return BaselineFit(
@@ -298,13 +298,13 @@ def checked(
     Where the innovations are not white the model is wrong: stages and starts then need not agree, and are not asked.
     """
     fitter.problem.progress.begin("gates", "checking the innovations", h.name)
-    said = hypothesis_evidence(fitter, h, calibration().temperature)
+    said = hypothesis_evidence(fitter, h, *calibration().widths)
     white = innovations_white(said, calibration())
     if not white.passed:
         return [white], h, said
     best, other, earlier = other_starts(fitter, h, earlier, seed)
     if best is not h:
-        said = hypothesis_evidence(fitter, best, calibration().temperature)
+        said = hypothesis_evidence(fitter, best, *calibration().widths)
     parameters = fitter.parameters(best)
     width, _ = deviations(fitter, best, F, calibration().temperature)
     gates = [

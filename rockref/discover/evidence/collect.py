@@ -31,12 +31,15 @@ BLOCK, FAR_ABOVE = 0.05, 1.5
 TRIMMED = 0.10
 
 
-def hypothesis_evidence(fitter: Fitter, h: FittedModel, temperature: float) -> HypothesisEvidence:
-    """Return what a fit at the longest memory says of the fit runs; temperature : of the evidence."""
+def hypothesis_evidence(fitter: Fitter, h: FittedModel, temperature: float, interval: float) -> HypothesisEvidence:
+    """Return what a fit at the longest memory says of the fit runs.
+
+    temperature : of the evidence;  interval : factor on the half widths of intervals
+    """
     deviation, H = deviations(fitter, h, F, temperature)
     runs = fitter.problem.runs
     parameters = fitter.parameters(h)
-    found = numbers_of(parameters, centring(parameters) @ h.z, deviation)
+    found = numbers_of(parameters, centring(parameters) @ h.z, interval * deviation)
     losses = fitter.losses(h)
     asked = max(h.loss, losses.max()) > ASKED
     least, floors = floor(fitter, h, F) if asked else (WHITE, np.full(losses.shape, WHITE))

@@ -20,6 +20,12 @@ class Calibration:
     misfit_of_run: float
     proof: float
     remnant: float
+    interval: float
+
+    @property
+    def widths(self) -> tuple[float, float]:
+        """Return what sizes' intervals go by: the temperature, and the factor on their half widths."""
+        return self.temperature, self.interval
 
 
 @cache
