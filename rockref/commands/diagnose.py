@@ -38,7 +38,7 @@ def diagnose(
     """Say which physical effect the model lacks, how large it is, and how sure that is; or what it could not tell.
 
     Fits the baseline and the effects of the catalogue to the fit runs, and confirms the best on the held-out runs.
-    Takes half a minute on a block like the source's as a rule, up to seven where heights of the feet are unknown. An
+    Takes half a minute on a block like the source's as a rule, up to four where heights of the feet are unknown. An
     unchanged experiment with the same options is answered from the kept verdict; --fresh computes anew. Exit code 0 if
     there is a verdict (that nothing is missing is one), 1 if the fit is not trustworthy, 2 if the input cannot be used.
 

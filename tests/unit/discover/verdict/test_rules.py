@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rockref.discover.evidence.evidence import Evidence, HypothesisEvidence, Number, log_evidence
+from rockref.discover.fit.objective import WHITE
 from rockref.discover.verdict.calibration import calibration
 from rockref.discover.verdict.rules import VERDICTS, decide
 from rockref.discover.verdict.sentences import sentence
@@ -91,7 +92,8 @@ def test_another_law_behind_the_same_name_is_indicated():
     v = decide(found)
     assert (v.word, v.effects, v.reason) == ("indicated", ("quadratic_drag",), "remnant")
     assert "96 %" in sentence(v, found)
-    assert decide(evidence(null, hypothesis(("quadratic_drag",), loss=2.0))).word == "something_else"
+    too_much = WHITE + 1.2 * C.remnant * (11.0 - WHITE)
+    assert decide(evidence(null, hypothesis(("quadratic_drag",), loss=too_much))).word == "something_else"
 
 
 def test_a_fault_of_the_sensor_is_not_blamed_on_the_block():
