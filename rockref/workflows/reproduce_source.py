@@ -39,8 +39,9 @@ from rockref.studies.twins import EFFORT, SEEDS, twin_experiments
 from rockref.workflows import source_figures
 from rockref.workflows.source_page import source_page
 
-#: Dots an inch of the pictures in the page, which must stay below two megabytes with all of them; decided.
-PAGE_DPI = 88
+#: Dots an inch of the pictures in the page, which must stay below two megabytes with all of them (decided: a tenth is
+#: left for longer tables).
+PAGE_DPI = 76
 #: Step of the records of reduction and scenarios [s]: half of that of their searches; decided: what these tell apart is
 #: far above what the step does.
 SEARCHED_STEP = 5e-6
