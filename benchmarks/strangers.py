@@ -6,11 +6,11 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | fourteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | fifteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
-                                fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth` or `fourteenth`
-                                of theirs)
+                                fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth`, `fourteenth` or
+                                `fifteenth` of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -32,6 +32,7 @@ import strangers_controls
 import strangers_controls_c
 import strangers_eighth
 import strangers_eleventh
+import strangers_fifteenth
 import strangers_fifth
 import strangers_fourteenth
 import strangers_fourth
@@ -71,10 +72,16 @@ LISTS = {
     "twelfth": strangers_twelfth.MISTAKES,
     "thirteenth": strangers_thirteenth.MISTAKES,
     "fourteenth": strangers_fourteenth.MISTAKES,
+    "fifteenth": strangers_fifteenth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 #: Other integrators, as lines of the function that makes a step.
-STEPS = {**strangers_fourth.SCHEMES, **strangers_fifth.SCHEMES, **strangers_fourteenth.SCHEMES}
+STEPS = {
+    **strangers_fourth.SCHEMES,
+    **strangers_fifth.SCHEMES,
+    **strangers_fourteenth.SCHEMES,
+    **strangers_fifteenth.SCHEMES,
+}
 
 
 def made(text: str, says: str) -> Any:
@@ -202,6 +209,12 @@ def of_fourteenth_schemes() -> Iterator[tuple[Mistake, str]]:
     yield from in_turn(strangers_fourteenth.MISTAKES, list(strangers_fourteenth.SCHEMES))
 
 
+def of_fifteenth_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The same of the fifteenth list and its integrators."""
+    yield from strangers_fifteenth.OF_STEPS
+    yield from in_turn(strangers_fifteenth.MISTAKES, list(strangers_fifteenth.SCHEMES))
+
+
 def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
     """The mistakes that runs show and that lie outside the law's step, each in the next integrator."""
     source = SOURCE.read_text()
@@ -220,6 +233,7 @@ OF_SCHEMES = {
     "fifth scheme": of_fifth_schemes,
     "thirteenth scheme": of_thirteenth_schemes,
     "fourteenth scheme": of_fourteenth_schemes,
+    "fifteenth scheme": of_fifteenth_schemes,
 }
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
@@ -236,6 +250,7 @@ IN_PYTHON = (
     *strangers_twelfth.IN_PYTHON,
     *strangers_thirteenth.IN_PYTHON,
     *strangers_fourteenth.IN_PYTHON,
+    *strangers_fifteenth.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 
