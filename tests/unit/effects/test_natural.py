@@ -15,6 +15,8 @@ TWICE = NaturalUnits(8.0, 2.0)
 
 def test_the_source_block_keeps_all_sizes():
     assert natural_units(Model.table_3_1()) == SOURCE
+    twice = natural_units(Model.table_3_1().replace(mass=8 * 54.0, width=0.2, depth=0.2, height=2 * 0.688))
+    assert (twice.mass, twice.length) == pytest.approx((TWICE.mass, TWICE.length))
 
 
 @pytest.mark.parametrize(

@@ -20,12 +20,16 @@ def test_samples_are_met_at_their_times_and_joined_by_lines():
 @pytest.mark.parametrize("t", [0.0, np.nextafter(0.25, 0), np.nextafter(0.5, 1), 7.0])
 def test_the_plate_has_no_acceleration_outside_of_the_record(t):
     assert plate_acceleration(RECORD, t).tolist() == [0.0, 0.0, 0.0]
+    single = BaseMotion(RECORD.t_0, RECORD.dt, RECORD.a.astype(np.float32))
+    assert plate_acceleration(single, t).dtype == plate_acceleration(single, 0.3).dtype == np.float32
 
 
 def test_a_turn_goes_from_x_to_y_and_leaves_z():
     assert RECORD.rotated(90).a[0].tolist() == [2.0, 1.0, 0.5]
     assert RECORD.rotated(-180).a.tolist() == (RECORD.a * [-1, -1, 1]).tolist()
     assert RECORD.rotated(360) == RECORD
+    # A hundred whole turns, too, are no turn: quarters are counted, not their cosines.
+    assert RECORD.rotated(36000) == RECORD
     turned = RECORD.rotated(30)
     # one rounding of each product and sum
     np.testing.assert_allclose(turned.a[0, :2], [np.sqrt(0.75) + 1, 0.5 - 2 * np.sqrt(0.75)], rtol=4e-16)
@@ -38,6 +42,7 @@ def test_a_factor_multiplies_all_three_components_and_keeps_times_and_name():
     assert doubled.a.tolist() == (2 * RECORD.a).tolist()
     assert (doubled.t_0, doubled.dt, doubled.name) == (0.25, 0.125, "station")
     assert record == RECORD and doubled != RECORD and hash(record) == hash(RECORD)
+    assert hash(doubled) != hash(RECORD)
 
 
 def test_the_force_is_opposite_to_the_acceleration_and_as_large_as_the_mass():
