@@ -3,7 +3,7 @@
 import ast
 import inspect
 import re
-from dataclasses import FrozenInstanceError, fields
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,7 @@ from rockref import InputError, Model
 from rockref.effects import catalogue
 from rockref.effects.base import HOOKS, UNDO_HOOKS, Effect, Quantity, limits
 from rockref.effects.catalogue import EFFECTS, NONE, QUESTIONS
-from rockref.effects.nothing_added import TrackedAsDrawn, nothing
+from rockref.effects.nothing_added import TrackedAsDrawn
 from rockref.effects.user import check_class
 from tests.refusal import refused
 
@@ -102,17 +102,6 @@ def test_the_experiment_shows_what_the_one_does_and_the_other_does_not(id, other
     """What belongs to a foot turns with the block, whatever it is: turning alone does not tell one from the other."""
     assert EFFECTS[id].confounder == other
     assert own in EFFECTS[id].experiment and others in EFFECTS[id].experiment
-
-
-def test_what_adds_nothing_is_an_effect_that_answers_its_question():
-    kind = nothing("NoWind", "loads", "No wind.", "The air stands still.", "F = 0", "this test")
-    assert (kind.__name__, kind.__doc__, kind.__module__) == ("NoWind", "No wind.", TrackedAsDrawn.__module__)
-    assert (kind.question, kind.sentence, kind.equation, kind.source) == (
-        "loads", "The air stands still.", "F = 0", "this test"
-    )  # fmt: skip
-    assert kind() == kind() and kind().is_absent()
-    with pytest.raises(FrozenInstanceError):
-        kind().question = "contact"
 
 
 def test_effects_are_short():

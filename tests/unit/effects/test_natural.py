@@ -33,6 +33,8 @@ def test_the_source_block_keeps_all_sizes():
         ("rad/s", 1 / math.sqrt(2)),  # the rate of rocking
         ("N m s2", 8.0 * 2**2),  # c w^2 beside m g R, w^2 as g / R
         ("N s2/m2", 4.0),
+        ("kg2", 64.0),
+        ("1/kg2", 1 / 64.0),
     ],
 )
 def test_factors(unit, factor):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from rockref.effects import scale
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.catalogue import EFFECTS, OF_TOSSES
 from rockref.effects.prior import RIGID, ROLES, SCALES, Prior
@@ -13,6 +14,12 @@ from rockref.effects.scale import from_scale, prior_of, to_scale
 
 KINDS = EFFECTS | OF_TOSSES
 NUMBERS = [(kind, name) for kind in KINDS.values() for name in kind.quantities]
+
+
+@pytest.fixture(autouse=True)
+def computed_anew():
+    """A prior is completed once a process; here every time."""
+    scale._prior_of.cache_clear()
 
 
 @dataclass(frozen=True)
