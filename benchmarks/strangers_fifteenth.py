@@ -107,7 +107,7 @@ MISTAKES = (
 
 BACKWARD_EULER = """\
     v_n, W_n = v, W
-    for _ in range(16):
+    for _ in range(5):
         x_n, Lambda_n = x + h * v_n, turned(Lambda, h * W_n)
         a_n, T_n, F, memory = evaluate(problem, state, x_n, Lambda_n, v_n, W_n)
         v_n, W_n = v + h * a_n, W + h * spun(W_n, T_n)
@@ -116,7 +116,7 @@ BACKWARD_EULER = """\
 DAMPED_NEWMARK = """\
     b, c, A = 0.3025, 0.6, spun(W, T)
     a_n, A_n = a, A
-    for _ in range(16):
+    for _ in range(5):
         v_n, W_n = v + h * ((1 - c) * a + c * a_n), W + h * ((1 - c) * A + c * A_n)
         x_n = x + h * v + h * h * ((0.5 - b) * a + b * a_n)
         Lambda_n = turned(Lambda, h * W + h * h * ((0.5 - b) * A + b * A_n))
@@ -148,7 +148,7 @@ BACKWARD_DIFFERENCES = """\
     x_b, v_b, W_b, Theta_b = (x, v, W, np.zeros(3)) if new else state["before"]
     d, e = (0.0, h) if new else (1 / 3, 2 / 3 * h)
     v_n, W_n = v, W
-    for _ in range(16):
+    for _ in range(5):
         x_n, Theta = x + d * (x - x_b) + e * v_n, d * Theta_b + e * W_n
         Lambda_n = turned(Lambda, Theta)
         a_n, T_n, F, memory = evaluate(problem, state, x_n, Lambda_n, v_n, W_n)
