@@ -51,8 +51,11 @@ def parts_of(vector: Vector) -> tuple[int, ...]:
     return PARTS[:1] if vector.rule == "S2" else PARTS
 
 
-def ask(backend: Any, vector: Vector) -> dict[str, Any]:
-    """Return the extrapolated answer of a backend to a vector of LS. What the backend raises goes through."""
+def ask(backend: Any, vector: Vector, finer: int = 1) -> dict[str, Any]:
+    """Return the extrapolated answer of a backend to a vector of LS. What the backend raises goes through.
+
+    finer : into how many parts each of its steps is divided
+    """
     problem = problem_of(vector.inputs)
-    answers = [as_mapping(backend.simulate(refined(problem, k)), "simulate") for k in parts_of(vector)]
+    answers = [as_mapping(backend.simulate(refined(problem, finer * k)), "simulate") for k in parts_of(vector)]
     return extrapolated(answers) if len(answers) > 1 else answers[0]

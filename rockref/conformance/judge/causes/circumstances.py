@@ -68,6 +68,7 @@ VELOCITY = "Dampers of friction are right where {} alone: the sliding velocity i
 RATE = "Normal dampers are right where {} alone: the rate of penetration is wrong."
 UNDAMPED = "Feet at rest are right, and feet that move are wrong, where no damper works: the velocity is wrong."
 ANEW = "Feet that touch anew are wrong, and tied ones are right: it is the anchor, and not the trial force."
+SLID = "Anchors of feet that stuck are right, and those of feet that slid in the step before are not."
 #: Parts of the velocity of a foot.
 PARTS = ("drift", "spin", "fall", "tilt")
 #: The two parts of a velocity, along the plate and across it: that which is asked, the other, and the other in words.
@@ -94,6 +95,8 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
         return "K1", UNDAMPED
     if rule == "T1" and anew_alone(wrong, right):
         return "T5", ANEW
+    if rule == "T5" and after_sliding_alone(wrong, right):
+        return "T4", SLID
     scores = [agreement(meets, wrong, right) for _, _, meets in CIRCUMSTANCES]
     own = max((s for s, (r, _, _) in zip(scores, CIRCUMSTANCES, strict=True) if r == rule),
               default=agreement(always, wrong, right))  # fmt: skip
@@ -128,6 +131,13 @@ def anew_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
     """Return whether a foot touches anew wherever forces are wrong, and springs and dampers of others are right."""
     tied = [f for f in right if not np.any(f["new"]) and np.any(f["spring"] & f["damper"] & ~f["slides"])]
     return len(tied) >= SOME and all(bool(np.any(f["new"])) for f in wrong)
+
+
+def after_sliding_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
+    """Return whether feet slid in the step before nearly wherever forces are wrong, and anchors of feet that stuck are
+    right."""
+    stuck = [f for f in right if np.any(f["later"] & ~f["new"] & f["spring"] & ~f["slid"])]
+    return len(stuck) >= SOME and sum(bool(np.any(f["moved"])) for f in wrong) >= CLEAR * len(wrong)
 
 
 def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[str, str]:

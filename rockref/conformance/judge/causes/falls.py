@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.conformance.judge.causes.data_flow import is_clear
 from rockref.conformance.judge.causes.rows_of_the_law import SAME, rows_of_the_law, same
 from rockref.conformance.vectors import Vector
 
@@ -23,6 +24,9 @@ SOME = 3
 AS_THE_STEPS = "What the place is off by grows as the number of steps: the velocity is right."
 AT_THE_START = "Where the start brings its own acceleration, the fall is right: the first evaluation is wrong."
 
+#: So many weights no wrong force or acceleration makes. Decided: a sign of the weight makes two, of a moving block.
+FAR = 4.0
+TOO_FAR = "Falls from rest are right, others off by more in a step than a weight makes: it is the velocity."
 A_STEP_LATE = "The first step of every fall is right, and the second of some is not: the velocity is wrong."
 ON_TIME = "Turns are right at the same instants: the place is wrong, and not the clock."
 
@@ -41,11 +45,39 @@ def rule_of_a_fall(answers: Answers, rule: str) -> tuple[str, str]:
     if a_step_late(answers):
         return "I4", A_STEP_LATE
     runs = [(v, out) for v, out in answers if v.layer == "L5s" and free(v)]
+    if too_far(answers, "L5s"):
+        return "I1", TOO_FAR
     ratios = [g for v, out in runs for g in growth(v, out)]
     if len(ratios) < 2 or any(abs(g - 2) >= NEAR for g in ratios):
         return rule, ""
     own = [same(out, "x", 1, rows_of_the_law(v.id)[1].x) for v, out in runs if lifted(v)]
     return ("S2", AT_THE_START) if own and all(own) else ("I1", AS_THE_STEPS)
+
+
+def too_far(answers: Answers, layer: str) -> bool:
+    """Return whether falls of leaning blocks from rest are right, and others off by more in a row than their weight
+    would make."""
+    rest, moving = [], []
+    for vector, out in answers:
+        q = vector.inputs
+        if vector.layer != layer or q.get("a") is not None or not q["g"] >= 1 or not is_clear(vector):
+            continue
+        if np.any(q["v"]):
+            moving.append(in_weights(q, out))
+        elif np.any(q["Lambda"] != np.eye(3)):
+            rest.append(in_weights(q, out))
+    return len(rest) >= SOME and max(rest) <= NEAR and sum(w > FAR for w in moving) > 1
+
+
+def in_weights(q: dict[str, Any], out: dict[str, Any]) -> float:
+    """Return what the place of a falling block is off by in the second row, by the way of its weight; infinite where
+    none is shown."""
+    t, g = 1 / float(q["output_rate"]), float(q["g"])
+    fall = g * t * t / 2
+    try:
+        return float(np.max(np.abs(np.asarray(out["x"], float)[1] - q["x"] - t * q["v"] + [0, 0, fall]))) / fall
+    except (KeyError, TypeError, ValueError, IndexError):
+        return np.inf
 
 
 def on_time(answers: Answers) -> bool:

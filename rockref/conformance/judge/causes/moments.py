@@ -1,4 +1,5 @@
-"""Whether a moment that is wrong speaks of the sum (A2), or of the attitude that turns it into body axes (A3).
+"""Whether a moment that is wrong speaks of the sum (A2), of the attitude that turns it into body axes (A3), or of the
+velocities after a step (S1).
 
 An attitude that turns the moments of normal forces rightly does so with those of friction. One that turns otherwise
 leaves the size of a moment as it is, and the moments of an upright block.
@@ -26,6 +27,9 @@ SOME = 2
 OF_FRICTION = (
     "The moments of normal forces are turned into body axes as they should be; that of friction is another one."
 )
+SECOND = "Moments of the start turn the block as they should; after a step they are wrong where dampers work."
+ALONE = "What forces move is right in every run, and what they turn is not: it is the moment."
+TIED = "Friction of feet that are tied turns the block as it should; that of feet that touch anew does not."
 TURNED = "The moment has the right size and points another way, where the block leans; upright blocks turn rightly."
 
 
@@ -39,14 +43,45 @@ def rule_of_a_moment(answers: Answers, checks: Sequence[Check], check: Check) ->
         on_ice = [
             v.id for v, _ in answers if v.layer == check.layer and v.rule == "A3" and not np.any(v.inputs["mu_0"])
         ]
-        return ("A2", OF_FRICTION) if len(on_ice) >= SOME and not failed & set(on_ice) else (check.rule, "")
+        if len(on_ice) < SOME or failed & set(on_ice):
+            return check.rule, ""
+        tied = [v.id for v, _ in answers if v.layer == check.layer and is_dragged(v) and np.all(v.inputs["anchored"])]
+        anew = out.get("F") is None and not np.all(vector.inputs["anchored"])
+        return ("T5", TIED) if anew and len(tied) >= SOME and not failed & set(tied) else ("A2", OF_FRICTION)
     if check.rule == "A2" and check.name == "Lambda@1" and points_another_way(vector, out):
         shown = [moments(v, out) for v, out in answers if v.layer == check.layer and is_upright(v)]
         largest = max((float(np.linalg.norm(wanted)) for _, wanted in shown), default=0.0)
         upright = [pair for pair in shown if not np.linalg.norm(pair[1]) <= SIZE["LS"] * largest]
         right = all(is_as_it_should_be(*pair, SIZE[check.layer]) for pair in upright)
         return ("A3", TURNED) if len(upright) >= SOME and right else (check.rule, "")
+    if check.name == "W@1" and check.layer == "L5s" and damped_after_a_step(answers, failed):
+        return "S1", SECOND
     return check.rule, ""
+
+
+def damped_after_a_step(answers: Answers, failed: set[str]) -> bool:
+    """Return whether the moments of all starts are right, and those after a step where no damper works."""
+    runs = [v for v, _ in answers if v.layer == "L5s" and v.rule in ("A2", "A3")]
+    first = {v.id for v in runs if "Lambda@1" in v.expect}
+    springs = {v.id for v in runs if "W@1" in v.expect and not np.any(v.inputs["C_N"])}
+    return len(first) >= SOME and bool(springs) and not failed & (first | springs)
+
+
+def is_dragged(vector: Vector) -> bool:
+    """Return whether friction turns the block in a run that shows the attitude after a step."""
+    return bool(np.any(vector.inputs["mu_0"])) and "Lambda@1" in vector.expect
+
+
+def rule_of_a_turn_alone(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
+    """Return A2 or A3, and a sentence, for a turn that is wrong where no place is, in runs that show both; its own rule
+    elsewhere."""
+    both = {v.id for v, _ in answers if v.layer == check.layer and {"x@1", "Lambda@1"} <= v.expect.keys()}
+    wrong = [c for c in checks if c.failed and c.weighed and not c.follows and c.layer == check.layer]
+    names = [c.name for c in wrong if c.vector in both]
+    if not check.name.startswith("Lambda@") or names.count("Lambda@1") < SOME or "x@1" in names:
+        return check.rule, ""
+    of_moments = [c for c in wrong if c.rule == "A2" and c.name == "Lambda@1"]
+    return rule_of_a_moment(answers, checks, of_moments[0])[0] if of_moments else "A2", ALONE
 
 
 def is_upright(vector: Vector) -> bool:

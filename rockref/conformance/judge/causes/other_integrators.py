@@ -12,9 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.judge.causes.data_flow import law_extrapolated
+from rockref.conformance.judge.causes.data_flow import is_clear, law_extrapolated
+from rockref.conformance.judge.causes.falls import TOO_FAR, too_far
 from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
-from rockref.conformance.judge.compare_answer import Check
+from rockref.conformance.judge.compare_answer import Check, compare_one
 from rockref.conformance.vectors import Vector
 
 Answers = Sequence[tuple[Vector, dict[str, Any]]]
@@ -28,8 +29,12 @@ STEADY = 1e-9
 #: in each step: 3 where it changes before the place, 4 or more where it changes after it; 2 where the place loses the
 #: same in each step. Decided: between these.
 GROWTH = 2.5
+#: A coefficient of friction beyond every cone, as short runs have it. Decided.
+HELD = 2.0**20
+SLID = "Anchors of feet that never slide are right: those of feet that slide are not."
 SUMMED = "Springs alone turn the block as they should, and move it otherwise."
 RATE = "Springs alone push as they should; dampers turn the block as they should, and move it otherwise."
+STICKING = "Where feet stick, friction moves the block as it should; where they slide on, it does not."
 SLOWED = "The rates of a ball that nothing turns change."
 PULLED = "What the place of a drifting block is off by grows faster than the steps: its velocity changes."
 
@@ -47,15 +52,46 @@ def cut(rows: Any) -> Any:
         return rows
 
 
-def rule_of_sixteen_steps(answers: Answers, check: Check) -> tuple[str, str]:
+def rule_of_sixteen_steps(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
     """Return the rule that a failure of LS speaks of, and a sentence where that is another than its own."""
     if check.rule == "S2" and gains_speed(answers):
         return "A1", PULLED
+    if check.rule == "A1" and is_clear(next(v for v, _ in answers if v.id == check.vector)) and too_far(answers, "LS"):
+        return "I1", TOO_FAR
     if check.rule == "I2" and balls_are_slowed(answers):
         return "I5", SLOWED
     if check.rule == "N1":
         return rule_of_pushes(answers)
+    if check.rule == "T5" and anchors_are_right(answers, checks, check):
+        return "T4", SLID
+    if check.rule == "A1" and sticking_is_right(answers, checks, check):
+        return "T4", STICKING
     return check.rule, ""
+
+
+def sticking_is_right(answers: Answers, checks: Sequence[Check], check: Check) -> bool:
+    """Return whether forces of the start are right, and friction moves the block as it should where feet stick: what
+    is wrong of a block that slides on is left by its sliding, and not the sum."""
+    told = next(v for v, _ in answers if v.id == check.vector)
+    stick = [(v, out) for v, out in answers if v.layer == "LS" and v.rule == "T1" and "x@1" in v.expect]
+    stick = [(v, out) for v, out in stick if out.get("F") is not None]
+    if not np.any(told.inputs["mu_0"]) or any(c.failed and c.layer == "L5s" for c in checks):
+        return False
+    return len(stick) > 1 and all(compare_one("x@1", v, out, "scheme").grade != "outside" for v, out in stick)
+
+
+def anchors_are_right(answers: Answers, checks: Sequence[Check], check: Check) -> bool:
+    """Return whether the anchors of all feet that never slide are right in runs that show them, and the run that is
+    told slides."""
+    failed = {c.vector for c in checks if c.failed and c.layer == "LS"}
+    told = next(v for v, _ in answers if v.id == check.vector)
+    held = [v.id for v, _ in answers if v.layer == "LS" and v.rule == "T5" and never_slides(v)]
+    return not never_slides(told) and len(held) > 1 and not failed & set(held)
+
+
+def never_slides(vector: Vector) -> bool:
+    """Return whether no force makes the feet of a run slide."""
+    return bool(np.min(vector.inputs["mu"]) >= HELD)
 
 
 def rule_of_pushes(answers: Answers) -> tuple[str, str]:

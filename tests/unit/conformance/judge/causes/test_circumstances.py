@@ -18,6 +18,7 @@ from rockref.conformance.judge.causes.one_foot import rule_of_one_foot
 from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
 from rockref.conformance.judge.causes.steps_of_a_run import step_is_wrong
 from rockref.conformance.judge.compare_answer import Check
+from tests.unit.conformance.judge.causes.hidden_runs import verdict_on_hidden
 
 
 @pytest.fixture(scope="module")
@@ -182,3 +183,14 @@ def test_feet_that_touch_anew_near_their_old_anchors_speak_of_the_anchor(right):
     answers = [*wrong, *(a for a in right if a[0].id not in {v.id for v, _ in near})]
     check = Check(told[0], "L5s", "T1", "F_T@0", "outside", float("inf"))
     assert rule_in_common(answers, check, "T1")[0] == "T5"
+
+
+def test_anchors_of_feet_that_slid_are_told_from_those_of_feet_that_stuck():
+    def anchor(F_T, u_t, s, v_slide, stick, K_T, C_T):
+        stretch = s - u_t
+        size = np.maximum(np.sqrt(np.sum(stretch**2, axis=-1, keepdims=True)), 1e-300)
+        length = np.sqrt(np.sum(F_T**2, axis=-1, keepdims=True)) / K_T[..., None]
+        return np.where(stick[..., None], s, u_t + length * stretch / size)
+
+    found = verdict_on_hidden(anchor=anchor)
+    assert found.rule == "T4" and "those of feet that slid" in found.says, (found.rule, found.says, found.check)

@@ -7,12 +7,12 @@ import pytest
 
 from rockref.conformance import vectors
 from rockref.conformance.backends import richardson, rule_set
-from rockref.conformance.backends.law import RulesBackend
+from rockref.conformance.backends.law import NumpyEngine, RulesBackend
 from rockref.conformance.backends.other_scheme import kick_and_drift
 from rockref.conformance.backends.rule_set import law
 from rockref.conformance.judge.causes.flags import without_lost_numbers
 from rockref.conformance.judge.compare_answer import Check
-from rockref.conformance.judge.findings import judge
+from rockref.conformance.judge.findings import Findings, answered, ask_by_finer_steps, judge
 from rockref.conformance.judge.verdict import verdict
 from rockref.model.contact import point_kinematics
 
@@ -100,11 +100,59 @@ def test_anchors_that_turn_with_the_block_speak_of_anchors(shown):
     assert named(Other(shown, step=step))[0] == "T5"
 
 
+def test_where_feet_stick_rightly_a_block_that_slides_on_speaks_of_its_anchors():
+    def anchor(F_T, u_t, s, *others):
+        return 2 * law().anchor(F_T, u_t, s, *others) - s
+
+    rule, found = named(Other((*HIDDEN, "F", "anchored"), anchor=anchor))
+    assert rule == "T4" and "Where feet stick" in found.says, (rule, found.check)
+
+
+def in_plate_axes(rules, problem, state, inertia):
+    """The step, with rates that are made of the momentum in plate axes."""
+    after = kick_and_drift(rules, problem, state, inertia)
+    J = problem.block.inertia
+    return replace(after, W=np.linalg.solve(J, after.Lambda @ J @ after.W))
+
+
+def test_rates_that_jump_in_no_time_are_no_turn():
+    assert named(Other(step=in_plate_axes))[0] == "I5"
+
+
 def test_a_ball_that_nothing_turns_keeps_its_rates():
     def body_moment(Lambda, M):
         return rule_set.law().body_moment(Lambda, M) - 0.05
 
     assert named(Other(body_moment=body_moment))[0] in ("A2", "I5")
+
+
+class Uneven:
+    """The law's runs, off by some bars of a falling block's place, with a sign that changes from one step to its half;
+    `order` of the step by which that becomes less."""
+
+    def __init__(self, vector, order):
+        self.vector, self.order = vector, order
+
+    def simulate(self, problem):
+        rows = NumpyEngine().simulate(problem)
+        rows = dict(rows) if isinstance(rows, dict) else {k: getattr(rows, k) for k in ("t", *SHOWN)}
+        parts = float(self.vector.inputs["step"]) / problem.step
+        sign = 1 if round(np.log2(parts)) % 2 == 0 else -1
+        off = 5 * self.vector.expect["x@1"].bar * sign / parts**self.order
+        return rows | {"x": np.array(rows["x"]) + np.array([[0.0], [1.0]]) * off}
+
+
+SHOWN = ("W", "x", "Lambda", "F", "anchored")
+
+
+@pytest.mark.parametrize(("order", "wrong"), [(2, False), (0, True)])
+def test_what_goes_with_the_step_is_no_mistake(order, wrong):
+    vector = next(v for v in vectors.layer("LS") if v.id == "LS-A1-0005")
+    backend, found = Uneven(vector, order), Findings({}, "scheme", ("LS",))
+    found.checks = answered(backend, vector, "scheme", found.answers)
+    assert found.failures, "outside at the stated step"
+    ask_by_finer_steps(backend, found)
+    assert bool(found.failures) is wrong
 
 
 def test_numbers_that_are_lost_tell_less_than_wrong_ones():

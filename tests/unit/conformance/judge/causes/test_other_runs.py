@@ -5,9 +5,14 @@ import pytest
 
 from rockref.conformance import vectors
 from rockref.conformance.backends.call import ask
-from rockref.conformance.backends.law import NumpyEngine
+from rockref.conformance.backends.law import NumpyEngine, RulesBackend
+from rockref.conformance.backends.rule_set import law
+from rockref.conformance.faults.run import BlackBox
 from rockref.conformance.judge.causes.other_runs import cause_of
 from rockref.conformance.judge.compare_answer import compare
+from rockref.conformance.judge.findings import judge
+from rockref.conformance.judge.verdict import verdict
+from tests.unit.conformance.judge.causes.hidden_runs import Hidden
 
 
 @pytest.mark.parametrize(("turned", "rule"), [(0.0, "A1"), (1e-6, "N1")])
@@ -22,3 +27,29 @@ def test_normal_forces_that_move_the_block_wrongly_and_turn_it_rightly_are_summe
     checks = [c for vector, out in answers for c in compare(vector, out)]
     told = next(c for c in checks if c.failed and c.rule == "N1" and c.name == "x@1")
     assert cause_of(answers, checks, told, "float64")[0] == rule
+
+
+def along_the_height():
+    """Contact and the sum of forces: normal forces push along the height of the block."""
+    seen = []
+
+    def contact(rules, problem, state, x, Lambda, v, W):
+        seen[:] = [Lambda]
+        return law().contact(rules, problem, state, x, Lambda, v, W)
+
+    def force(F, mass, g):
+        push = F[..., 2].sum(axis=-1)[..., None]
+        return law().force(F, mass, g) + push * (seen[0][..., :, 2] - [0, 0, 1])
+
+    return {"contact": contact, "force": force}
+
+
+def shown(**planted):
+    return BlackBox(RulesBackend(law().replace(**planted)))
+
+
+@pytest.mark.parametrize("backend", [Hidden, shown])
+def test_a_push_that_goes_sideways_without_friction_is_summed_wrongly(backend):
+    """Forces that are shown are right, and all failures follow from where they move the block."""
+    found = verdict(judge(backend(**along_the_height()), ["L5s"]))
+    assert found.rule == "A1", (found.rule, found.says, found.check)

@@ -1,4 +1,6 @@
-"""What turns are off by tells the increment from the exponential."""
+"""What turns are off by tells the increment from the exponential; what falls are off by, the velocity."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -6,9 +8,11 @@ import pytest
 from rockref.conformance import vectors
 from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine
+from rockref.conformance.backends.rule_set import law
 from rockref.conformance.judge.causes.falls import free
 from rockref.conformance.judge.causes.slips import exponential
 from rockref.conformance.judge.causes.turns import angular_acceleration, rule_of_a_turn
+from tests.unit.conformance.judge.causes.hidden_runs import verdict_on_hidden
 
 
 def turned(off):
@@ -57,3 +61,12 @@ def test_turns_that_are_right_where_the_start_brings_its_moment_speak_of_a_momen
             out["Lambda"][2:] += second
         answers.append((v, out))
     assert rule_of_a_turn(answers, "I3")[0] == rule
+
+
+def test_a_fall_that_is_off_by_more_than_a_weight_makes_speaks_of_the_velocity():
+    def start(rules, problem):
+        q = problem.start
+        return law().start(rules, replace(problem, start=replace(q, v=np.squeeze(q.Lambda @ q.v[..., None], -1))))
+
+    found = verdict_on_hidden(start=start)
+    assert found.rule == "I1" and "it is the velocity" in found.says, (found.rule, found.says, found.check)

@@ -1,0 +1,31 @@
+"""Runs that show no forces tell a decision or a term where they are those of the law with other inputs."""
+
+import numpy as np
+import pytest
+
+from rockref.conformance.backends.rule_set import law
+from tests.unit.conformance.judge.causes.hidden_runs import verdict_on_hidden
+
+
+def kept_nearby(xi, u_t, s, anchored):
+    """A foot that touches anew within a millimetre of its old anchor keeps it."""
+    near = np.hypot(*np.moveaxis(u_t - s, -1, 0)) < 1e-3
+    return law().touch(xi, u_t, s, anchored | near)
+
+
+def never_slides_slowly(size, threshold):
+    """A foot sticks up to ten times the cone."""
+    return law().sticks(size, 10 * threshold)
+
+
+@pytest.mark.parametrize(
+    ("planted", "rule", "words"),
+    [
+        ({"touch": kept_nearby}, "T5", "keep an old anchor"),
+        ({"sticks": never_slides_slowly}, "T2", "never slide"),
+        ({"trial": lambda u_t, s, v, K_T, C_T: law().trial(u_t, s, v, 1.001 * K_T, C_T)}, "T1", ""),
+    ],
+)
+def test_runs_of_the_law_with_other_inputs_tell_the_rule(planted, rule, words):
+    found = verdict_on_hidden(**planted)
+    assert found.rule == rule and words in found.says, (found.rule, found.says, found.check)
