@@ -8,8 +8,7 @@ import pytest
 
 from rockref.measure.reading.table import Table
 from rockref.measure.reading.timebase import regular_samples
-from rockref.model.errors import InputError
-from tests.refusal import refused
+from tests.refusal import refusal, refused
 
 
 def table(t):
@@ -187,8 +186,68 @@ def test_what_is_said_of_a_late_start():
 
 def test_two_rows_are_enough_for_a_clock_and_one_is_not():
     assert len(regular_samples(table([0.0, 0.001]), 1000.0)[0]) == 2
-    with pytest.raises(InputError, match=r"one row holds no motion.*E-SHORT]"):
-        regular_samples(table([0.0]), 1000.0)
+    said = ("E-SHORT", "run.csv", "one row holds no motion", "Export the run again.")
+    assert refusal(regular_samples, table([0.0]), 1000.0) == said
+
+
+def stamps_alone(t):
+    """A table of times without a rate that would tell when its rows were taken."""
+    return Table(Path("run.csv"), MappingProxyType({"t": t}), MappingProxyType({"t": "t_s"}), "", ())
+
+
+WANDERING = CLEAN + 0.45e-3 * np.sin(2.1 * np.arange(1000))
+TICKS = np.arange(1000) // 4 * 4e-3
+EVENLY = "No sample is missing for that: rows were put at even intervals, 1000 a second."
+
+
+@pytest.mark.parametrize(
+    ("t", "kept", "what", "cure"),
+    [
+        (WANDERING, True, "intervals between samples differ from 1/1000 s by up to 78 %",
+         "The time stamps were kept as they are."),
+        # Read four at a time: stamps tell of the reading.
+        (TICKS + 2e-5 * (np.arange(1000) % 4), False,
+         "time stamps come in bunches of 4, and rows over duration are 1000 Hz", EVENLY),
+        (np.arange(1000) // 2 * 2e-3 + 2e-5 * (np.arange(1000) % 2), False,
+         "time stamps come in bunches of 2, and rows over duration are 1000 Hz", EVENLY),
+        # What a clock of whole milliseconds rounds off, and no more.
+        (np.floor(np.arange(1000) / 0.87) / 1e3, False,
+         "intervals between samples differ from 1/870 s by up to 74 %",
+         "No sample is missing for that: rows were put at even intervals, 870.003 a second."),
+    ],
+)  # fmt: skip
+def test_without_rates_the_stamps_themselves_say_whether_rows_were_taken_at_them(t, kept, what, cure):
+    rate = float(what.partition("1/")[2].split()[0]) if "1/" in what else 1000.0
+    got, _, filled, notices = regular_samples(stamps_alone(t), rate)
+    assert filled == () and np.array_equal(got, t) is kept
+    assert [str(n) for n in notices] == [f"run.csv, column t_s: {what}. {cure} [W-JITTER]"]
+    if not kept:
+        assert np.ptp(np.diff(got)) < 1e-12
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_rows_alike_in_a_still_stretch_are_no_row_twice(first):
+    """Two rows a tick of the clock, all alike; as many as the stated rate has. One more stands there twice."""
+    place = first + np.arange(1999)
+    t = 0.01 + place // 2 / 1000.0
+    still = MappingProxyType({"t": t, "wx": np.zeros(len(t))})
+    names = MappingProxyType({"t": "t_s", "wx": "wx_deg_s"})
+    assert len(regular_samples(Table(Path("run.csv"), still, names, "", ()), 2000.0)[0]) == 1999
+    more = MappingProxyType({"t": np.append(t, t[-1]), "wx": np.zeros(len(t) + 1)})
+    error = refused(regular_samples, Table(Path("run.csv"), more, names, "", ()), 2000.0)
+    assert error.cure == "The row stands there twice: remove one."
+
+
+def test_a_row_twice_late_in_a_record_is_told_with_its_line():
+    t = 0.05 + np.sort(np.append(CLEAN, CLEAN[700]))
+    error = refused(regular_samples, table(t), 1000.0)
+    assert (error.cure, error.where) == ("The row stands there twice: remove one.", "run.csv, line 703, column t_s")
+
+
+def test_a_clock_that_stands_is_told_at_its_second_row():
+    error = refused(regular_samples, table(np.full(50, 0.01)), 1000.0)
+    assert error.where == "run.csv, line 3, column t_s" and error.what == "time goes from 0.01 to 0.01 s"
+    assert error.cure == "The clock stands still: export the time stamps in finer units."
 
 
 def test_what_is_said_of_time_that_runs_back():

@@ -8,7 +8,7 @@ import pytest
 
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.noise import noise_floor, smallest_step
-from rockref.model.errors import InputError
+from tests.refusal import refusal
 
 
 @pytest.mark.parametrize("noise", [1e-4, 8.7e-4, 5e-3])
@@ -117,8 +117,8 @@ def test_slow_records_have_windows_of_eight_samples():
     found = noise_floor(t, crv)
     assert np.allclose(found.sigma, [np.median(rms[calm[:, k], k]) for k in range(3)], rtol=1e-9)
     assert np.allclose(found.calm, calm.sum(axis=0) * 4 / 50.0, rtol=1e-9)
-    with pytest.raises(InputError, match=r"31 samples, less than four windows of 8.*E-SIGNAL]"):
-        noise_floor(t[:31], crv[:31])
+    said = ("E-SIGNAL", "arguments t, crv", "31 samples, less than four windows of 8", "Give a longer run.")
+    assert refusal(noise_floor, t[:31], crv[:31]) == said
 
 
 STEPS = np.rint(10.0 * np.random.default_rng(2).standard_normal(300))
