@@ -129,7 +129,7 @@ def _overtake(t: np.ndarray, rate: float) -> bool:
     """
     off = t - np.arange(len(t)) / rate
     even = np.abs(np.diff(np.sort(t)) * rate - 1.0).max() < 0.5
-    return not even and float(np.ptp(off - off[0])) < LATEST_STAMP
+    return not even and float(np.ptp(off)) < LATEST_STAMP
 
 
 def _check_equal(table: Table, equal: np.ndarray, rate: float) -> None:

@@ -139,6 +139,7 @@ def test_the_channel_says_what_of_a_record_is_heard():
     told = heard(iter(CHAIN), T, record)
     assert np.array_equal(told, np.abs(record) < TOP * 0.8) and not told.all()
     assert heard(CHAIN[:-1], T, record).all() and heard([], T, record).shape == record.shape
+    assert np.array_equal(heard(CHAIN[-1:], T, record), told)
 
 
 def test_a_users_own_effect_hears_what_it_has_shown_itself():

@@ -249,7 +249,8 @@ def test_the_low_pass_of_the_data_sheet_has_its_bandwidth_and_the_step_of_the_si
 def test_limits_and_steps_take_anything_that_is_an_array():
     assert saturate([3.0, -3.0, 1.0], 2.0).tolist() == [2.0, -2.0, 1.0]
     assert quantise([0.24, -0.26, 0.0], 0.5).tolist() == [0.0, -0.5, 0.0]
-    assert isinstance(saturate([1.0], None), np.ndarray) and isinstance(quantise([1.0], 0.0), np.ndarray)
+    assert isinstance(saturate([1.0], None), np.ndarray) and quantise([1.3], 0.0).tolist() == [1.3]
+    assert isinstance(quantise([1.3], 0.0), np.ndarray)
     gyro = Gyro(1000.0, 0.0, 300.0, 0.0, range=2.0)
     assert limited(np.arange(2.0), np.array([[3.0, 0.0, -3.0]] * 2), gyro).tolist() == [[2.0, 0.0, -2.0]] * 2
 

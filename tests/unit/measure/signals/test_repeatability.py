@@ -53,7 +53,7 @@ PATTERN = 1e-3 * np.random.default_rng(7).standard_normal((20, 3))
 
 @pytest.fixture(scope="module")
 def base(rocking):
-    """Two seconds at 1 kHz: three main impacts, and the pattern on all axes."""
+    """Two seconds at 1 kHz: two main impacts, and the pattern on all axes."""
     t = np.arange(2000) / 1000.0
     return t, rocking().crv(t) + np.tile(PATTERN, (100, 1))
 
@@ -84,6 +84,14 @@ def test_mean_band_and_spread_of_two_runs(base):
     # They differ on Y from the beginning, and nowhere else.
     assert found.horizon.tolist() == [np.inf, found.t[0], np.inf]
     assert found.impacts == pytest.approx(np.tile(main_impacts(t, crv).times - zero, (2, 1)), abs=1e-12)
+
+
+def test_impacts_are_those_that_all_runs_have(base):
+    t, crv = base
+    times = main_impacts(t, crv).times
+    short = t < 0.5 * (times[0] + times[1])
+    found = repeatability([base, (t[short], crv[short])])
+    assert found.impacts == pytest.approx(np.zeros((2, 1)), abs=1e-12)
 
 
 def test_the_noise_of_unlike_runs_is_their_quadratic_mean(base, rocking):
