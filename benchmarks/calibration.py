@@ -62,7 +62,7 @@ def summary(marks: list[dict[str, Any]]) -> str:
         "controls not none": (sum(m.get("false_alarm", False) for m in marks), kinds["control"]),
         "single first": (sum(m.get("first", False) for m in marks if m["kind"] == "single"), kinds["single"]),
         "pairs both": (sum(m.get("both", False) for m in marks), kinds["pair"]),
-        "outsiders": (sum(m.get("abstained", False) for m in marks), kinds["outsider"]),
+        "unlisted effects": (sum(m.get("abstained", False) for m in marks), kinds["unlisted"]),
         "wrong name": (sum(m["wrong_name"] for m in marks), len(marks)),
         "right": (sum(m["right"] for m in marks), len(marks)),
     }

@@ -22,8 +22,8 @@ from pathlib import Path
 import numpy as np
 from peers import body_line, need_lammps, setting
 
-from rockref.blind.cases import generator, hidden, making, outsiders
-from rockref.blind.cases.plan import CONTROL, OUTSIDER, PAIR, SINGLE, Case
+from rockref.blind.cases import generator, hidden, making, unlisted
+from rockref.blind.cases.plan import CONTROL, PAIR, SINGLE, UNLISTED, Case
 from rockref.blind.simulator import posture, recorder
 from rockref.blind.simulator.kernel import ARM
 from rockref.blind.simulator.release import SECONDS
@@ -71,7 +71,7 @@ CASES = (
     case(SINGLE, 16, "cable_restraint"), case(SINGLE, 17, "lingering_wire_pull"), case(SINGLE, 18, "foot_defects"),
     case(SINGLE, 19, "release_velocity"), case(SINGLE, 20, "gyro_misalignment"),
     case(PAIR, 21, "uneven_foot_friction", "plate_tilt"), case(PAIR, 22, "rolling_resistance", "gyro_scale"),
-    case(OUTSIDER, 23, "magnet"), case(OUTSIDER, 24, "packet_loss"),
+    case(UNLISTED, 23, "magnet"), case(UNLISTED, 24, "packet_loss"),
 )  # fmt: skip
 
 
@@ -207,7 +207,7 @@ def agreement() -> bool:
     for id in ("none", *HELD_TO):
         world = build(TABLE)
         if id != "none":
-            draw = hidden.EFFECTS.get(id) or outsiders.OUTSIDERS[id]
+            draw = hidden.EFFECTS.get(id) or unlisted.EFFECTS[id]
             draw(world, np.random.default_rng(3), 1.0, False, (HERTZ | ALONG_Y).get(id, {}))
         world["shake_phase"] = 0.0
         theirs = simulate(world, TABLE["theta_0"], seconds=0.9)

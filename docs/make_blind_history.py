@@ -16,7 +16,7 @@ SHARES = (
     ("single effects first", "first", "singles"),
     ("pairs, both named", "both", "pairs"),
     ("unlisted effects, right axis and phase", "right_card", "outsiders"),
-    ("twins", "twins_right", "twins"),
+    ("matched pairs", "twins_right", "twins"),
     ("wrong names", "wrong_names", "n"),
     ("numbers inside their interval", "inside", "intervals"),
 )

@@ -67,13 +67,14 @@ def keep(text: str, output: Path | None, model: "Model", save_model: Path | None
 
 
 def write_or_print(text: str, output: Path | None) -> None:
-    """Write a text to a file, or print it where no file is named."""
+    """Write a text to a file and say so, or print it where no file is named."""
     from rockref.model.storage import write_text
 
     if output is None:
         typer.echo(text, nl=False)
     else:
         write_text(output, text)
+        typer.echo(f"wrote {output}")
 
 
 def with_files(record: Callable[[], dict[str, Any]]) -> Callable[[list[Path]], str]:

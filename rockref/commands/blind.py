@@ -76,14 +76,14 @@ def make(
 
 def _chosen(seed: int, effects: str, numbers: tuple[int, int] | None) -> list:
     """Return cases of the words of --effects; with numbers, so many near the source and of other blocks."""
-    from rockref.blind.cases import plan
+    from rockref.blind.cases import plan, unlisted
     from rockref.model.errors import InputError
 
     words = [word.strip() for word in effects.split(",") if word.strip()]
     try:
         chosen = plan.listed(seed, words, *(numbers or ()))
     except ValueError as error:
-        known = ", ".join(["none", plan.EACH, *plan.EFFECTS, *plan.OUTSIDERS, *plan.FAULTS])
+        known = ", ".join(["none", plan.EACH, *plan.EFFECTS, *unlisted.EFFECTS, *plan.FAULTS])
         cure = f"Write id or id:size, a size of 2 being twice the typical one. Known are {known}."
         raise InputError("E-EFFECT", "--effects", f"does not understand {error}", cure) from None
     if not chosen:

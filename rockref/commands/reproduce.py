@@ -49,7 +49,7 @@ def reproduce(
     calibrated block beside its symmetric twin under artificial signals).
 
     `source` and `earthquake` keep finished parts in the folder: after an interruption the same command goes on. With
-    the compiled engine `source` takes a quarter of an hour on two cores, and `earthquake` a minute or two.
+    the compiled engine `source` takes three minutes of processor time, and `earthquake` a minute or two.
 
     \b
     Example:

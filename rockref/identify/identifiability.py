@@ -14,10 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rockref.identify.candidates import STEP
 from rockref.identify.genes import Space
 from rockref.identify.polish import Polished
-from rockref.identify.refine import RESIDUALS, covariance
+from rockref.identify.refine import COMPARED_STEP, covariance
 from rockref.identify.target import Target
 from rockref.identify.unknowns import Unknowns, residuals
 from rockref.model.parameters import TABLE_3_1
@@ -87,7 +86,7 @@ def profile(
     values, slopes = unknowns.in_units(end.z)
     shifts = np.linspace(-reach, reach, points)
     J, others = end.jacobian, np.arange(len(end.z)) != i
-    r = residuals(space, targets, end.z[None], STEP / RESIDUALS)[0]
+    r = residuals(space, targets, end.z[None], COMPARED_STEP)[0]
     trials = []
     for shift in shifts:
         z = end.z.copy()
@@ -95,5 +94,5 @@ def profile(
         answer = np.linalg.lstsq(J[:, others], -(r + J[:, i] * (z[i] - end.z[i])), rcond=1e-10)[0]
         z[others] += answer
         trials.append(np.clip(z, 0.0, 1.0))
-    rs = residuals(space, targets, np.array(trials), STEP / RESIDUALS)
+    rs = residuals(space, targets, np.array(trials), COMPARED_STEP)
     return values[i] + shifts, np.mean(np.square(rs), axis=1)

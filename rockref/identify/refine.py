@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rockref.identify.candidates import STEP
 from rockref.identify.descent import FACTORS, LEAST_GAIN, Descent, Place, damped_steps, ridge
 from rockref.identify.unknowns import Unknowns, mean_squares
 
@@ -25,6 +26,8 @@ from rockref.identify.unknowns import Unknowns, mean_squares
 #: Table 3.1 the step changes the response by 0.42 of the noise (mean square), a fourth of it by 0.019, an eighth by
 #: 0.004, a sixteenth by 0.0006; the truth and what is twelve standard errors from it differ by 0.03.
 SLOPES, RESIDUALS, JUDGED = 4, 8, 32
+#: Steps with which places are compared and judged after a descent with the step of the search [s].
+COMPARED_STEP, JUDGED_STEP = STEP / RESIDUALS, STEP / JUDGED
 #: Change of the response along an axis, in parts of the noise (quadratic mean), one after the other where no step
 #: gains. Decided: a fourth of the step does 0.14; above 1 the bend shows.
 CHANGES = (1.0, 0.5, 0.3)

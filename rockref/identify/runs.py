@@ -14,7 +14,7 @@ import numpy as np
 from rockref.identify.candidates import STEP
 from rockref.identify.genes import Space
 from rockref.identify.polish import Polished
-from rockref.identify.refine import RESIDUALS
+from rockref.identify.refine import COMPARED_STEP
 from rockref.identify.target import Target
 from rockref.identify.unknowns import residuals
 
@@ -67,7 +67,7 @@ def run_error(space: Space, end: Polished, target: Target, use: str) -> RunError
         best = grid[_least(rms(grid, STEP))]
         low, high = max(0.0, best - width), min(1.0, best + width)
     grid = np.append(np.linspace(low, high, LAST_ANGLES), end.u[tilt_gene])
-    errors = rms(grid, STEP / RESIDUALS)
+    errors = rms(grid, COMPARED_STEP)
     k = _least(errors)
     best, found, stated = float(grid[k]), errors[k], errors[-1]
     u = end.u.copy()

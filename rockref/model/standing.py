@@ -133,10 +133,12 @@ def descent(q: np.ndarray, at, stiffness) -> np.ndarray | None:
         if least + share * stiffness < abs(least):
             continue
         try:
-            trial = -np.linalg.solve(curvature + share * stiffness * np.eye(3), gradient)
+            # LAPACK knows no long double. What a step lacks in digits the next one finds.
+            stiff = (curvature + share * stiffness * np.eye(3)).astype(float)
+            trial = -np.linalg.solve(stiff, gradient.astype(float))
         except np.linalg.LinAlgError:
             continue
-        step = lower(q, trial, energy, gradient, at)
+        step = lower(q, trial.astype(q.dtype), energy, gradient, at)
         if step is not None:
             return step
     return None

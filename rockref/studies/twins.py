@@ -12,12 +12,11 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
-from rockref.identify.candidates import STEP
 from rockref.identify.genes import chromosome, space_12
 from rockref.identify.identifiability import identifiability
 from rockref.identify.identification import identify
 from rockref.identify.polish import Effort
-from rockref.identify.refine import JUDGED
+from rockref.identify.refine import JUDGED_STEP
 from rockref.identify.search import Settings
 from rockref.identify.target import twin
 from rockref.identify.unknowns import Unknowns, signal_costs
@@ -68,7 +67,7 @@ def twin_experiment(model: Model, seed: int, settings: Settings, effort: Effort 
         "seed": seed,
         "cost": end.found.cost,
         "chi2": end.polished.chi2,
-        "chi2_of_the_truth": signal_costs(space, [reference], STEP / JUDGED, [at_truth])[0],
+        "chi2_of_the_truth": signal_costs(space, [reference], JUDGED_STEP, [at_truth])[0],
         "at_floor": end.at_floor,
         "parameters": {
             name: {"off": float(off[i]), "error": spread[name], "determined": determined[name]}

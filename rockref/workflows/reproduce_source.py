@@ -53,7 +53,7 @@ PARTS = ("response", "sensitivity", "scenarios", "reduction", "identification", 
 
 @dataclass(frozen=True)
 class Budget:
-    """How much each study may compute. Decided: all of it in a quarter of an hour on two cores."""
+    """How much each study may compute. Decided: all of it in a few minutes of two cores."""
 
     sensitivity: tuple[float, int] = (6.0, 10)  # duration [s], trials
     steps: tuple[float, ...] = STEPS

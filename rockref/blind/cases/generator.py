@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.blind.cases import faulty, hidden, outsiders, scaling
+from rockref.blind.cases import faulty, hidden, scaling, unlisted
 from rockref.blind.cases.blocks import NEAR, OTHER, Runs, Setup, other_block
 from rockref.blind.simulator import recorder
 from rockref.blind.simulator.release import simulate
@@ -49,7 +49,7 @@ def trace(setup: Setup, id: str, size: float, seed: int) -> float:
     for hides in (False, True):
         world, rng = _world(setup, setup.parameters), np.random.default_rng([int(seed), 5])
         if hides:
-            (hidden.EFFECTS.get(id) or outsiders.OUTSIDERS[id])(world, rng, size, False, {})
+            (hidden.EFFECTS.get(id) or unlisted.EFFECTS[id])(world, rng, size, False, {})
         world.sensor.noise, world.sensor.resolution = 0.0, 1e-12
         first = replace(setup, runs=setup.runs[:1])
         ((_, rates),), _ = _record(first, world, setup.parameters["theta_0"], [], np.random.default_rng(seed), rng)
@@ -76,7 +76,7 @@ def make_case(
     Parameters
     ----------
     folder : made if missing. `name` : of the experiment; the folder's name by default.
-    effects : ids of hidden effects or of outsiders, each alone or with a size (1: typical); None or empty: a control.
+    effects : ids of listed or unlisted effects, each alone or with a size (1: typical); None or empty: a control.
     seed : of everything that is drawn.
     setup : block, instrument and campaign; the source's by default. `runs`, `seconds` : instead of the setup's.
     other_form : whether another functional form hides behind the name; None: by chance, 3 in 10.
@@ -94,7 +94,7 @@ def make_case(
     world = _world(setup, parameters)
     found = []
     for id, size in wanted:
-        draw = hidden.EFFECTS.get(id) or outsiders.OUTSIDERS[id]
+        draw = hidden.EFFECTS.get(id) or unlisted.EFFECTS[id]
         form = bool(rng.random() < 0.3) if other_form is None else other_form
         found.append({"id": id, "size": size, **draw(world, rng, size, form, (values or {}).get(id, {}))})
     tables, truths = _record(setup, world, parameters["theta_0"], found, rng, sensor_rng)

@@ -1,6 +1,6 @@
 """Which cases a blind test has, near the source's block and of others.
 
-Controls, single effects at three sizes, two at once, effects in no list, twins, and faulty records.
+Controls, single effects at three sizes, two at once, unlisted effects, matched pairs, and faulty records.
 """
 
 from __future__ import annotations
@@ -11,16 +11,18 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from rockref.blind.cases import unlisted
 from rockref.blind.cases.blocks import NEAR, OTHER, RUNS, Runs
 from rockref.blind.cases.faulty import FAULTS
 from rockref.blind.cases.hidden import EFFECTS
-from rockref.blind.cases.outsiders import OUTSIDERS
 
-CONTROL, SINGLE, PAIR, OUTSIDER, TWIN, FAULTY = "control", "single", "pair", "outsider", "twin", "faulty"
+CONTROL, SINGLE, PAIR, UNLISTED, MATCHED, FAULTY = "control", "single", "pair", "unlisted", "matched", "faulty"
+#: Words of an earlier format of the truth.
+EARLIER = {"outsider": UNLISTED, "twin": MATCHED}
 #: Share of each kind; after the proportions of a study of verdicts (controls a fifth, half single effects).
-SHARES = {CONTROL: 0.20, SINGLE: 0.50, PAIR: 0.10, OUTSIDER: 0.10, TWIN: 0.06, FAULTY: 0.04}
+SHARES = {CONTROL: 0.20, SINGLE: 0.50, PAIR: 0.10, UNLISTED: 0.10, MATCHED: 0.06, FAULTY: 0.04}
 #: Kinds of which a small plan has one each, in this order.
-FIRST = (CONTROL, SINGLE, OUTSIDER, PAIR, FAULTY)
+FIRST = (CONTROL, SINGLE, UNLISTED, PAIR, FAULTY)
 #: decided: of three blocks one is not near Table 3.1.
 OTHERS = 3
 #: Stands for every effect of the catalogue in a list of words.
@@ -49,16 +51,16 @@ UNLIKE = (
     ("compliant_support", "spin_friction"),
     ("gyro_bandwidth", "quadratic_drag"),
 )
-#: Outsiders of a plan. Not among them: creeping feet, whose spring and damper a refit of the baseline may well be able
-#: to stand in for; whether they are another law or another value is then a matter of words.
-ABROAD = tuple(id for id in OUTSIDERS if id != "creeping_feet")
+#: Unlisted effects of a plan. Not among them: creeping feet, whose spring and damper a refit of the baseline may well
+#: be able to stand in for; whether they are another law or another value is then a matter of words.
+PLANNED = tuple(id for id in unlisted.EFFECTS if id != "creeping_feet")
 #: Height of the centre of mass, m: a tilt of the plate times this is the eccentricity that turns the block as much.
 LEVER = 0.344
 
 
 @dataclass(frozen=True)
 class Case:
-    """One case to be made: its kind, effects with sizes, seed, block, runs, set values, the class of twins, a fault."""
+    """One case to be made: its kind, effects with sizes, seed, block, runs, values, class of a matched pair, fault."""
 
     kind: str
     effects: tuple[tuple[str, float], ...]
@@ -72,12 +74,14 @@ class Case:
 
 
 def counts(n: int, block: str = NEAR) -> dict[str, int]:
-    """Return how many cases of each kind n cases of a block have; twins, by twos, near the source alone, from ten cases
-    on."""
+    """Return how many cases of each kind n cases of a block have.
+
+    Matched pairs are of blocks near the source alone, from ten cases on.
+    """
     if n < len(FIRST):
         return {kind: int(kind in FIRST[:n]) for kind in SHARES}
     found = {kind: max(1, int(share * n)) for kind, share in SHARES.items()}
-    found[TWIN] = 2 * round(SHARES[TWIN] * n / 2 + 0.25) if n >= 10 and block == NEAR else 0
+    found[MATCHED] = 2 * round(SHARES[MATCHED] * n / 2 + 0.25) if n >= 10 and block == NEAR else 0
     found[SINGLE] += n - sum(found.values())
     return found
 
@@ -103,11 +107,11 @@ def _drawn(rng: np.random.Generator, n: int, block: str) -> list[Case]:
     for i in range(wanted[PAIR]):
         a, b = (likes, unlikes)[i % 2][(i // 2) % len(CONFUSABLE)]
         cases.append(Case(PAIR, ((str(a), 1.0), (str(b), 1.0)), _seed(rng)))
-    abroad = rng.permutation(ABROAD)
-    for i in range(wanted[OUTSIDER]):
-        cases.append(Case(OUTSIDER, ((str(abroad[i % len(abroad)]), (1.0, 1.5)[i // len(abroad) % 2]),), _seed(rng)))
-    for number in range(wanted[TWIN] // 2):
-        cases += _twins(rng, number)
+    order = rng.permutation(PLANNED)
+    for i in range(wanted[UNLISTED]):
+        cases.append(Case(UNLISTED, ((str(order[i % len(order)]), (1.0, 1.5)[i // len(order) % 2]),), _seed(rng)))
+    for number in range(wanted[MATCHED] // 2):
+        cases += _matched_pair(rng, number)
     faults = rng.permutation(list(FAULTS))
     for i in range(wanted[FAULTY]):
         cases.append(Case(FAULTY, (), _seed(rng), fault=str(faults[i % len(faults)])))
@@ -145,14 +149,14 @@ def _listed(word: str, rng: np.random.Generator, block: str) -> Case:
     effects = []
     for part in [] if word == "none" else word.split("+"):
         id, _, size = part.partition(":")
-        if id not in EFFECTS and id not in OUTSIDERS:
+        if id not in EFFECTS and id not in unlisted.EFFECTS:
             raise ValueError(id)
         effects.append((id, _size(part, size)))
     if len({id for id, _ in effects}) < len(effects):
         raise ValueError(word)
     kind = CONTROL if not effects else PAIR if len(effects) > 1 else SINGLE
-    if any(id in OUTSIDERS for id, _ in effects):
-        kind = OUTSIDER
+    if any(id in unlisted.EFFECTS for id, _ in effects):
+        kind = UNLISTED
     return Case(kind, tuple(effects), _seed(rng), block=block)
 
 
@@ -181,7 +185,7 @@ def _singles(rng: np.random.Generator) -> Iterator[tuple[str, float]]:
                 yield id, SIZES[(i + turn) % len(SIZES)]
 
 
-def _twins(rng: np.random.Generator, number: int) -> list[Case]:
+def _matched_pair(rng: np.random.Generator, number: int) -> list[Case]:
     """Return two cases with one seed that differ in the cause alone, in a campaign too poor to tell the causes
     apart."""
     seed = _seed(rng)
@@ -196,5 +200,5 @@ def _twins(rng: np.random.Generator, number: int) -> list[Case]:
         names = ("quadratic_drag", "rolling_resistance")
         values, runs = {}, RUNS[:3]
     return [
-        Case(TWIN, ((id, 0.5),), seed, runs, {id: values[id]} if id in values else {}, names, False) for id in names
+        Case(MATCHED, ((id, 0.5),), seed, runs, {id: values[id]} if id in values else {}, names, False) for id in names
     ]

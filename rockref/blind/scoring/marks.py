@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from rockref.blind.cases.blocks import NEAR
-from rockref.blind.cases.plan import CONTROL, FAULTY, OUTSIDER, PAIR, SINGLE, TWIN
+from rockref.blind.cases.plan import CONTROL, EARLIER, FAULTY, MATCHED, PAIR, SINGLE, UNLISTED
 from rockref.blind.scoring.sizes import covered, size_error, stated
 
 #: Verdicts that say of one or two effects that they are there.
@@ -28,7 +28,7 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
     truth : of `make_case`, with `kind` and `class`; verdict : what `rockref diagnose --json` prints. Marks that have no
     meaning for the kind of case are missing.
     """
-    kind, true = truth["kind"], [e["id"] for e in truth["effects"]]
+    kind, true = EARLIER.get(truth["kind"], truth["kind"]), [e["id"] for e in truth["effects"]]
     word, said = str(verdict.get("verdict", "error")), [str(e) for e in verdict.get("effects") or []]
     right = set(true) | set(truth.get("class") or ())
     found: dict[str, Any] = {
@@ -48,7 +48,7 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
     if kind == CONTROL:
         found["false_alarm"] = word in CLAIMS or word == "something_else"
         found["false_name"] = word in NAMING
-    elif kind in (SINGLE, TWIN):
+    elif kind in (SINGLE, MATCHED):
         held = word in CLAIMS and true[0] in said and len(said) <= LARGEST_CLASS
         found["in_class"] = held
         found["first"] = held and said[0] == true[0]
@@ -58,12 +58,12 @@ def mark(truth: dict[str, Any], verdict: dict[str, Any]) -> dict[str, Any]:
     elif kind == PAIR:
         found["both"] = word == "pair" and set(said) == set(true)
         found["one"] = word in CLAIMS and bool(set(said) & set(true))
-    elif kind == OUTSIDER:
+    elif kind == UNLISTED:
         found["abstained"] = word == "something_else"
         found["card"] = found["abstained"] and on_card(truth["effects"], verdict.get("signature") or {})
     elif kind == FAULTY:
         found["refused"] = word in REFUSALS
-    if kind in (SINGLE, PAIR, TWIN) and word in CLAIMS:
+    if kind in (SINGLE, PAIR, MATCHED) and word in CLAIMS:
         found |= _sizes(truth["effects"], verdict, said)
     if kind in (SINGLE, PAIR):
         found["gap_closed"] = gap_closed(verdict.get("error") or {})
@@ -77,7 +77,7 @@ def is_right(kind: str, true: list[str], right: set[str], word: str, said: list[
     """
     if kind == CONTROL:
         return word == "none"
-    if kind == OUTSIDER:
+    if kind == UNLISTED:
         return word == "something_else"
     if kind == FAULTY:
         return word in REFUSALS

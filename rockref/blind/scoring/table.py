@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from rockref.blind.cases.blocks import NEAR, OTHER
-from rockref.blind.cases.plan import CONTROL, FAULTY, OUTSIDER, PAIR, SINGLE, SIZES, TWIN
+from rockref.blind.cases.plan import CONTROL, FAULTY, MATCHED, PAIR, SINGLE, SIZES, UNLISTED
 from rockref.blind.scoring.intervals import wilson
 
 Marks = list[dict[str, Any]]
@@ -45,7 +45,7 @@ def scores(marks: Marks, block: str = NEAR) -> list[dict[str, Any]]:
 
 def _shares(marks: Marks) -> list[dict[str, Any]]:
     """Return shares of verdicts, by kind of case."""
-    of = {kind: [m for m in marks if m["kind"] == kind] for kind in (CONTROL, SINGLE, PAIR, OUTSIDER, TWIN, FAULTY)}
+    of = {kind: [m for m in marks if m["kind"] == kind] for kind in (CONTROL, SINGLE, PAIR, UNLISTED, MATCHED, FAULTY)}
     single, sound = of[SINGLE], [m for m in marks if m["kind"] != FAULTY]
     by_size = [
         _share(f"single: truth first, {size:g} x typical", (m["first"] for m in single if m["sizes"] == [size]))
@@ -65,10 +65,10 @@ def _shares(marks: Marks) -> list[dict[str, Any]]:
         _share("all: wrong name", (m["wrong_name"] for m in marks)),
         _share("two effects: both named", (m["both"] for m in of[PAIR])),
         _share("two effects: one of them", (m["one"] for m in of[PAIR])),
-        _share("in no list: something else", (m["abstained"] for m in of[OUTSIDER])),
-        _share("in no list: with the right axis and phase", (m["card"] for m in of[OUTSIDER])),
-        _share("twins: truth in a class of at most three", (m["in_class"] for m in of[TWIN])),
-        _share("twins: called a class", (m["as_class"] for m in of[TWIN])),
+        _share("in no list: something else", (m["abstained"] for m in of[UNLISTED])),
+        _share("in no list: with the right axis and phase", (m["card"] for m in of[UNLISTED])),
+        _share("matched pairs: truth in a class of at most three", (m["in_class"] for m in of[MATCHED])),
+        _share("matched pairs: called a class", (m["as_class"] for m in of[MATCHED])),
         _share("faulty records: refused", (m["refused"] for m in of[FAULTY])),
         _share("sound records: refused", (m["verdict"] == "refused" for m in sound)),
     ]
@@ -142,8 +142,8 @@ def failures(marks: Marks) -> list[str]:
     lines = []
     for m in marks:
         good = {
-            CONTROL: not m.get("false_alarm", False), SINGLE: m.get("first", False), TWIN: m.get("in_class", False),
-            PAIR: m.get("both", False), OUTSIDER: m.get("card", False),
+            CONTROL: not m.get("false_alarm", False), SINGLE: m.get("first", False), MATCHED: m.get("in_class", False),
+            PAIR: m.get("both", False), UNLISTED: m.get("card", False),
             FAULTY: m.get("refused", False),
         }[m["kind"]]  # fmt: skip
         if not good or m["wrong_name"]:

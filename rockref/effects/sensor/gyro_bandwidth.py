@@ -42,13 +42,13 @@ def undo_low_pass(crv: np.ndarray, rate: float, filters: tuple[tuple[float, floa
     start = 2 * crv[..., :1, :] - crv[..., pad:0:-1, :]
     end = 2 * crv[..., -1:, :] - crv[..., -2 : -pad - 2 : -1, :]
     # The transform sees the mirrored ends side by side: where they jumped, all rows would ring at half the rate.
-    meeting = (start[..., :1, :] + end[..., -1:, :]) / 2 if pad else 0.0
+    meeting = (start[..., :1, :] + end[..., -1:, :]) / 2
     inward = np.sin(np.pi * np.arange(1, pad + 1) / (2 * pad + 2))[:, None] ** 2
     start, end = meeting + inward * (start - meeting), meeting + inward[::-1] * (end - meeting)
     whole = np.concatenate([start, crv, end], axis=-2)
     total = whole.shape[-2]
     s = 2j * np.pi * np.fft.rfftfreq(total, 1 / rate)
-    H = np.ones_like(s)
+    H = np.ones(s.shape)
     for bandwidth, damping in filters:
         omega = natural_frequency(bandwidth, damping)
         H = H * omega**2 / (s * s + 2 * damping * omega * s + omega**2)

@@ -40,7 +40,7 @@ def lines(a: Addition) -> list[str]:
             continue
         # Of a gap within what is known of the noise no share is said.
         closed = a.gap_closed(use) if before["total"] >= GAP * a.noise else None
-        tail = "" if closed is None else f"; {100 * min(closed, 1.0):.0f} % of the gap to the noise floor closed"
+        tail = "" if closed is None else f"; {100 * min(closed, 1.0):.0f} % of the excess above it gone"
         found.append(
             f"{words}: error {before['total']:.4f} to {after['total']:.4f} deg/s RMS, noise floor {a.noise:.4f}{tail}."
         )

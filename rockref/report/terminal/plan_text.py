@@ -39,11 +39,12 @@ def sentences(p: Plan) -> list[str]:
     ]
     if unseen:
         found.append(f"These would not: {', '.join(unseen)}.")
+    before, after = versus["confused_pairs"]
     most = max(versus["ratio_of_limits"], key=lambda id: versus["ratio_of_limits"][id])
     found.append(
         f"{len(p.varied.runs)} varied releases in place of {len(p.repeats.runs)} repeats of one: limits are lower by a "
         f"factor of {versus['median_ratio']:.1f} (median), {versus['ratio_of_limits'][most]:.1f} for {most}; "
-        f"{versus['confused_pairs'][1]} pairs stay confused, not {versus['confused_pairs'][0]}."
+        f"{counted(after, 'pair')} of effects would be confused, {before} with the repeats."
     )
     found.append(
         f"The run that would help most next: {best['run']} (tilt in rad, t: turned by 180 degrees). Limits fall by "

@@ -12,7 +12,7 @@ import rockref.blind as blind
 FOLDER = Path(blind.__file__).parent
 OWN = "rockref.blind."
 #: Everything that makes an experiment folder: the simulator, and of the cases what draws and writes one.
-DRAWING = ("blocks", "drawing", "faulty", "generator", "hidden", "hidden_contact", "outsiders", "plan", "scaling")
+DRAWING = ("blocks", "drawing", "faulty", "generator", "hidden", "hidden_contact", "unlisted", "plan", "scaling")
 SIMULATOR = tuple(sorted(path.stem for path in (FOLDER / "simulator").glob("*.py")))
 ALLOWED = {"numpy", "numba"} | set(sys.stdlib_module_names)
 

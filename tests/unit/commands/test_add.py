@@ -23,8 +23,8 @@ def test_error_before_and_after_in_words(capsys, monkeypatch, tmp_path, made):
     assert code == 0 and len(out.splitlines()) <= 12
     assert out.splitlines()[-1].startswith("Next: rockref compare anywhere --model baseline --model ")
     # (0.25 - 0.07) of (0.25 - 0.05); (0.35 - 0.15) of (0.35 - 0.05).
-    assert "Fit runs: error 0.2500 to 0.0700 deg/s RMS, noise floor 0.0500; 90 % of the gap" in out
-    assert "Held-out runs: error 0.3500 to 0.1500 deg/s RMS, noise floor 0.0500; 67 % of the gap" in out
+    assert "Fit runs: error 0.2500 to 0.0700 deg/s RMS, noise floor 0.0500; 90 % of the excess" in out
+    assert "Held-out runs: error 0.3500 to 0.1500 deg/s RMS, noise floor 0.0500; 67 % of the excess" in out
 
 
 def test_history_survives_the_file(capsys, monkeypatch, tmp_path, made):

@@ -105,9 +105,9 @@ class TestJudging:
 class TestByFiles:
     def test_questions_answers_and_verdict(self, capsys, tmp_path):
         asked, answered = tmp_path / "requests.jsonl", tmp_path / "responses.jsonl"
-        assert run(capsys, "export", "--layers", "L2,L7", "-o", asked) == (0, "", "")
+        assert run(capsys, "export", "--layers", "L2,L7", "-o", asked) == (0, f"wrote {asked}\n", "")
         assert asked.read_text() == offline.text(("L2", "L7"))
-        assert run(capsys, "answer", "numpy", asked, "-o", answered) == (0, "", "")
+        assert run(capsys, "answer", "numpy", asked, "-o", answered) == (0, f"wrote {answered}\n", "")
         # Only what has answers is judged: of all layers, these two.
         code, out, _ = run(capsys, "judge", answered, "--json")
         record = json.loads(out)
@@ -138,7 +138,7 @@ class TestExamples:
     def test_the_tutorial_is_handed_out(self, capsys, tmp_path, words, name):
         text = (ROOT / "examples" / name).read_text(encoding="utf-8")
         assert run(capsys, "example", *words) == (0, text, "")
-        assert run(capsys, "example", *words, "-o", tmp_path / "mine") == (0, "", "")
+        assert run(capsys, "example", *words, "-o", tmp_path / "mine") == (0, f"wrote {tmp_path / 'mine'}\n", "")
         assert (tmp_path / "mine").read_text(encoding="utf-8") == text
 
 

@@ -14,7 +14,7 @@ from tests.unit.discover import fakes
 COMMANDS = {
     "diagnose": (diagnose, "diagnose", ["anywhere"], "quadratic_drag is missing"),
     "fit": (fit_baseline, "fit_baseline", ["anywhere"], "K_N"),
-    "add": (add_effect, "add_effect", ["anywhere", "quadratic_drag"], "90 % of the gap"),
+    "add": (add_effect, "add_effect", ["anywhere", "quadratic_drag"], "90 % of the excess"),
     "plan": (plan, "plan", [], "viscous_friction"),
 }
 

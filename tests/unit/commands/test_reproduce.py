@@ -6,6 +6,9 @@ from pathlib import Path
 import pytest
 
 from rockref.commands import reproduce
+from rockref.report.html.inline import MAX_BYTES
+from rockref.studies.twins import SEEDS
+from rockref.workflows.reproduce_source import PARTS
 from tests.command import run
 
 
@@ -69,8 +72,6 @@ def test_the_earthquake_goes_once_through_on_a_page(capsys, tmp_path, monkeypatc
 
 @pytest.mark.parametrize("study, kept", [("earthquake", True), ("cube", False)])
 def test_an_interrupted_study_says_what_is_kept(capsys, tmp_path, monkeypatch, study, kept):
-    from rockref.commands import reproduce
-
     def stop(asked):
         raise KeyboardInterrupt
 
@@ -99,3 +100,16 @@ def test_once_through_and_a_second_time_from_what_is_kept(capsys, tmp_path):
     before = {p: p.stat().st_mtime_ns for p in (tmp_path / "r/pieces").iterdir()}
     run(capsys, "reproduce", tmp_path / "r", "--quick", "--workers", 1)
     assert {p: p.stat().st_mtime_ns for p in (tmp_path / "r/pieces").iterdir()} == before
+
+
+@pytest.mark.slow
+def test_the_page_of_everything_stays_below_its_limit(capsys, tmp_path):
+    # With the whole budget, whose tables are longer and whose curves are richer than those of --quick.
+    pytest.importorskip("numba")
+    code, _, err = run(capsys, "reproduce", tmp_path / "r", "--workers", 1)
+    assert code == 0, err
+    results = json.loads((tmp_path / "r/results.json").read_text())
+    assert set(results) == set(PARTS) and len(results["twins"]) == len(SEEDS)
+    page = tmp_path / "r/index.html"
+    assert page.read_text(encoding="utf-8").count('src="data:image/png') == len(list(tmp_path.glob("r/figures/*.png")))
+    assert page.stat().st_size < MAX_BYTES

@@ -1,12 +1,13 @@
 """What every effect has: values, absence, limits, and the words in which they are refused."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import FrozenInstanceError, dataclass
 
 import pytest
 
 from rockref import InputError
-from rockref.effects.base import POSITIVE, Effect, Quantity, implausible, limits
+from rockref.effects.base import POSITIVE, Effect, Quantity, implausible, in_json, limits
+from rockref.effects.nothing_added import nothing
 
 
 @dataclass(frozen=True)
@@ -93,6 +94,22 @@ def test_limits_are_those_that_there_are():
     assert limits(Quantity("N", 0.0, 1.0, 2.0, 1.5, least=POSITIVE, most=9.0)) == (
         "a number above 0 and of at most 9 N; plausible is 1 to 2 N"
     )
+
+
+def test_what_adds_nothing_is_an_effect_that_answers_its_question():
+    kind = nothing("NoWind", "loads", "No wind.", "The air stands still.", "F = 0", "this test")
+    assert (kind.__name__, kind.__doc__, kind.__module__) == ("NoWind", "No wind.", "rockref.effects.nothing_added")
+    assert (kind.question, kind.sentence, kind.equation, kind.source) == (
+        "loads", "The air stands still.", "F = 0", "this test"
+    )  # fmt: skip
+    assert kind() == kind() and kind().is_absent()
+    with pytest.raises(FrozenInstanceError):
+        kind().question = "contact"
+
+
+def test_json_has_words_for_the_infinite_and_null_for_what_is_open():
+    assert [in_json(x) for x in (None, math.nan, math.inf, -math.inf)] == [None, None, "inf", "-inf"]
+    assert [in_json(x) for x in (0.0, -2.5)] == [0.0, -2.5]
 
 
 def test_a_number_outside_its_range_is_implausible_unless_it_is_absent():

@@ -48,6 +48,13 @@ def test_an_id_finds_its_effect_and_a_strange_one_its_neighbour():
     assert refusal(find, "Adhesio") == said
     said = ("E-EFFECT", "effect", "there is no effect 'rolling'", "Did you mean 'rolling_resistance'?")
     assert refusal(find, "rolling") == said
+    # Four are named, more are not; of near ones the nearest.
+    assert refusal(find, "uneven")[3] == (
+        "Did you mean 'uneven_foot_stiffness' or 'uneven_foot_damping' or 'uneven_foot_friction' or "
+        "'uneven_contact_normals'?"
+    )
+    assert refusal(find, "gyro")[3] == "`rockref effects` lists them."
+    assert refusal(find, "uneven_foot_frictio")[3] == "Did you mean 'uneven_foot_friction'?"
     said = ("E-EFFECT", "here", "there is no effect 'wind'", "`rockref effects` lists them.")
     assert refusal(find, "wind", "here") == refusal(named, "wind", "here") == said
     assert refusal(named, "wind")[1] == "effect"
@@ -91,6 +98,7 @@ GIVE = "Write gyro_scale:name=number, with commas between."
         ("x=1,x=2", "E-KEY", "'x' is given twice", "Give each parameter once."),
         ("1.02", "E-TYPE", "'1.02' is no parameter", GIVE),
         ("x=much", "E-TYPE", "'much' is no number", GIVE),
+        ("02", "E-TYPE", "'02' is no parameter", GIVE),
         ("x=1,02", "E-TYPE", "'02' is no parameter", "The decimal mark is a point: write x=1.02."),
         ("x=1=2", "E-TYPE", "'1=2' is no number", GIVE),
         ("x=1:2", "E-TYPE", "'1:2' is no number", GIVE),

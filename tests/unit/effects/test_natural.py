@@ -15,6 +15,8 @@ TWICE = NaturalUnits(8.0, 2.0)
 
 def test_the_source_block_keeps_all_sizes():
     assert natural_units(Model.table_3_1()) == SOURCE
+    twice = natural_units(Model.table_3_1().replace(mass=8 * 54.0, width=0.2, depth=0.2, height=2 * 0.688))
+    assert (twice.mass, twice.length) == pytest.approx((TWICE.mass, TWICE.length))
 
 
 @pytest.mark.parametrize(
@@ -31,6 +33,8 @@ def test_the_source_block_keeps_all_sizes():
         ("rad/s", 1 / math.sqrt(2)),  # the rate of rocking
         ("N m s2", 8.0 * 2**2),  # c w^2 beside m g R, w^2 as g / R
         ("N s2/m2", 4.0),
+        ("kg2", 64.0),
+        ("1/kg2", 1 / 64.0),
     ],
 )
 def test_factors(unit, factor):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from rockref.effects import scale
 from rockref.effects.base import Effect, Quantity
 from rockref.effects.catalogue import EFFECTS, OF_TOSSES
 from rockref.effects.prior import RIGID, ROLES, SCALES, Prior
@@ -13,6 +14,12 @@ from rockref.effects.scale import from_scale, prior_of, to_scale
 
 KINDS = EFFECTS | OF_TOSSES
 NUMBERS = [(kind, name) for kind in KINDS.values() for name in kind.quantities]
+
+
+@pytest.fixture(autouse=True)
+def computed_anew():
+    """A prior is completed once a process; here every time."""
+    scale._prior_of.cache_clear()
 
 
 @dataclass(frozen=True)
@@ -105,10 +112,11 @@ def test_a_plate_starts_at_several_tones_and_masses_and_a_pull_at_several_sizes(
 
 def test_scales_and_back():
     assert [from_scale(Gust, "range", x) for x in (0.0, 0.5)] == [math.inf, 2.0]
-    assert [to_scale(Gust, "range", x) for x in (math.inf, 2.0, 0.0)] == [0.0, 0.5, 0.0]
+    assert [to_scale(Gust, "range", x) for x in (math.inf, 2.0, 0.5, 0.0)] == [0.0, 0.5, 2.0, 0.0]
     # Twice the compliance of the typical 2 N: the root of two below it. Below a thousandth it is rigid.
     assert from_scale(Squall, "force", 2.0) == pytest.approx(math.sqrt(2.0))
     assert to_scale(Squall, "force", math.sqrt(2.0)) == pytest.approx(2.0)
+    assert to_scale(Squall, "force", 0.5) == pytest.approx(16.0)
     assert from_scale(Squall, "force", RIGID) == to_scale(Squall, "force", 0.0) == 0.0
     assert from_scale(Gust, "scale", 0.7) == to_scale(Gust, "scale", 0.7) == 0.7
 

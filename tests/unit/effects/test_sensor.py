@@ -13,7 +13,7 @@ from rockref.effects.sensor.clock_error import ClockError
 from rockref.effects.sensor.gyro_bandwidth import GyroBandwidth, natural_frequency
 from rockref.effects.sensor.gyro_drift import GyroDrift
 from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
-from rockref.effects.sensor.gyro_saturation import GyroSaturation
+from rockref.effects.sensor.gyro_saturation import FLAT, TOP, GyroSaturation
 from rockref.effects.sensor.gyro_scale import GyroScale
 
 T = np.arange(4000) / 2000
@@ -160,13 +160,27 @@ def test_a_users_own_sensor_acts_before_the_sample_is_taken():
     assert np.array_equal(out, np.clip(ClockError(1.01).sensor(T, hummed), -0.4, 0.4))
 
 
+@pytest.mark.parametrize(
+    "start, seconds, top, flat",
+    [(3.0, 0.9 * FLAT, 0.5, False), (0.0, FLAT, 0.5, True), (0.0, 2 * FLAT, TOP * 0.5, False)],
+)
+def test_a_top_is_flat_where_one_axis_stays_there_for_longer_than_a_cusp(start, seconds, top, flat):
+    """Wherever the clock starts; what two axes show one after the other is no longer for it."""
+    ticks = 8
+    t = start + np.arange(2.0 * ticks) * seconds / ticks
+    rates = np.zeros((len(t), 3))
+    rates[:ticks, 0] = rates[ticks:, 1] = top
+    rates[0, 2] = 0.5
+    assert ({"range": 0.5} in GyroSaturation.seeds_in([(t, rates)])) is flat
+
+
 def test_fits_start_from_a_flat_top_and_from_soft_stops():
     """Hard stops are where the top is flat; soft ones of any strength lie near one of the starts."""
     t = np.arange(0.0, 2.0, 1e-3)
     # With cusps that fall, as those of a rocking block.
     rates = (np.exp(-t) * np.abs(2 * np.mod(t, 0.5) - 0.5))[:, None] * [2.0, 0.1, 0.0]
     assert GyroSaturation.seeds_in([(t, GyroSaturation(0.6).sensor(t, rates))])[0] == {"range": 0.6}
-    assert all("softness" in seed for seed in GyroSaturation.seeds_in([(t, rates)]))
+    assert all(seed["softness"] == 1.0 for seed in GyroSaturation.seeds_in([(t, rates)]))
     for strength in (0.6, 0.8, 0.9):
         seeds = GyroSaturation.seeds_in([(t, GyroSaturation(strength, 1.0).sensor(t, rates))])
         # A step of a fit takes a range by half.

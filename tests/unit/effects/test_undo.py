@@ -9,7 +9,7 @@ from rockref import InputError
 from rockref.effects.base import Effect
 from rockref.effects.catalogue import EFFECTS, QUESTIONS, analogue, heard, measured, undone
 from rockref.effects.sensor.clock_error import ClockError
-from rockref.effects.sensor.gyro_bandwidth import DAMPING, GyroBandwidth, undo_low_pass
+from rockref.effects.sensor.gyro_bandwidth import DAMPING, GyroBandwidth, fast_pad, undo_low_pass
 from rockref.effects.sensor.gyro_drift import GyroDrift
 from rockref.effects.sensor.gyro_misalignment import GyroMisalignment
 from rockref.effects.sensor.gyro_saturation import TOLD, TOP, GyroSaturation
@@ -77,6 +77,60 @@ def test_a_record_of_a_thousand_rows_a_second_shows_steep_flanks_again():
     assert error < 2 * (2 * np.pi * 60 * STEP) ** 2 / 12 and error < 0.03 * np.abs(seen - w[::2])[200:-200].max()
 
 
+@pytest.mark.parametrize("n", [801, 1500, 4001])
+def test_a_record_that_begins_and_ends_in_motion_comes_back_up_to_its_ends(n):
+    w = 0.3 + 0.2 * STEP * np.arange(n)[:, None] * [1.0, 2.0, -1.0]
+    found = undo_low_pass(low_pass(w, STEP, 300.0), 1 / STEP, ((300.0, DAMPING),))
+    # The filter starts settled: 0.75 ms of the slopes of 0.4 rad/s2 are late there, and fade within some rows.
+    np.testing.assert_allclose(found, w, rtol=0, atol=1e-5)
+    # Inside only the regularisation is left, 1e-3 of what a slope has at high frequency.
+    np.testing.assert_allclose(found[200:-200], w[200:-200], rtol=0, atol=1e-9)
+
+
+def test_few_rows_have_an_inverse_of_their_own_length():
+    for n in (1, 2, 3, 5):
+        steady = np.full((n, 3), 0.7)
+        np.testing.assert_allclose(undo_low_pass(steady, 2000.0, ((300.0, DAMPING),)), steady, rtol=1e-12)
+    both = ((300.0, DAMPING), (50.0, 1.0))
+    w = rates(T[:2000])
+    twice = undo_low_pass(undo_low_pass(w, 2000.0, both[:1]), 2000.0, both[1:])
+    # Two low-passes in one inverse: as one after the other, but for the regularisation.
+    assert np.abs(undo_low_pass(w, 2000.0, both) - twice).max() < 5e-3 * np.abs(twice).max()
+
+
+def is_smooth(n):
+    """Whether n has no prime factor above five."""
+    for prime in (2, 3, 5):
+        while n % prime == 0:
+            n //= prime
+    return n == 1
+
+
+@pytest.mark.parametrize("n, pad", [(4000, 1000), (3999, 1000), (7, 1), (1013, 499), (2, 2), (97, 30)])
+def test_ends_are_the_shortest_with_which_the_transform_is_fast(n, pad):
+    found = fast_pad(n, pad)
+    assert found >= pad and is_smooth(n + 2 * found)
+    assert not any(is_smooth(n + 2 * shorter) for shorter in range(pad, found))
+
+
+def test_rows_alone_have_no_slope_to_undo():
+    one, two = np.array([[0.3, 0.0, 0.0]]), np.array([[0.3, 0.0, 0.0], [0.5, 0.0, 0.0]])
+    t, crv = GyroBandwidth(20.0, delay=0.1).undo(T[:1], one)
+    assert t.tolist() == [0.0] and crv is one
+    assert undone([], T[:1], one, 300.0)[1] is one
+    # Two rows have one: a slow sensor has smoothed it.
+    assert np.ptp(GyroBandwidth(20.0).undo(T[:2], two)[1][:, 0]) > 0.2
+    assert np.ptp(undone([], T[:2], two, 20.0)[1][:, 0]) > 0.2
+
+
+def test_instants_are_doubles_and_rates_keep_their_precision():
+    t, crv = T.astype(np.float32), rates(T).astype(np.float32)
+    for effect in (ClockError(1.01), GyroBandwidth(50.0, delay=2e-3)):
+        assert effect.undo(t, crv)[0].dtype == np.float64
+    for effect in (GyroMisalignment(0.1, 0.2, 0.3, xy=0.01), GyroScale(1.1, 0.9, 1.2), GyroDrift(0.1, rate_y=0.1)):
+        assert effect.undo(T, crv)[1].dtype == np.float32, effect.id
+
+
 def test_uneven_rows_have_no_inverse():
     uneven = np.concatenate([T[:50], T[60:110]])
     with pytest.raises(InputError, match="even spacing"):
@@ -131,7 +185,11 @@ def test_the_channel_runs_backwards():
     for i, effect in enumerate(CHAIN[:-1]):
         t, crv = undone(CHAIN[:i] + CHAIN[i + 1 : -1], T, whole, 300.0)
         assert np.abs(crv - rates(t)).max() > 10 * tolerance, effect.id
-    assert np.abs(undone(CHAIN[:-1], T, whole)[1] - rates(1.01 * T - 2e-3)).max() > 10 * tolerance
+    true = rates(1.01 * T - 2e-3)
+    assert np.abs(undone(CHAIN[:-1], T, whole)[1] - true).max() > 10 * tolerance
+    # Soft stops come last of all.
+    stops = GyroSaturation(2.0, 1.0)
+    assert undone([*CHAIN[:-1], stops], T, stops.sensor(T, whole), 300.0)[1] == pytest.approx(true, abs=tolerance)
 
 
 def test_the_channel_says_what_of_a_record_is_heard():

@@ -13,8 +13,7 @@ from rockref.effects.sensor.gyro_scale import GyroScale
 from rockref.measure import prediction
 from rockref.measure.prediction import FINE_RATE, STEP, Prediction, gyro_of, problem_of, solve
 from rockref.measure.records.release import Experiment, Gyro, Run
-from rockref.model.errors import InputError
-from tests.refusal import refused
+from tests.refusal import refusal, refused
 
 GYRO = Gyro(1000.0, 1e-3, 300.0, 0.0)
 MODEL = Model.table_3_1()
@@ -51,8 +50,8 @@ def test_the_side_and_the_tilt_are_those_of_the_run():
 
 @pytest.mark.parametrize("values", [{"t": None}, {"release_tilt": None}])
 def test_what_is_said_of_a_run_that_was_not_opened(values):
-    with pytest.raises(InputError, match=r"its file was not opened.*E-RUN]"):
-        problem_of(MODEL, a_run(**values))
+    said = ("E-RUN", "run 01", "its file was not opened", "Load the runs of this use.")
+    assert refusal(problem_of, MODEL, a_run(**values)) == said
 
 
 @pytest.mark.parametrize(("kind", "gyro"), [("toss", None), ("toss", GYRO), ("release", None)])

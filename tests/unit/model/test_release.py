@@ -136,7 +136,11 @@ def test_posture_is_as_precise_as_the_points(dtype, turned):
 
 def test_many_bodies_at_once_have_the_bits_of_each_alone():
     """Pivots inside and outside, tilted on either side, rounded feet, one pivot that carries all."""
-    models = [MODEL, MODEL.replace(mass=30.0, foot_radius=0.002), MODEL.replace(delta_long=(0.0, 2e-4, 1e-4, 0.0))] * 4
+    models = [
+        MODEL,
+        MODEL.replace(mass=30.0, g=3.7, foot_radius=0.002),
+        MODEL.replace(delta_long=(0.0, 2e-4, 1e-4, 0.0)),
+    ] * 4
     bodies = [model.body() for model in models]
     tilts, rolls = np.linspace(0.001, 0.14, 12), np.array([0.0, 1e-3, -1e-6] * 3 + [0.0] * 3)
     turned = np.arange(12) % 2 == 0

@@ -78,10 +78,10 @@ def test_angular_momentum_is_kept_in_flight(rotor):
 
 def test_a_hung_part_changes_nothing_while_it_is_held():
     # At 3 kHz on all axes the part is as good as glued: the block is the same one, in two pieces.
-    from rockref.blind.cases import outsiders
+    from rockref.blind.cases import unlisted
 
     world = build(NOMINAL)
-    outsiders._hang(world, 3.0, 0.2, (3000.0, 3000.0, 3000.0), 0.1)
+    unlisted._hang(world, 3.0, 0.2, (3000.0, 3000.0, 3000.0), 0.1)
     plain = simulate(build(NOMINAL), 0.117, seconds=0.3)
     split = simulate(world, 0.117, seconds=0.3)
     # The spring gives by g/(2 pi 3000)^2 = 28 nm, the ringing of the start is a hundredth of a resolution.

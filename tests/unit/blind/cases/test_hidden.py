@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rockref.blind.cases import hidden, outsiders
+from rockref.blind.cases import hidden, unlisted
 from rockref.blind.cases.drawing import CATALOGUE, uneven
 from rockref.blind.scoring import sizes
 from rockref.blind.simulator.release import simulate
@@ -13,13 +13,13 @@ from rockref.effects.catalogue import EFFECTS
 
 def drawn(id, size=1.0, other=False, given=None, seed=2):
     world = build(dict(TABLE))
-    truth = (hidden.EFFECTS | outsiders.OUTSIDERS)[id](world, np.random.default_rng(seed), size, other, given or {})
+    truth = (hidden.EFFECTS | unlisted.EFFECTS)[id](world, np.random.default_rng(seed), size, other, given or {})
     return world, truth
 
 
 def test_every_effect_of_the_catalogue_can_be_hidden():
     assert set(hidden.EFFECTS) == set(EFFECTS)
-    assert not set(outsiders.OUTSIDERS) & set(EFFECTS)
+    assert not set(unlisted.EFFECTS) & set(EFFECTS)
 
 
 @pytest.mark.parametrize("id", hidden.EFFECTS)

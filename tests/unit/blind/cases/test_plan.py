@@ -11,11 +11,11 @@ from rockref.blind.cases.plan import (
     CONTROL,
     FAULTY,
     LEVER,
-    OUTSIDER,
+    MATCHED,
     PAIR,
     SINGLE,
     SIZES,
-    TWIN,
+    UNLISTED,
     counts,
     listed,
     plan,
@@ -31,17 +31,17 @@ def test_the_number_is_kept(n, block):
     assert {case.block for case in plan(1, near, other)} == {block}
 
 
-def test_five_cases_have_one_of_each_kind_and_ten_have_twins():
-    kinds = {CONTROL, SINGLE, PAIR, OUTSIDER, FAULTY}
+def test_five_cases_have_one_of_each_kind_and_ten_have_a_matched_pair():
+    kinds = {CONTROL, SINGLE, PAIR, UNLISTED, FAULTY}
     assert set(Counter(case.kind for case in plan(3, 5))) == kinds
-    assert set(Counter(case.kind for case in plan(3, 10))) == kinds | {TWIN}
+    assert set(Counter(case.kind for case in plan(3, 10))) == kinds | {MATCHED}
 
 
-def test_a_third_are_of_other_blocks_and_twins_are_near_the_source():
+def test_a_third_are_of_other_blocks_and_pairs_are_near_the_source():
     assert shared(120) == (80, 40) and shared(1) == (1, 0)
     cases = plan(4, *shared(120))
     assert Counter(case.block for case in cases) == {NEAR: 80, OTHER: 40}
-    assert {case.block for case in cases if case.kind == TWIN} == {NEAR}
+    assert {case.block for case in cases if case.kind == MATCHED} == {NEAR}
 
 
 def test_faulty_records_have_every_fault_and_nothing_hidden():
@@ -67,27 +67,27 @@ def test_two_hundred_cases_have_every_effect_at_every_size():
 
 def test_the_seed_decides():
     assert plan(9, 40) == plan(9, 40) and plan(9, 40) != plan(10, 40)
-    seeds = Counter(case.seed for case in plan(9, 40) if case.kind != TWIN)
+    seeds = Counter(case.seed for case in plan(9, 40) if case.kind != MATCHED)
     assert max(seeds.values()) == 1
 
 
-def test_twins_differ_in_the_cause_alone():
-    twins = [case for case in plan(2, 100) if case.kind == TWIN]
-    assert len(twins) == 6
-    for seed in {case.seed for case in twins}:
-        one, other = [case for case in twins if case.seed == seed]
+def test_pairs_differ_in_the_cause_alone():
+    pairs = [case for case in plan(2, 100) if case.kind == MATCHED]
+    assert len(pairs) == 6
+    for seed in {case.seed for case in pairs}:
+        one, other = [case for case in pairs if case.seed == seed]
         assert one.runs == other.runs and one.same_as == other.same_as
         assert {one.effects[0][0], other.effects[0][0]} == set(one.same_as)
         assert not any(turned for *_, turned in one.runs)
     tilt, shift = (
-        next(c.values[id]["y"] for c in twins if id in c.values) for id in ("plate_tilt", "mass_eccentricity")
+        next(c.values[id]["y"] for c in pairs if id in c.values) for id in ("plate_tilt", "mass_eccentricity")
     )
-    assert abs(shift) / LEVER == pytest.approx(abs(tilt)) or len({c.seed for c in twins}) > 2
+    assert abs(shift) / LEVER == pytest.approx(abs(tilt)) or len({c.seed for c in pairs}) > 2
 
 
 def test_cases_of_ones_own():
     cases = listed(1, ["none", "gyro_scale", "gyro_scale:2", "plate_tilt+gyro_drift", "sloshing"])
-    assert [case.kind for case in cases] == [CONTROL, SINGLE, SINGLE, PAIR, OUTSIDER]
+    assert [case.kind for case in cases] == [CONTROL, SINGLE, SINGLE, PAIR, UNLISTED]
     assert cases[2].effects == (("gyro_scale", 2.0),)
     with pytest.raises(ValueError, match="gyro_scal"):
         listed(1, ["gyro_scal"])

@@ -4,9 +4,8 @@ from dataclasses import fields
 
 import pytest
 
-from rockref.blind.cases import scaling
+from rockref.blind.cases import scaling, unlisted
 from rockref.blind.cases.hidden import EFFECTS
-from rockref.blind.cases.outsiders import OUTSIDERS
 from rockref.blind.simulator.world import SOURCE, TABLE, Block
 
 TWICE = scaling.scale_of(Block(8 * SOURCE.mass, 2 * SOURCE.width, 2 * SOURCE.height), TABLE | {"K_N": 8 * TABLE["K_N"]})
@@ -35,17 +34,17 @@ def test_units_of_a_block_of_twice_the_size(name, power):
 
 def test_every_factor_is_of_something_that_is_hidden():
     parts = {"hung"}
-    assert {name.partition(".")[0] for name in scaling.factors(TWICE)} <= set(EFFECTS) | set(OUTSIDERS) | parts
+    assert {name.partition(".")[0] for name in scaling.factors(TWICE)} <= set(EFFECTS) | set(unlisted.EFFECTS) | parts
 
 
 def test_a_factor_that_is_used_is_there():
     import ast
     import inspect
 
-    from rockref.blind.cases import hidden, hidden_contact, outsiders
+    from rockref.blind.cases import hidden, hidden_contact, unlisted
 
     used = set()
-    for module in (hidden, hidden_contact, outsiders):
+    for module in (hidden, hidden_contact, unlisted):
         for node in ast.walk(ast.parse(inspect.getsource(module))):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "factor":
                 used |= {node.args[0].value} if isinstance(node.args[0], ast.Constant) else set()

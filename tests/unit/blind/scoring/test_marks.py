@@ -9,11 +9,11 @@ from rockref.blind.scoring.sizes import covered, size_error, stated
 from rockref.blind.scoring.table import as_text, failures, scores
 
 
-def truth(kind, *effects, form="catalogue", twins=(), parameters=None, card=None):
+def truth(kind, *effects, form="catalogue", same_as=(), parameters=None, card=None):
     found = [{"id": id, "size": 1.0, "form": form, "parameters": parameters or {}} for id in effects]
     if card:
         found[0]["card"] = card
-    return {"name": "case-001", "kind": kind, "effects": found, "class": list(twins)}
+    return {"name": "case-001", "kind": kind, "effects": found, "class": list(same_as)}
 
 
 def said(word, *effects, **more):
@@ -69,12 +69,19 @@ def test_nothing_found_where_the_verdict_states_that_it_could_be_unseen(word, le
     assert found["below_limit"] is below
 
 
-def test_twins_may_be_called_either_but_nothing_else():
-    twin = truth("twin", "plate_tilt", twins=("plate_tilt", "mass_eccentricity"))
-    found = mark(twin, said("class", "mass_eccentricity", "plate_tilt"))
+@pytest.mark.parametrize(("now", "earlier"), [("matched", "twin"), ("unlisted", "outsider")])
+def test_a_truth_of_an_earlier_format_has_the_marks_of_one_of_today(now, earlier):
+    verdict = said("something_else", signature={"axis": "main", "phase": "impacts"})
+    card = {"axes": ["x"], "phases": ["impacts"]}
+    assert mark(truth(earlier, "gust", card=card), verdict) == mark(truth(now, "gust", card=card), verdict)
+
+
+def test_a_matched_pair_may_be_called_either_but_nothing_else():
+    pair = truth("matched", "plate_tilt", same_as=("plate_tilt", "mass_eccentricity"))
+    found = mark(pair, said("class", "mass_eccentricity", "plate_tilt"))
     assert found["as_class"] and found["in_class"] and not found["wrong_name"]
-    assert not mark(twin, said("named", "mass_eccentricity"))["wrong_name"]
-    assert mark(twin, said("named", "gyro_drift"))["wrong_name"]
+    assert not mark(pair, said("named", "mass_eccentricity"))["wrong_name"]
+    assert mark(pair, said("named", "gyro_drift"))["wrong_name"]
 
 
 @pytest.mark.parametrize(
@@ -91,8 +98,8 @@ def test_pairs():
     assert not half["both"] and half["one"] and not half["wrong_name"]
 
 
-def test_outsiders_and_their_card():
-    case = truth("outsider", "gust", card={"axes": ["x"], "phases": ["impacts"]})
+def test_unlisted_effects_and_their_card():
+    case = truth("unlisted", "gust", card={"axes": ["x"], "phases": ["impacts"]})
     right = {"axis": "main", "phase": "impacts"}
     assert mark(case, said("something_else", signature=right))["card"]
     wrong = mark(case, said("something_else", signature=right | {"axis": "transverse"}))
@@ -178,7 +185,7 @@ def test_the_best_possible_answers_meet_every_goal():
         mark(truth("pair", "plate_tilt", "gyro_drift"), said("pair", "plate_tilt", "gyro_drift")),
         mark(truth("faulty"), said("refused")),
         mark(
-            truth("outsider", "gust", card=card), said("something_else", signature={"axis": "main", "phase": "release"})
+            truth("unlisted", "gust", card=card), said("something_else", signature={"axis": "main", "phase": "release"})
         ),
     ]
     assert all(row["met"] is not False for row in scores(cable + rest))
@@ -216,10 +223,10 @@ def test_goals_of_other_blocks_are_their_own():
         (truth("single", "adhesion"), said("indicated", "adhesion"), True),
         (truth("single", "adhesion"), said("class", "clock_error", "adhesion"), True),
         (truth("single", "adhesion"), said("pair", "adhesion", "clock_error"), False),
-        (truth("twin", "adhesion", twins=("adhesion", "gyro_drift")), said("named", "gyro_drift"), True),
+        (truth("matched", "adhesion", same_as=("adhesion", "gyro_drift")), said("named", "gyro_drift"), True),
         (truth("pair", "plate_tilt", "gyro_drift"), said("named", "plate_tilt"), False),
         (truth("pair", "plate_tilt", "gyro_drift"), said("pair", "gyro_drift", "plate_tilt"), True),
-        (truth("outsider", "gust"), said("something_else"), True),
+        (truth("unlisted", "gust"), said("something_else"), True),
         (truth("faulty"), said("refused"), True),
     ],
 )

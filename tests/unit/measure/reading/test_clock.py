@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rockref.measure.reading.table import Table
-from rockref.measure.reading.timebase import regular_samples
+from rockref.measure.reading.timebase import check_forward, regular_samples
 from rockref.model.errors import InputError
 from tests.refusal import refused
 
@@ -116,6 +116,38 @@ BACK = {
     "a stamp twice": (np.where(np.arange(3000) == 700, TRUE[699], TRUE), "export the time in finer units"),
     "a clock that stands": (np.zeros(3000), "The clock stands still"),
 }  # fmt: skip
+
+#: Few stamps [s], and what to do about the first that does not go forward.
+SORT = "Sort the rows, or remove what was recorded twice."
+CUT = "The clock was set back there, or two records were joined: cut the record before it."
+TWICE = "Two rows have one time: remove what was recorded twice, or export the time in finer units."
+FEW = {
+    "one stamp twice": ([0.0, 0.1, 0.1, 0.2], 1, TWICE),
+    "two neighbours": ([0.0, 0.1, 0.3, 0.2, 0.4], 2, SORT),
+    "the last two": ([0.0, 0.1, 0.3, 0.2], 2, SORT),
+    # Sorted the rows are even, though the one after the next is not yet past.
+    "three in reverse": ([0.0, 0.1, 0.4, 0.3, 0.2, 0.5, 0.6], 2, SORT),
+    "set back for good": ([0.0, 0.1, 0.2, 0.3, 0.15, 0.25, 0.35], 3, CUT),
+    "set back by much": ([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.22, 0.32, 0.42], 5, CUT),
+    "set back at the end": ([0.0, 1.0, 2.0, 3.0, 1.0], 3, CUT),
+    "a counter that wraps": ([0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0, 0.0], 3,
+                             "The counter wraps: add 4 s to all times after each such row."),
+    # The counter does not begin at zero, and wraps by not quite the same every time.
+    "from five on": ([5.0, 6.0, 7.0, 8.0, 5.2, 6.2, 7.2, 8.2, 5.1], 3,
+                     "The counter wraps: add 3.95 s to all times after each such row."),
+    "back, not to the start": ([0.0, 1.0, 2.0, 3.0, 1.2, 2.2, 3.2], 3, CUT),
+    "back by different ways": ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 0.0, 1.0, 2.0, 0.1], 6, CUT),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", FEW)
+def test_times_without_a_stated_rate_only_have_to_run_forward(case):
+    stamps, row, cure = FEW[case]
+    error = refused(check_forward, recorded(stamps, stamps))
+    assert (error.code, error.cure) == ("E-TIME", cure)
+    assert error.what == f"time goes from {stamps[row]:g} to {stamps[row + 1]:g} s"
+    assert error.where == f"run.csv, line {row + 1 + recorded(stamps, stamps).first_line}, column t_s"
+    assert check_forward(recorded(stamps[: row + 1], stamps[: row + 1])) is None
 
 
 @pytest.mark.parametrize("case", BACK)

@@ -11,6 +11,7 @@ from rockref.measure.signals.envelopes import POINTS, envelope_shape, envelopes
 from rockref.measure.signals.impacts import main_impacts
 from rockref.measure.signals.running import running_mean
 from rockref.model.errors import InputError
+from tests.refusal import refusal
 
 
 def saw(t, frequency):
@@ -262,5 +263,5 @@ def test_less_than_a_tenth_of_a_second_is_not_long_whatever_the_time_of_day():
 def test_eight_samples_are_enough_and_seven_are_not():
     t = np.arange(1000) / 1000.0
     assert envelopes(t, np.zeros((1000, 3)), 0.492, 0.5).t[0] == 0.492
-    with pytest.raises(InputError, match=r"7 samples between 0\.493 and 0\.5 s.*E-STRETCH]"):
-        envelopes(t, np.zeros((1000, 3)), 0.493, 0.5)
+    said = ("E-STRETCH", "arguments start, end", "7 samples between 0.493 and 0.5 s", "Give a stretch of the run.")
+    assert refusal(envelopes, t, np.zeros((1000, 3)), 0.493, 0.5) == said

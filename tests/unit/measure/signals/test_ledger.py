@@ -4,7 +4,6 @@ Then the ledger, number by number, at impacts that are given.
 """
 
 import math
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +11,7 @@ import pytest
 
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.ledger import energy_ledger, rocking_block
-from rockref.model.errors import InputError
+from tests.refusal import refusal
 from tests.unit.measure.struck import struck
 
 BLOCK = rocking_block(54.0, 0.1, 0.688)
@@ -20,8 +19,12 @@ ALPHA, P = BLOCK.alpha, BLOCK.rocking_rate
 
 
 def test_block_about_its_edge():
-    assert BLOCK.edge_inertia == pytest.approx(4.0 / 3.0 * 54.0 * BLOCK.radius**2, rel=1e-15)
-    assert BLOCK.spin_inertia == pytest.approx(54.0 * 0.01 / 6.0, rel=1e-15)
+    block = rocking_block(54.0, 0.1, 0.688)
+    assert block.mass == 54.0 and block.radius == pytest.approx(0.5 * math.hypot(0.1, 0.688), rel=1e-15)
+    assert math.tan(block.alpha) == pytest.approx(0.1 / 0.688, rel=1e-15)
+    assert block.edge_inertia == pytest.approx(4.0 / 3.0 * 54.0 * block.radius**2, rel=1e-15)
+    assert block.spin_inertia == pytest.approx(54.0 * 0.01 / 6.0, rel=1e-15)
+    assert rocking_block(0.5, 0.1, 0.688).edge_inertia == pytest.approx(block.edge_inertia / 108.0, rel=1e-15)
     assert BLOCK.rocking_rate**2 == pytest.approx(0.75 * 9.81 / BLOCK.radius, rel=1e-14)
     assert BLOCK.potential(0.0) == 0.0
     assert BLOCK.potential(-0.05) == BLOCK.potential(0.05) > 0.0
@@ -34,8 +37,8 @@ def test_block_about_its_edge():
 )
 def test_block_without_size_is_refused(sizes):
     said = ", ".join(f"{size:g} {unit}" for size, unit in zip(sizes, ("kg", "m", "m"), strict=True))
-    with pytest.raises(InputError, match=rf"{re.escape(said)}.*E-RANGE]"):
-        rocking_block(*sizes)
+    asked = "arguments mass, width, height"
+    assert refusal(rocking_block, *sizes) == ("E-RANGE", asked, said, "Give positive numbers.")
 
 
 def test_loss_in_the_arcs_is_told_from_loss_at_impacts(rocking):

@@ -37,7 +37,7 @@ def test_held_out_runs_are_in_lines_and_columns_where_there_are_some(whole, bare
 
 def test_a_gap_that_was_none_is_not_said_to_be_closed(whole):
     at_noise = replace(whole, before=State((), fakes.errors(whole.noise), whole.before.holdout))
-    assert lines(at_noise)[0].endswith("noise floor 0.0500.") and "% of the gap" in lines(at_noise)[1]
+    assert lines(at_noise)[0].endswith("noise floor 0.0500.") and "% of the excess" in lines(at_noise)[1]
 
 
 def test_the_page_has_a_figure_for_each_kind_of_runs_and_the_history(whole, bare):
@@ -70,4 +70,4 @@ def test_no_share_is_said_of_a_gap_within_the_noise():
     a = fakes.addition()
     near = replace(a, before=State((), fakes.errors(1.01 * a.noise), fakes.errors(2.0 * a.noise)))
     fit, held = lines(near)
-    assert "gap to the noise floor" not in fit and "gap to the noise floor" in held
+    assert "of the excess" not in fit and "of the excess" in held

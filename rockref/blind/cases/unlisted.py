@@ -135,8 +135,8 @@ def creeping_feet(world: World, rng, size, other, given):
     return _told({"stiffness": k, "time": tau}, "feet with a memory", "xyz", LATER)
 
 
-#: Every outsider by its name.
-OUTSIDERS = {
+#: Every unlisted effect by its name.
+EFFECTS = {
     function.__name__: function
     for function in (
         loose_mass_y, loose_mass_x, sloshing, magnet, gust, knock, rotor, packet_loss, ringing_mount, creeping_feet,
