@@ -60,7 +60,9 @@ def too_far(answers: Answers, layer: str) -> bool:
     rest, moving = [], []
     for vector, out in answers:
         q = vector.inputs
-        if vector.layer != layer or q.get("a") is not None or not q["g"] >= 1 or not is_clear(vector):
+        if vector.layer != layer or q.get("a") is not None or not way_of_the_weight(q) > SAME / NEAR:
+            continue
+        if not is_clear(vector):
             continue
         if np.any(q["v"]):
             moving.append(in_weights(q, out))
@@ -72,12 +74,16 @@ def too_far(answers: Answers, layer: str) -> bool:
 def in_weights(q: dict[str, Any], out: dict[str, Any]) -> float:
     """Return what the place of a falling block is off by in the second row, by the way of its weight; infinite where
     none is shown."""
-    t, g = 1 / float(q["output_rate"]), float(q["g"])
-    fall = g * t * t / 2
+    t, fall = 1 / float(q["output_rate"]), way_of_the_weight(q)
     try:
         return float(np.max(np.abs(np.asarray(out["x"], float)[1] - q["x"] - t * q["v"] + [0, 0, fall]))) / fall
     except (KeyError, TypeError, ValueError, IndexError):
         return np.inf
+
+
+def way_of_the_weight(q: dict[str, Any]) -> float:
+    """Return how far a block falls from rest to the second row [m]."""
+    return float(q["g"]) / float(q["output_rate"]) ** 2 / 2
 
 
 def on_time(answers: Answers) -> bool:

@@ -25,10 +25,9 @@ Answers = Sequence[tuple[Vector, dict[str, Any]]]
 SHARE, HARDLY = 1e-5, 1e-2
 #: A share of the rates of a ball by which no integrator changes them. Decided: far above rounding.
 STEADY = 1e-9
-#: How many times as much the place of a drifting block is off after two steps as after one, where its velocity changes
-#: in each step: 3 where it changes before the place, 4 or more where it changes after it; 2 where the place loses the
-#: same in each step. Decided: between these.
-GROWTH = 2.5
+#: How many times as much the place of a drifting block loses in a step as in the step before, where its velocity
+#: changes: 3/2 or more of three steps, 2 or more of two; 1 where the place loses the same in each. Decided: between.
+GROWTH = 1.25
 #: A coefficient of friction beyond every cone, as short runs have it. Decided.
 HELD = 2.0**20
 SLID = "Anchors of feet that never slide are right: those of feet that slide are not."
@@ -155,23 +154,29 @@ def is_ball(vector: Vector) -> bool:
 
 def gains_speed(answers: Answers) -> bool:
     """Return whether blocks that nothing pulls drift with another velocity from step to step."""
-    ratios = [g for v, out in answers if v.layer == "L5s" and v.rule == "S2" for g in growth(v, out)]
+    runs = [(v, out, rows_of_the_law(v.id)) for v, out in answers if v.layer == "L5s" and v.rule == "S2"]
+    runs = [run for run in runs if drifts(run[0], run[2])]
+    longest = max((len(rows) for _, _, rows in runs), default=0)
+    ratios = [g for _, out, rows in runs if len(rows) == longest for g in growth(rows, out)]
     return bool(ratios) and all(g > GROWTH for g in ratios)
 
 
-def growth(vector: Vector, out: dict[str, Any]) -> list[float]:
-    """Return how many times as much the place of a drifting block is off after two steps as after one; nothing where it
-    is right, is pulled, or has fewer rows a step apart."""
-    rows = rows_of_the_law(vector.id)
+def drifts(vector: Vector, rows: Sequence[Any]) -> bool:
+    """Return whether a run of two steps or more has a velocity, and nothing that pulls."""
     q = vector.inputs
-    if len(rows) < 3 or not np.any(q["v"]) or q.get("a") is not None or any(np.any(row.F) for row in rows):
-        return []
+    return len(rows) > 2 and bool(np.any(q["v"])) and q.get("a") is None and not any(np.any(row.F) for row in rows)
+
+
+def growth(rows: Sequence[Any], out: dict[str, Any]) -> list[float]:
+    """Return how many times as much the place of a drifting block loses in the last step as in the step before it;
+    nothing where it is right, or fewer rows are shown."""
     way = rows[1].x - rows[0].x
     try:
-        first, second = (float((np.asarray(out["x"], float)[i] - rows[i].x) @ way) for i in (1, 2))
+        off = [float((np.asarray(out["x"], float)[i] - rows[i].x) @ way) for i in range(len(rows))]
     except (KeyError, TypeError, ValueError, IndexError):
         return []
+    before, last = np.diff(off)[-2:]
     least = 1e-12 * float(way @ way)
-    if not abs(second) > least:
+    if not abs(off[-1]) > least:
         return []
-    return [abs(second) / max(abs(first), least)]
+    return [abs(float(last)) / max(abs(float(before)), least)]

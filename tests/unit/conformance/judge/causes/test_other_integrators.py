@@ -11,6 +11,8 @@ from rockref.conformance.backends.law import NumpyEngine, RulesBackend
 from rockref.conformance.backends.other_scheme import kick_and_drift
 from rockref.conformance.backends.rule_set import law
 from rockref.conformance.judge.causes.flags import without_lost_numbers
+from rockref.conformance.judge.causes.other_integrators import gains_speed
+from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
 from rockref.conformance.judge.compare_answer import Check
 from rockref.conformance.judge.findings import Findings, answered, ask_by_finer_steps, judge
 from rockref.conformance.judge.verdict import verdict
@@ -77,6 +79,17 @@ def dragged(rules, problem, state, inertia):
 def test_a_velocity_that_is_lost_is_no_clock():
     rule, found = named(Other(step=dragged))
     assert rule == "A1" and "faster than the steps" in found.says
+
+
+@pytest.mark.parametrize(
+    ("off", "changes"), [((0, 0, 1, 2), False), ((0, 1, 2, 3), False), ((0, 1, 3, 6), True), ((0, 1, 4, 9), True)]
+)
+def test_a_place_that_loses_the_same_in_each_step_has_its_velocity(off, changes):
+    """A place that is lost from the second step on does as well."""
+    vector = next(v for v in vectors.layer("L5s") if v.id == "L5s-S2-0002")
+    x = np.array([row.x for row in rows_of_the_law(vector.id)])
+    lost = 0.01 * np.array(off)[:, None] * (x[1] - x[0])
+    assert gains_speed([(vector, {"x": x - lost})]) is changes
 
 
 def half_a_step_first(rules, problem, state, inertia):
