@@ -26,7 +26,6 @@ HELD = {"mu": 2.0**40, "mu_0": 2.0**40}
 INPUTS: tuple[tuple[str, str, dict[str, float | bool]], ...] = (
     ("T2", "feet never slide", HELD),
     ("T5", "feet that touch anew keep an old anchor", {"anchored": True}),
-    ("T5", "all feet touch anew", {"anchored": False}),
     ("T6", "all feet slid", {"sliding": True}),
     ("T6", "no foot slid", {"sliding": False}),
     ("T1", "friction has no dampers", {"C_T": 0.0}),
