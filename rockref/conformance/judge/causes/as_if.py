@@ -1,8 +1,8 @@
-"""Whether runs that show no forces are those of the law with other inputs: feet that never slide, whose anchors are
-kept, or whose dampers are idle.
+"""Whether runs that show no forces are those of the law with other inputs: feet that never slide, or whose anchors
+are kept.
 
-Such an input stands for a decision or a term of the law. A run that is wrong, and equals what the law makes of another
-input, tells that decision or term, whichever rule the run is to show.
+Such an input stands for a decision of the law. A run that is wrong, and equals what the law makes of another
+input, tells that decision, whichever rule the run is to show.
 """
 
 from __future__ import annotations
@@ -26,10 +26,6 @@ HELD = {"mu": 2.0**40, "mu_0": 2.0**40}
 INPUTS: tuple[tuple[str, str, dict[str, float | bool]], ...] = (
     ("T2", "feet never slide", HELD),
     ("T5", "feet that touch anew keep an old anchor", {"anchored": True}),
-    ("T6", "all feet slid", {"sliding": True}),
-    ("T6", "no foot slid", {"sliding": False}),
-    ("T1", "friction has no dampers", {"C_T": 0.0}),
-    ("N1", "there are no normal dampers", {"C_N": 0.0}),
 )
 #: A run is explained where this share at most is left of what it is off by. Decided: integrators lose a hundred
 #: thousandth of what sixteen steps show.

@@ -134,10 +134,11 @@ def anew_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
 
 
 def after_sliding_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
-    """Return whether feet slid in the step before nearly wherever forces are wrong, and anchors of feet that stuck are
-    right."""
+    """Return whether feet slid in the step before nearly wherever forces are wrong, none of them before the start, and
+    anchors of feet that stuck are right."""
     stuck = [f for f in right if np.any(f["later"] & ~f["new"] & f["spring"] & ~f["slid"])]
-    return len(stuck) >= SOME and sum(bool(np.any(f["moved"])) for f in wrong) >= CLEAR * len(wrong)
+    at_start = any(bool(np.any(f["slid"] & ~f["later"])) for f in wrong)
+    return len(stuck) >= SOME and not at_start and sum(bool(np.any(f["moved"])) for f in wrong) >= CLEAR * len(wrong)
 
 
 def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[str, str]:
