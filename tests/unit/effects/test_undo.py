@@ -106,7 +106,7 @@ def is_smooth(n):
     return n == 1
 
 
-@pytest.mark.parametrize("n, pad", [(4000, 1000), (3999, 1000), (7, 1), (1013, 499), (2, 2), (97, 30)])
+@pytest.mark.parametrize("n, pad", [(4000, 1000), (3999, 1000), (7, 1), (1013, 499), (2, 2), (97, 30), (3, 2), (9, 5)])
 def test_ends_are_the_shortest_with_which_the_transform_is_fast(n, pad):
     found = fast_pad(n, pad)
     assert found >= pad and is_smooth(n + 2 * found)
