@@ -108,6 +108,11 @@ class GlobalFit:
         """Return the best over whole records; it alone was fitted to all runs."""
         return self.fields[-1][0]
 
+    def valleys(self, most: int, margin: float) -> list[FittedModel]:
+        """Return the next best in other valleys over whole records, within a margin of the best loss."""
+        first, *others = self.fields[-1]
+        return [h for h in others if h.loss <= margin * first.loss][:most]
+
 
 def global_fit(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> GlobalFit:
     """Fit a hypothesis at the shortest memory from starts over the whole prior, farther and farther, on few runs.

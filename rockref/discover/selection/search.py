@@ -21,8 +21,8 @@ from rockref.discover.fit.floor import floor
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.ridges import kicked
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
-from rockref.discover.fit.starts import global_fit, released
-from rockref.discover.selection.halving import WORTH, halving, proposed, say, sized_at_release, within
+from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
+from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.together import from_anywhere, from_statement
 from rockref.discover.selection.tone import tone
@@ -44,6 +44,8 @@ STAYED = 0.5
 MARGINS = {"S3": 1.06, "F": 1.02}
 #: Models that go on, additions that are refined (by what one step gains, and by what it promises), effects at most.
 BEAM, ADDED, MOST = 4, 2, 3
+#: Other valleys of the law that are followed where the best leaves a little (decided: as many as hypotheses).
+VALLEYS = 4
 #: Hypotheses within the margin beside which one more effect is tried.
 EQUALS = 2
 #: Finalists, the factor on the best objective up to which one is, and the steps that one may take (decided: what is
@@ -51,8 +53,8 @@ EQUALS = 2
 FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
 #: Times that they are compared from the law of the best (decided: twice, should the best change).
 EXCHANGES = 2
-#: Steps at the later stages.
-STEPS = {"S3": 3, "F": 4}
+#: Steps at S3.
+STEPS = 3
 #: Steps at S2 of what S1 smooths away (decided: as many as what comes from S1 takes there).
 SHARPER = 3
 #: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
@@ -115,10 +117,9 @@ class Search:
         """Return those of a field at S2 that stay near the best, at F."""
         self.fitter.widen()
         for h in field:
-            self.fitter.refine(h, S3, STEPS["S3"])
+            self.fitter.refine(h, S3, STEPS)
         field = within(field, BEAM, MARGINS["S3"])
-        for h in field:
-            self.fitter.polish(h, F, STEPS["F"])
+        self.race(field, field)
         self.remember(field)
         return field
 
@@ -184,7 +185,7 @@ class Search:
         progress.begin("starts", "fitting the baseline from other starts", best.name)
         nominal = released(self.fitter, self.nominal())
         found = global_fit(self.fitter, nominal.effects, nominal.z)
-        beam.append(self.settled(found.best))
+        beam.append(self.in_its_valley(found))
         self.problem.say(f"the law from anywhere: mean loss {found.best.loss:.2f}")
         if not self.is_explained(self.best(beam)):
             self.add(beam, self.sharper(beam[-1]))
@@ -245,9 +246,26 @@ class Search:
 
     def anywhere(self, h: FittedModel) -> FittedModel:
         """Return a hypothesis whose law starts over the whole prior; releases and effects start as they are in h."""
-        found = self.settled(global_fit(self.fitter, h.effects, h.z).best)
+        found = self.in_its_valley(global_fit(self.fitter, h.effects, h.z))
         self.problem.say(f"{h.name}, the law from anywhere: mean loss {found.loss:.2f}")
         return found
+
+    def in_its_valley(self, found: GlobalFit) -> FittedModel:
+        """Return the best of a fit from anywhere at S2; where it leaves a little, the best of all its valleys at S3.
+
+        At the shortest memory two valleys of the law may be as low as each other.
+        """
+        best = self.settled(found.best)
+        if not CONTRADICTED < best.loss <= UNEXPLAINED:
+            return best
+        others = found.valleys(VALLEYS, MARGIN)
+        for h in others:
+            self.settled(self.fitter.tempered(h, S1, AGAIN))
+        field = [best.copy(), *others]
+        for h in field:
+            self.fitter.refine(h, S3, STEPS)
+        say(self.fitter, "valleys", field)
+        return self.settled(self.best(field))
 
     def nominal(self) -> FittedModel:
         """Return the baseline at its nominal numbers, before it bends towards what it lacks."""
@@ -262,9 +280,11 @@ class Search:
         """Fit a beam at a longer memory; at the longest let the score test add to the best."""
         self.problem.progress.begin(stage.name, MEMORY[stage.name], self.best(beam).name)
         self.fitter.widen()
-        fit = self.fitter.polish if stage is F else self.fitter.refine
-        for h in beam:
-            fit(h, stage, STEPS[stage.name])
+        if stage is F:
+            self.race(beam, beam)
+        else:
+            for h in beam:
+                self.fitter.refine(h, stage, STEPS)
         beam = within(beam, BEAM, MARGINS[stage.name])
         if stage is F and len(beam[0].effects) < MOST:
             beam = self.joined(beam)
@@ -275,11 +295,11 @@ class Search:
         """Return a beam at F with the additions to its best that gain enough, by the score test."""
         best = beam[0]
         self.test = score_test(self.fitter, self.fitter.evaluate(best, F), F)
-        added = proposals(self.fitter, best, F, ADDED, self.test)
+        added = proposals(self.fitter, self.fitter.evaluate(best.copy(), S3), S3, ADDED)
         added += self.promising(best, self.test, added)
-        for h in added:  # it has seen no smoother stage; at the longest memory alone it may stop half way
-            self.fitter.refine(h, S3, STEPS["S3"])
-            self.fitter.polish(h, F, 2)
+        for h in added:
+            self.fitter.refine(h, S3, STEPS)
+        self.race(added, [*beam, *added])
         self.remember(added)
         bar = best.objective - WORTH
         return within([*beam, *(h for h in added if h.objective < bar)], BEAM, MARGINS["F"])
@@ -302,9 +322,18 @@ class Search:
             less = self.fitter.polish(self.fitter.without(best, e), F, 3)
             found += [less, *(self.fitter.polish(h, F, 2) for h in self.replacements(less, [*beam, *found]))]
         if not any(h.effects == self.problem.carried for h in [*beam, *found]):
-            found.append(self.fitter.polish(self.baseline.copy(), F, 3))
+            found.append(self.fitter.polish(self.nothing(best), F, 3))
         self.remember([*beam, *found])
         return self.converged(best_of_each([*beam, *found, *self.seen.values()]))
+
+    def nothing(self, best: FittedModel) -> FittedModel:
+        """Return the baseline at F with its own law, or with that of the best model, whichever is lower."""
+        bare = best
+        for e in set(best.effects) - set(self.problem.carried):
+            bare = self.fitter.without(bare, e)
+        field = [self.baseline.copy(), bare]
+        self.fitter.evaluate_all(field, F)
+        return self.best(field)
 
     def replacements(self, less: FittedModel, known: Sequence[FittedModel]) -> list[FittedModel]:
         """Return the two best additions to a model at F that are not known yet, and whose first step leads somewhere.
@@ -327,18 +356,20 @@ class Search:
         """
         finalists = sorted((h for h in beam if h.objective <= CLOSE * self.best(beam).objective), key=penalised)
         finalists = finalists[:FINALISTS]
-        self.settle_finalists(finalists, beam)
+        self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
+        self.race(finalists, beam)
         for _ in range(EXCHANGES):
             best = min(beam, key=penalised)
             others = [self.beside(best, h) for h in finalists if not self.holds(h, best)]
             beam += others
-            self.settle_finalists(others, beam)
+            self.race(others, beam)
             if set(min(beam, key=penalised).effects) == set(best.effects):
                 break
         return sorted(best_of_each(beam), key=lambda h: h.objective)
 
-    def settle_finalists(self, field: Sequence[FittedModel], beam: Sequence[FittedModel]) -> None:
-        """Let fits take steps as long as they gain; one stops that at its pace does not come near the best of a beam.
+    def race(self, field: Sequence[FittedModel], beam: Sequence[FittedModel]) -> None:
+        """Let fits take steps at F as long as they gain; one stops that at its pace does not come near the best of a
+        beam.
 
         Near is what an effect has to gain: what stays farther away has no say in the evidence.
         """
@@ -347,14 +378,13 @@ class Search:
             self.fitter.evaluate_all(going, F)
         for left in range(CONVERGED - 1, -1, -1):
             for h in list(going):
-                self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
                 before = h.objective
                 goes_on = self.fitter.polished(h, F)
                 reached = penalised(h) - left * (before - h.objective)
                 if not goes_on or reached > min(map(penalised, beam)) + WORTH:
                     going.remove(h)
         for h in field:
-            self.problem.say(f"finalist {h.name} {h.objective:.0f}")
+            self.problem.say(f"followed {h.name} {h.objective:.0f}")
             self.problem.refined(h, F)
 
     def holds(self, h: FittedModel, best: FittedModel) -> bool:
