@@ -33,6 +33,7 @@ from rockref.discover.listening.records import opened
 from rockref.discover.plan import effect_z
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.provenance import versions
+from rockref.discover.selection.finalists import CONVERGED
 from rockref.discover.selection.halving import halving
 from rockref.discover.selection.score_test import proposals
 from rockref.discover.selection.search import CONTRADICTED, STEPS, Search
@@ -271,7 +272,7 @@ def added_at_once(fitter: Fitter, base: FittedModel, effect: str) -> FittedModel
     before, problem.candidates = problem.candidates, (effect,)
     try:
         (h,) = proposals(fitter, fitter.evaluate(base.copy(), F), F, 1)
-        return fitter.refine(h, F, STEPS["F"])
+        return fitter.refine(h, F, CONVERGED)
     finally:
         problem.candidates = before
 
@@ -282,10 +283,10 @@ def lengthened(fitter: Fitter, h: FittedModel, after: str = "S2") -> tuple[Fitte
     fitter.problem.progress.begin("memory", "refining at longer memories", h.name)
     fitter.widen()
     if after in (S1.name, S2.name):
-        fitter.refine(h, S3, STEPS["S3"])
+        fitter.refine(h, S3, STEPS)
         earlier = h.z.copy()
         fitter.problem.say(f"{h.name} at S3: mean loss {h.loss:.2f}")
-    fitter.refine(h, F, STEPS["F"])
+    fitter.refine(h, F, CONVERGED)
     fitter.problem.say(f"{h.name} at F: mean loss {h.loss:.2f}")
     return h, earlier
 
@@ -325,7 +326,7 @@ def other_starts(
     A third start is only made where two do not end in the same place.
     """
     if earlier is None:
-        earlier = fitter.refine(h.copy(), S3, STEPS["S3"]).z
+        earlier = fitter.refine(h.copy(), S3, STEPS).z
     ends = [(h, earlier)]
     for k in range(1, STARTS):
         fitter.problem.progress.begin("starts again", "checking from another start", h.name)

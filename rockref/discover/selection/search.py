@@ -12,9 +12,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
-
-import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.floor import floor
@@ -22,9 +19,10 @@ from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.ridges import kicked
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
+from rockref.discover.selection.finalists import converged, race
 from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
-from rockref.discover.selection.together import from_anywhere, from_statement
+from rockref.discover.selection.together import from_anywhere, from_statement, leads
 from rockref.discover.selection.tone import tone
 
 #: Mean loss from which innovations contradict a model, and from which nothing explains the runs at S3 and nothing more
@@ -48,24 +46,16 @@ BEAM, ADDED, MOST = 4, 2, 3
 VALLEYS = 4
 #: Hypotheses within the margin beside which one more effect is tried.
 EQUALS = 2
-#: Finalists, the factor on the best objective up to which one is, and the steps that one may take (decided: what is
-#: further above has no probability; fits end by gaining nothing long before that).
-FINALISTS, CLOSE, CONVERGED = 4, 1.02, 8
-#: Times that they are compared from the law of the best (decided: twice, should the best change).
-EXCHANGES = 2
 #: Steps at S3.
 STEPS = 3
 #: Steps at S2 of what S1 smooths away (decided: as many as what comes from S1 takes there).
 SHARPER = 3
 #: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
 REPLACING = 4
+#: Steps of the best model without one of its effects (decided: from its law it comes near at once, or never).
+LESS = 3
 #: Words for the stages of longer memory.
 MEMORY = {"S3": "refining the best models", "F": "testing every effect again at the longest memory"}
-
-
-def penalised(h: FittedModel) -> float:
-    """Return the objective and what each effect has to gain [nat]."""
-    return h.objective + WORTH * len(h.effects)
 
 
 class Search:
@@ -119,7 +109,7 @@ class Search:
         for h in field:
             self.fitter.refine(h, S3, STEPS)
         field = within(field, BEAM, MARGINS["S3"])
-        self.race(field, field)
+        race(self.fitter, field, field)
         self.remember(field)
         return field
 
@@ -172,7 +162,7 @@ class Search:
 
         Where an effect explains the runs and the law stays where it was, no other feet are looked for. Else the
         baseline starts over the whole prior; where that does not explain them, so does the law beside an effect that
-        leads by far; where there is none, an effect and the law are looked for together.
+        leads by far; where none does, an effect and the law are looked for together.
         """
         progress, null = self.problem.progress, self.best(beam)
         progress.begin("effects", f"comparing {self.compared(null)}", null.name)
@@ -185,13 +175,13 @@ class Search:
         progress.begin("starts", "fitting the baseline from other starts", best.name)
         nominal = released(self.fitter, self.nominal())
         found = global_fit(self.fitter, nominal.effects, nominal.z)
-        beam.append(self.in_its_valley(found))
-        self.problem.say(f"the law from anywhere: mean loss {found.best.loss:.2f}")
+        beam.append(alone := self.in_its_valley(found))
+        self.problem.say(f"the law from anywhere: mean loss {alone.loss:.2f}")
         if not self.is_explained(self.best(beam)):
-            self.add(beam, self.sharper(beam[-1]))
+            self.add(beam, self.sharper(alone))
         if leader is not None and not self.is_explained(self.best(beam)):
             beam.append(self.anywhere(leader))
-        if not self.is_explained(self.best(beam)):
+        if not self.is_explained(best := self.best(beam)) and not leads(best, alone.loss):
             self.add(beam, from_anywhere(self.fitter, found))
 
     def sharper(self, h: FittedModel) -> list[FittedModel]:
@@ -281,7 +271,7 @@ class Search:
         self.problem.progress.begin(stage.name, MEMORY[stage.name], self.best(beam).name)
         self.fitter.widen()
         if stage is F:
-            self.race(beam, beam)
+            race(self.fitter, beam, beam)
         else:
             for h in beam:
                 self.fitter.refine(h, stage, STEPS)
@@ -299,7 +289,7 @@ class Search:
         added += self.promising(best, self.test, added)
         for h in added:
             self.fitter.refine(h, S3, STEPS)
-        self.race(added, [*beam, *added])
+        race(self.fitter, added, [*beam, *added])
         self.remember(added)
         bar = best.objective - WORTH
         return within([*beam, *(h for h in added if h.objective < bar)], BEAM, MARGINS["F"])
@@ -319,12 +309,14 @@ class Search:
         for e in best.effects:
             if e in self.problem.carried:
                 continue
-            less = self.fitter.polish(self.fitter.without(best, e), F, 3)
+            less = self.fitter.without(best, e)
+            race(self.fitter, [less], [*beam, *found], LESS)
             found += [less, *(self.fitter.polish(h, F, 2) for h in self.replacements(less, [*beam, *found]))]
         if not any(h.effects == self.problem.carried for h in [*beam, *found]):
             found.append(self.fitter.polish(self.nothing(best), F, 3))
         self.remember([*beam, *found])
-        return self.converged(best_of_each([*beam, *found, *self.seen.values()]))
+        self.problem.progress.begin("without", "comparing the finalists", best.name)
+        return converged(self.fitter, best_of_each([*beam, *found, *self.seen.values()]))
 
     def nothing(self, best: FittedModel) -> FittedModel:
         """Return the baseline at F with its own law, or with that of the best model, whichever is lower."""
@@ -348,54 +340,6 @@ class Search:
         best = self.best(known)
         bar = best.objective + LEAVES[0] * max(start.objective - best.objective, 0.0)
         return [h for h in field if frozenset(h.effects) not in there and h.objective <= bar][:2]
-
-    def converged(self, beam: list[FittedModel]) -> list[FittedModel]:
-        """Fit the finalists until no step gains, and again from the law and the releases of the best of them.
-
-        A fit that stops early, or in a local minimum, lies hundreds of nats too high; a common start compares effects.
-        """
-        finalists = sorted((h for h in beam if h.objective <= CLOSE * self.best(beam).objective), key=penalised)
-        finalists = finalists[:FINALISTS]
-        self.problem.progress.begin("without", "comparing the finalists", self.best(beam).name)
-        self.race(finalists, beam)
-        for _ in range(EXCHANGES):
-            best = min(beam, key=penalised)
-            others = [self.beside(best, h) for h in finalists if not self.holds(h, best)]
-            beam += others
-            self.race(others, beam)
-            if set(min(beam, key=penalised).effects) == set(best.effects):
-                break
-        return sorted(best_of_each(beam), key=lambda h: h.objective)
-
-    def race(self, field: Sequence[FittedModel], beam: Sequence[FittedModel]) -> None:
-        """Let fits take steps at F as long as they gain; one stops that at its pace does not come near the best of a
-        beam.
-
-        Near is what an effect has to gain: what stays farther away has no say in the evidence.
-        """
-        going = list(field)
-        if going:
-            self.fitter.evaluate_all(going, F)
-        for left in range(CONVERGED - 1, -1, -1):
-            for h in list(going):
-                before = h.objective
-                goes_on = self.fitter.polished(h, F)
-                reached = penalised(h) - left * (before - h.objective)
-                if not goes_on or reached > min(map(penalised, beam)) + WORTH:
-                    going.remove(h)
-        for h in field:
-            self.problem.say(f"followed {h.name} {h.objective:.0f}")
-            self.problem.refined(h, F)
-
-    def holds(self, h: FittedModel, best: FittedModel) -> bool:
-        """Return whether h has all effects of the best, and is as low: from the same law it ends where it is."""
-        return set(best.effects) <= set(h.effects) and h.objective <= best.objective
-
-    def beside(self, best: FittedModel, h: FittedModel) -> FittedModel:
-        """Return a hypothesis with the law, the releases and the shared effects of another one."""
-        known = {p.name: z for p, z in zip(self.fitter.parameters(best), best.z, strict=True)}
-        z = [known.get(p.name, own) for p, own in zip(self.fitter.parameters(h), h.z, strict=True)]
-        return replace(h, z=np.array(z))
 
     def remember(self, field: Sequence[FittedModel]) -> None:
         """Keep the best fit of each set of effects at the longest memory."""

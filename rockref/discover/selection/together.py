@@ -71,8 +71,13 @@ def from_statement(
     found = first_pairs(part, few.start(nominal), stages(part)[k])
     found = [on_all_runs(fitter, few, h, nominal) for h in found]
     best = found[0].copy()
-    leads = best.loss - WHITE <= LEADS * (losses[k] - WHITE)
-    return followed(fitter, found, k) if best.loss <= left else [], best if leads else None
+    leader = best if leads(best, losses[k]) else None
+    return followed(fitter, found, k) if best.loss <= left else [], leader
+
+
+def leads(h: FittedModel, alone: float) -> bool:
+    """Return whether an effect leads by far: it leaves next to nothing of what the law alone leaves, a mean loss."""
+    return h.loss - WHITE <= LEADS * (alone - WHITE)
 
 
 def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:

@@ -120,7 +120,3 @@ def test_innovations_that_are_not_white_say_that_an_effect_is_missing(white, oth
     assert engine.outcome_of(gates, fakes.fitted().evidence) == (outcome, "")
     assert engine.outcome_of([], fakes.fitted().evidence)[0] == "not_checked"
     assert {outcome, "not_checked"} <= set(engine.GATES_SAID)
-
-
-def test_the_longest_memory_is_the_last_stage():
-    assert engine.STEPS.keys() == {"S3", F.name}

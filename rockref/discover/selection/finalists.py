@@ -1,0 +1,78 @@
+"""Fits at the longest memory, followed side by side until the best stand at the bottom of their valleys."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.stages import F
+from rockref.discover.selection.halving import WORTH
+from rockref.discover.selection.score_test import best_of_each
+
+#: Steps that a fit may take (decided: fits end by gaining nothing long before that).
+CONVERGED = 8
+#: Finalists, and the factor on the best objective up to which one is (decided: what is further above has no
+#: probability).
+FINALISTS, CLOSE = 4, 1.02
+#: Times that they are compared from the law of the best (decided: twice, should the best change).
+EXCHANGES = 2
+
+
+def penalised(h: FittedModel) -> float:
+    """Return the objective and what each effect has to gain [nat]."""
+    return h.objective + WORTH * len(h.effects)
+
+
+def race(fitter: Fitter, field: Sequence[FittedModel], beam: Sequence[FittedModel], most: int = CONVERGED) -> None:
+    """Let fits take steps as long as they gain; one stops that at its pace does not come near the best of a beam.
+
+    All of them step side by side: a fit gains least just before it turns into its valley, and one that has arrived
+    would stop the others there. Near is what an effect has to gain: what stays farther away has no say in the evidence.
+    """
+    going = list(field)
+    if going:
+        fitter.evaluate_all(going, F)
+    for left in range(most - 1, -1, -1):
+        for h in list(going):
+            before = h.objective
+            goes_on = fitter.polished(h, F)
+            reached = penalised(h) - left * (before - h.objective)
+            if not goes_on or reached > min(map(penalised, beam)) + WORTH:
+                going.remove(h)
+    for h in field:
+        fitter.problem.say(f"followed {h.name} {h.objective:.0f} ({h.loss:.2f})")
+        fitter.problem.refined(h, F)
+
+
+def converged(fitter: Fitter, beam: list[FittedModel]) -> list[FittedModel]:
+    """Return a beam, best first: the finalists fitted until no step gains, and again from the law and the releases of
+    the best of them.
+
+    A fit that stops early, or in a local minimum, lies hundreds of nats too high; a common start compares effects.
+    """
+    limit = CLOSE * min(h.objective for h in beam)
+    finalists = sorted((h for h in beam if h.objective <= limit), key=penalised)[:FINALISTS]
+    race(fitter, finalists, beam)
+    for _ in range(EXCHANGES):
+        best = min(beam, key=penalised)
+        others = [beside(fitter, best, h) for h in finalists if not holds(h, best)]
+        beam += others
+        race(fitter, others, beam)
+        if set(min(beam, key=penalised).effects) == set(best.effects):
+            break
+    return sorted(best_of_each(beam), key=lambda h: h.objective)
+
+
+def holds(h: FittedModel, best: FittedModel) -> bool:
+    """Return whether h has all effects of the best, and is as low: from the same law it ends where it is."""
+    return set(best.effects) <= set(h.effects) and h.objective <= best.objective
+
+
+def beside(fitter: Fitter, best: FittedModel, h: FittedModel) -> FittedModel:
+    """Return a hypothesis with the law, the releases and the shared effects of another one."""
+    known = {p.name: z for p, z in zip(fitter.parameters(best), best.z, strict=True)}
+    z = [known.get(p.name, own) for p, own in zip(fitter.parameters(h), h.z, strict=True)]
+    return replace(h, z=np.array(z))
