@@ -8,7 +8,6 @@ import pytest
 from rockref import Model
 from rockref.discover import fit_baseline as engine
 from rockref.discover.fit.fitter import FittedModel
-from rockref.discover.fit.stages import F
 from rockref.discover.fit_gates import Gate, off_bounds, same_place
 from rockref.discover.fit_store import FitStore
 from rockref.discover.progress import StageCounter

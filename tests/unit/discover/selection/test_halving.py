@@ -3,8 +3,8 @@
 import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel
+from rockref.discover.selection.finalists import penalised
 from rockref.discover.selection.halving import WORTH, within
-from rockref.discover.selection.search import penalised
 
 
 def fit(effects, objective) -> FittedModel:

@@ -1,0 +1,67 @@
+"""Fits that are followed side by side: all that can still come near the best are, and no others."""
+
+import numpy as np
+
+from rockref.discover.fit.fitter import FittedModel
+from rockref.discover.fit.starts import GlobalFit
+from rockref.discover.selection.finalists import CONVERGED, race
+from rockref.discover.selection.halving import WORTH
+
+
+class Progress:
+    """What a race says of itself."""
+
+    def say(self, line): ...
+
+    def refined(self, h, stage): ...
+
+
+class Descents:
+    """A fitter whose fits fall along given objectives, one a step."""
+
+    def __init__(self, **falls):
+        self.falls, self.steps, self.problem = falls, dict.fromkeys(falls, 0), Progress()
+        self.field = [FittedModel((name,), np.zeros(1)) for name in falls]
+
+    def evaluate_all(self, field, stage):
+        for h in field:
+            h.objective = self.falls[h.name][0]
+
+    def polished(self, h, stage):
+        self.steps[h.name] += 1
+        k = min(self.steps[h.name], len(self.falls[h.name]) - 1)
+        h.objective = self.falls[h.name][k]
+        return k + 1 < len(self.falls[h.name])
+
+    def race(self, **kept):
+        race(self, self.field, self.field, **kept)
+        return [h.objective for h in self.field]
+
+
+def test_a_fit_that_turns_late_into_its_valley_arrives_beside_one_that_turns_early():
+    descents = Descents(early=[5000.0, 4000.0, 2000.0, 1000.0], late=[5000.0, 4900.0, 4500.0, 2500.0, 990.0])
+    assert descents.race() == [1000.0, 990.0]
+
+
+def test_what_at_its_pace_does_not_come_near_stops():
+    slow = [1000.0 + 20 * WORTH - WORTH * k for k in range(20)]
+    descents = Descents(arrived=[1000.0], slow=slow)
+    descents.race()
+    # One nat's worth a step: after the first of eight steps, seven more would leave it eleven above.
+    assert descents.steps == {"arrived": 1, "slow": 1}
+
+
+def test_no_fit_takes_more_steps_than_it_may():
+    endless = [1000.0 - k for k in range(50)]
+    for most in (3, CONVERGED):
+        descents = Descents(endless=endless)
+        descents.race(most=most)
+        assert descents.steps == {"endless": most}
+
+
+def test_valleys_of_a_fit_from_anywhere_are_those_near_its_best_over_whole_records():
+    losses = (1.0, 1.1, 1.14, 1.2)
+    last = [FittedModel((), np.full(1, k), loss=loss) for k, loss in enumerate(losses)]
+    found = GlobalFit([[FittedModel((), np.zeros(1), loss=0.1)], last], [])
+    assert [h.loss for h in found.valleys(4, 1.15)] == [1.1, 1.14]
+    assert [h.loss for h in found.valleys(1, 1.15)] == [1.1]
