@@ -27,21 +27,21 @@ def penalised(h: FittedModel) -> float:
 
 
 def race(fitter: Fitter, field: Sequence[FittedModel], beam: Sequence[FittedModel], most: int = CONVERGED) -> None:
-    """Let fits take steps as long as they gain; one stops that at its pace does not come near the best of a beam.
+    """Let fits take steps as long as they gain; one stops that at the pace of the field does not come near the best of
+    a beam.
 
-    All of them step side by side: a fit gains least just before it turns into its valley, and one that has arrived
-    would stop the others there. Near is what an effect has to gain: what stays farther away has no say in the evidence.
+    The pace is what the step of any of them gained: a fit gains least just before it turns into its valley. Near is
+    what an effect has to gain: what stays farther away has no say in the evidence.
     """
     going = list(field)
     if going:
         fitter.evaluate_all(going, F)
     for left in range(most - 1, -1, -1):
-        for h in list(going):
-            before = h.objective
-            goes_on = fitter.polished(h, F)
-            reached = penalised(h) - left * (before - h.objective)
-            if not goes_on or reached > min(map(penalised, beam)) + WORTH:
-                going.remove(h)
+        before = [h.objective for h in going]
+        moving = [h for h in going if fitter.polished(h, F)]
+        pace = max((b - h.objective for b, h in zip(before, going, strict=True)), default=0.0)
+        near = min(map(penalised, beam)) + WORTH + left * pace
+        going = [h for h in moving if penalised(h) <= near]
     for h in field:
         fitter.problem.say(f"followed {h.name} {h.objective:.0f} ({h.loss:.2f})")
         fitter.problem.refined(h, F)

@@ -47,7 +47,7 @@ def test_what_at_its_pace_does_not_come_near_stops():
     slow = [1000.0 + 20 * WORTH - WORTH * k for k in range(20)]
     descents = Descents(arrived=[1000.0], slow=slow)
     descents.race()
-    # One nat's worth a step: after the first of eight steps, seven more would leave it eleven above.
+    # It gains its worth a step: after the first of eight steps, seven more would leave it twelve times that above.
     assert descents.steps == {"arrived": 1, "slow": 1}
 
 
