@@ -179,7 +179,11 @@ class Search:
         self.problem.say(f"the law from anywhere: mean loss {alone.loss:.2f}")
         if not self.is_explained(self.best(beam)):
             self.add(beam, self.sharper(alone))
-        if leader is not None and not self.is_explained(self.best(beam)):
+        if self.is_explained(best := self.best(beam)):
+            return
+        if leader is None and leads(best, alone.loss):
+            leader = best.copy()
+        if leader is not None:
             beam.append(self.anywhere(leader))
         if not self.is_explained(best := self.best(beam)) and not leads(best, alone.loss):
             self.add(beam, from_anywhere(self.fitter, found))
