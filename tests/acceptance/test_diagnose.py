@@ -12,8 +12,9 @@ from tests.unit.discover.fakes import DIAGNOSIS_KEYS
 
 EXPERIMENTS = Path(__file__).resolve().parents[2] / "data/experiments"
 ANSWERS = {a["name"]: a for a in json.loads((EXPERIMENTS / "answers.json").read_text(encoding="utf-8"))}
-#: Error over the noise from which on a gap is there to be closed; decided: a tenth, as the blind test counts.
-GAP = 1.1
+#: Error over the noise from which on half of a gap can be closed: the motion amplifies the noise, so that a right model
+#: leaves a tenth above it (1.02 in the median of 34 right verdicts of the blind test, 1.15 at most); twice that.
+GAP = 1.2
 
 
 @pytest.mark.slow
