@@ -137,7 +137,7 @@ def judge(
         _layer(backend, findings, layer, report, examples)
     findings.checks = of_the_right_shape(findings.checks)
     if profile == "scheme":
-        ask_by_finer_steps(backend, findings)
+        findings.checks = by_finer_steps(backend, findings, findings.checks, compare)
     if profile != "float32":
         findings.checks = with_consequences_marked(findings.checks, findings.answers)
     if profile != "float32" and not any(c.layer != "L4" and not c.follows for c in findings.failures):
@@ -145,6 +145,8 @@ def judge(
         # looked at, too; of other integrators those of LS.
         rows = [(v, out) for v, out in findings.answers if profile == "float64" or v.layer == "LS"]
         others = [c for v, out in rows for c in stand_ins(v, out, profile)]
+        if profile == "scheme":
+            others = by_finer_steps(backend, findings, others, stand_ins)
         findings.checks += with_consequences_marked(others, findings.answers)
     if profile == "float64":
         findings.checks += left_behind(backend, findings)
@@ -198,27 +200,35 @@ def answered(
         return no_answer(vector, call.raised(e))
 
 
-def ask_by_finer_steps(backend: Any, findings: Findings) -> None:
-    """Ask another integrator once more for its runs that are outside, with finer steps, where all of them are nearly
-    inside and nothing else is wrong.
+def by_finer_steps(
+    backend: Any,
+    findings: Findings,
+    checks: list[Check],
+    weigh: Callable[[Vector, dict[str, Any], str], list[Check]],
+) -> list[Check]:
+    """Return the checks of another integrator, those of its runs that are outside with finer steps, where all of them
+    are nearly inside and nothing else is wrong.
 
     What a right integrator is off by goes with its step: where one takes steps of its own, or a foot begins or ceases
     to slide, more than bars allow may be left after an extrapolation. A mistake stays.
+
+    weigh : what made the checks of a vector and an answer, in a profile
     """
     for finer in FINER:
-        failed = findings.failures
+        failed = [c for c in checks if c.failed]
         if not failed or any(c.layer != "LS" or not c.worst <= NEARLY for c in failed):
-            return
+            return checks
         for id_ in {c.vector for c in failed}:
             i = next(i for i, (v, _) in enumerate(findings.answers) if v.id == id_)
             vector = findings.answers[i][0]
             try:
                 out = richardson.ask(backend, vector, finer)
-                checks = compare(vector, out, findings.profile)
+                again = weigh(vector, out, findings.profile)
             except call.ANYTHING:  # the backend is a stranger's, and has answered before
-                return
+                return checks
             findings.answers[i] = vector, out
-            findings.checks = [c for c in findings.checks if c.vector != id_] + checks
+            checks = [c for c in checks if c.vector != id_] + again
+    return checks
 
 
 def left_behind(backend: Any, findings: Findings) -> list[Check]:
