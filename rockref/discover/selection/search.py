@@ -2,9 +2,10 @@
 
 1. Fit the baseline at short memories. Innovations that stay above white contradict it.
 2. If contradicted: try all effects with the law as it is stated, at S1, then at S2 for what S1 smooths away. If none
-   explains the runs there: fit the baseline from starts over the whole prior, and look for the law and an effect
-   together; then for one more effect, and the law anew.
-3. Lengthen the memory. At the longest the score test proposes more effects; those that gain enough join.
+   explains the runs there: fit the baseline from starts over the whole prior, or the law beside an effect that leads,
+   or look for the law and an effect together; then for one more effect, and the law anew.
+3. Lengthen the memory. At the longest, fits step side by side until they end; the score test proposes more effects, by
+   what a step gains at S3 and by what it promises at F, and those that gain enough join.
 4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
 5. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
 """
@@ -181,11 +182,12 @@ class Search:
             self.add(beam, self.sharper(alone))
         if self.is_explained(best := self.best(beam)):
             return
-        if leader is None and leads(best, alone.loss):
+        left = min(h.loss for h in beam if h.effects == self.problem.carried)
+        if leader is None and leads(best, left):
             leader = best.copy()
         if leader is not None:
             beam.append(self.anywhere(leader))
-        if not self.is_explained(best := self.best(beam)) and not leads(best, alone.loss):
+        if not self.is_explained(best := self.best(beam)) and not leads(best, left):
             self.add(beam, from_anywhere(self.fitter, found))
 
     def sharper(self, h: FittedModel) -> list[FittedModel]:
