@@ -3,7 +3,8 @@
 1. Each hypothesis has a probability: Laplace's evidence at one temperature, times the prior odds of its effects.
 2. An effect too small to matter gives its probability to the hypothesis without it.
 3. If even the best hypothesis leaves innovations above the floor, the runs are not explained: by one run alone, or all.
-   An effect that leaves next to nothing of the misfit is indicated all the same.
+   An effect that leaves next to nothing of the misfit is indicated all the same. So it is where one more explains a
+   part of that: an effect that is there explains all that is left, another form of the first does not.
 4. The verdict is the most probable set where it is certain; else the effects that are certain to be in it, summed over
    all sets; else the smallest class of sets that is certain.
 5. Held-out runs have to show what the fit runs say.
@@ -71,6 +72,9 @@ def decide(evidence: Evidence, numbers: Calibration | None = None) -> Verdict:
         return undecided(evidence, found, c)
     if not best.effects:
         return Verdict("none", (), best.probability, found)
+    if (less := without_a_form(evidence, best, c)) is not None:
+        effects = by_weight(evidence, substantial(less, evidence.carried, c))
+        return Verdict("indicated", effects, best.probability, found, "remnant", fit=less)
     return proven_or_indicated(evidence, found, best.effects, best.probability, c)
 
 
@@ -117,9 +121,29 @@ def nearly_explaining(evidence: Evidence, found: tuple[Alternative, ...], c: Cal
     null = evidence.of(evidence.carried)
     if null is None:
         return None
-    bearable = WHITE + c.remnant * (null.loss_above - WHITE)
-    near = [a for a in found if a.effects and a.evidence.loss_above <= bearable]
+    near = [a for a in found if a.effects and leaves_little(a.evidence, null, c)]
     return min(near, key=lambda a: (len(a.effects), a.evidence.objective), default=None)
+
+
+def without_a_form(evidence: Evidence, best: Alternative, c: Calibration) -> HypothesisEvidence | None:
+    """Return the fit of fewer effects that leaves next to nothing, if each further one explains a part of that only.
+
+    None where the effects of the best leave next to nothing of what is left without any one of them.
+    """
+    null, found, effects = evidence.of(evidence.carried), best.evidence, set(best.effects)
+    sets = [(set(substantial(h, evidence.carried, c)), h) for h in evidence.hypotheses]
+    while null is not None:
+        smaller = [(s, h) for s, h in sets if s and s < effects and len(s) == len(effects) - 1]
+        less = min(smaller, key=lambda known: known[1].objective, default=None)
+        if less is None or not leaves_little(less[1], null, c) or leaves_little(found, less[1], c):
+            break
+        effects, found = less
+    return None if found is best.evidence else found
+
+
+def leaves_little(h: HypothesisEvidence, before: HypothesisEvidence, c: Calibration) -> bool:
+    """Return whether a hypothesis leaves next to nothing of the misfit of another one."""
+    return h.loss_above - WHITE <= c.remnant * (before.loss_above - WHITE)
 
 
 def undecided(evidence: Evidence, found: tuple[Alternative, ...], c: Calibration) -> Verdict:

@@ -75,9 +75,7 @@ def odd_arc(signal: Signal) -> tuple[int, float] | None:
     judged = (impacts.peaks[:-1] > LARGE_ARC * signal.rate) & (impacts.peaks[1:] > LARGE_ARC * signal.rate)
     if judged.sum() < 2:
         return None
-    # A zero that is off adds the same rate to all; a cut top takes as much from every other arc.
-    # Of two arcs one is not more usual than the other.
-    zero = float(np.median((angles / spans)[judged])) if judged.sum() > 2 else 0.0
+    zero = zero_of((angles / spans)[judged])
     off = np.abs(angles - zero * spans)
     slack = IMPACT_SAMPLES * signal.step * signal.rate + signal.grain * signal.scale
     odd = judged & (off > ODD_ARC * signal.rate * spans + slack)
@@ -85,6 +83,18 @@ def odd_arc(signal: Signal) -> tuple[int, float] | None:
         return None
     arc = int(np.argmax(np.where(odd, off, 0.0)))
     return arc, float(angles[arc])
+
+
+def zero_of(rates: np.ndarray) -> float:
+    """Return the rate [rad/s] by which a zero is off, from those that arcs (K,) add up to: it is the same in all.
+
+    It is not more than their median, of which one odd arc changes nothing, nor more than the middle between their
+    quartiles, of which nothing remains where a cut top, or a block that leans while it stands, takes from every other
+    arc what it gives to the next. Of two arcs one is not more usual than the other.
+    """
+    if len(rates) < 3:
+        return 0.0
+    return min(float(np.median(rates)), float(np.quantile(rates, (0.25, 0.75)).mean()), key=abs)
 
 
 def leaps_in_arcs(signal: Signal) -> np.ndarray:

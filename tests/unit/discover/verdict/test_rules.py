@@ -96,6 +96,22 @@ def test_another_law_behind_the_same_name_is_indicated():
     assert decide(evidence(null, hypothesis(("quadratic_drag",), loss=too_much))).word == "something_else"
 
 
+def test_an_effect_that_explains_a_part_of_what_another_form_leaves_is_not_named():
+    null = hypothesis(objective=60000.0, loss=3.0, held=3.0)
+    first = hypothesis(("cable_restraint",), 20000.0, loss=WHITE + 0.1)
+
+    def with_drag(left):
+        more = hypothesis(("cable_restraint", "quadratic_drag"), 17000.0, loss=WHITE + left)
+        return decide(evidence(null, first, more))
+
+    v = with_drag(0.04)
+    assert (v.word, v.effects, v.reason) == ("indicated", ("cable_restraint",), "remnant")
+    # What is there explains all of it; and where the first leaves more than another form would, the second is needed.
+    assert set(with_drag(0.01).effects) == {"cable_restraint", "quadratic_drag"}
+    first = hypothesis(("cable_restraint",), 30000.0, loss=WHITE + 1.0)
+    assert set(with_drag(0.05).effects) == {"cable_restraint", "quadratic_drag"}
+
+
 def test_a_fault_of_the_sensor_is_not_blamed_on_the_block():
     found = replace(evidence(hypothesis(loss=1.8)), sensor_faults=("run01.csv hums at 50 Hz",))
     v = decide(found)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from rockref.measure.checks.uprights import zero_of
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.arcs import turned_angle
 from rockref.measure.signals.impacts import main_impacts
@@ -81,3 +82,14 @@ def test_a_zero_that_is_off_throughout_is_told(tmp_path, made, axis, zero):
     spoiled = made.degrees.copy()
     spoiled[:, axis] += zero
     assert "W-ZERO" in told(tmp_path, made, spoiled)
+
+
+def test_the_zero_is_what_all_arcs_have_in_common():
+    zero = 0.3
+    assert zero_of(np.full(5, zero)) == pytest.approx(zero)
+    # One odd arc of three; a block that leans by as much to either side, an odd number of times; and with a zero.
+    assert zero_of(np.array([0.0, 0.0, 7.0])) == 0.0
+    leaning = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0])
+    assert zero_of(leaning) == 0.0
+    assert zero_of(zero + leaning) == pytest.approx(zero)
+    assert zero_of(np.array([1.0, -1.0])) == 0.0
