@@ -32,9 +32,11 @@ class Gust(Effect):
         "scale": Quantity("1", 1.0, 0.5, 2.0, 0.9, least=0.1),
         "range": Quantity("m", math.inf, 0.1, 10.0, 4.0),
         "push": Quantity("N", 0.0, -2.0, 2.0, 0.0),
+        "swing": Quantity("N", 0.0, -3.0, 3.0, 0.0),
+        "stretch": Quantity("1", 1.0, 1.0, 3.0, 2.0, "+"),
         "reference": Quantity("m", 1.0, 0.5, 2.0, 1.5),
     }
-    switches = ("force", "scale", "range", "push")
+    switches = ("force", "scale", "range", "push", "swing", "stretch")
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,8 @@ def test_without_a_word_a_quantity_says_enough():
     assert prior_of(Gust, "range") == Prior("size", "inverse", 0.0, 0.25, 3.0, 0.0, math.inf)
     # What is typically none: a quarter of its range.
     assert prior_of(Gust, "push") == Prior("size", "linear", 0.0, 1.0, 3.0, -math.inf, math.inf)
+    assert prior_of(Gust, "swing").spread == 1.5
+    assert prior_of(Gust, "stretch").low == 1.0
     # What does not bring the effect in stays typical.
     fixed = prior_of(Gust, "reference")
     assert (fixed.role, fixed.centre, fixed.deviation) == ("fixed", 1.5, 0.0)
@@ -69,6 +73,13 @@ def test_what_is_declared_holds_and_the_rest_follows():
     assert (form.role, form.scale, form.spread, form.deviation) == ("form", "linear", 1.0, 0.1)
     assert prior_of(Squall, "push") == Prior("size", "linear", 0.0, 0.3, 3.0, -math.inf, 1.0)
     assert prior_of(Squall, "reference") == Prior("shape", "log", 1.5, 0.5, 1.0, -math.inf, math.inf)
+
+
+def test_one_z_of_a_logarithm_is_the_way_from_absent_to_typical_and_a_rigid_support_has_no_compliance():
+    quarter = Quantity("1", 2.0, 0.1, 4.0, 0.5)
+    assert scale.spread(quarter, "size", "log") == pytest.approx(math.log(4.0))
+    assert scale.centre(quarter, "size", "log") == 2.0
+    assert scale.centre(quarter, "size", "compliance") == scale.centre(quarter, "size", "inverse") == 0.0
 
 
 @pytest.mark.parametrize("kind, name", NUMBERS, ids=[f"{kind.id}.{name}" for kind, name in NUMBERS])

@@ -6,6 +6,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 
+from rockref.measure.reading import timebase
 from rockref.measure.reading.table import Table
 from rockref.measure.reading.timebase import check_forward, regular_samples
 from rockref.model.errors import InputError
@@ -136,6 +137,15 @@ FEW = {
     "from five on": ([5.0, 6.0, 7.0, 8.0, 5.2, 6.2, 7.2, 8.2, 5.1], 3,
                      "The counter wraps: add 3.95 s to all times after each such row."),
     "back, not to the start": ([0.0, 1.0, 2.0, 3.0, 1.2, 2.2, 3.2], 3, CUT),
+    # An equal stamp elsewhere is no way back.
+    "a counter that wraps, and stands once": ([0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 1.0, 2.0, 3.0], 3,
+                                              "The counter wraps: add 4 s to all times after each such row."),
+    "wraps that differ by two samples": ([0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 0.0], 3,
+                                         "The counter wraps: add 5 s to all times after each such row."),
+    "by two samples and a half": ([0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 0.0, 0.5, 1.0, 1.5, -0.25], 6, CUT),
+    "back by half of the record": ([0.0, 1.0, 0.0, 1.0, 2.0, 3.0, 4.0], 1, CUT),
+    "neighbours before a hole": ([0.0, 0.1, 0.3, 0.2, 0.9], 2, SORT),
+    "back to a clock that stands": ([0.0, 1.0, 0.0, 0.0, 0.0], 1, CUT),
     "back by different ways": ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 0.0, 1.0, 2.0, 0.1], 6, CUT),
 }  # fmt: skip
 
@@ -156,3 +166,45 @@ def test_each_way_back_has_its_own_advice(case):
     taken = stamps if case == "a row twice" else TRUE[: len(stamps)]
     error = refused(regular_samples, recorded(stamps, taken, noise=0.0), 1000)
     assert error.code == "E-TIME" and advice in error.cure
+
+
+#: Stamps [s] at one sample a second, of which some are equal, and whether they are taken: rows of a coarse clock come
+#: at equal times at least three times, or stand among other steps that are half a sample off.
+EQUAL = {
+    "one pair, two odd steps": ([0.0, 1.0, 1.0, 3.0, 5.0, 6.0], TWICE),
+    "two pairs": ([0.0, 1.0, 1.0, 2.0, 3.0, 3.0, 4.0], TWICE),
+    "three pairs": ([0.0, 1.0, 1.0, 2.0, 3.0, 3.0, 4.0, 5.0, 5.0], None),
+    "one pair, three steps of two": ([0.0, 1.0, 1.0, 3.0, 5.0, 7.0], None),
+    "one pair, three steps of a half more": ([0.0, 1.0, 1.0, 2.5, 4.0, 5.5], None),
+}
+
+
+@pytest.mark.parametrize("case", EQUAL)
+def test_equal_stamps_are_a_fault_unless_the_clock_is_coarse(case):
+    stamps, cure = EQUAL[case]
+    table, equal = recorded(stamps, stamps), np.flatnonzero(np.diff(stamps) == 0)
+    if cure is None:
+        assert timebase._check_equal(table, equal, 1.0) is None
+    else:
+        assert refused(timebase._check_equal, table, equal, 1.0).cure == cure
+
+
+def test_equal_rows_stand_there_twice_only_where_the_time_has_no_room_for_them():
+    stamps = np.array([0.0, 1.0, 2.0, 2.0, 3.5])  # half a row more than the time has room for
+    assert refused(timebase._check_equal, recorded(stamps, stamps, noise=0.0), np.array([2]), 1.0).cure == TWICE
+
+
+@pytest.mark.parametrize("ticks, rate, late", [
+    ([0.0, 1.0, 3.5, 3.2, 4.0], 1000.0, True),  # sorted they are 1.2 intervals off: only their writing was late
+    ([0.0, 1.0, 3.5, 2.5, 4.5], 1024.0, True),  # half an interval is not even
+    ([0.0, 1.0, 3.0, 2.0, 4.0], 1000.0, False),  # even once they are sorted: rows out of order
+    ([50.0, 1.0, 2.0], 1000.0, False),  # 50 ms late is another clock
+])  # fmt: skip
+def test_a_late_stamp_is_told_from_a_row_out_of_order(ticks, rate, late):
+    assert timebase._overtake(np.array(ticks) / rate, rate) is late
+
+
+def test_no_two_samples_are_at_one_time():
+    pairs = bunched(TRUE, 2, equal=True)
+    t, _, _, _ = regular_samples(recorded(pairs, pairs), 1000)
+    assert np.diff(t).min() > 0

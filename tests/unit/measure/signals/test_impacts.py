@@ -9,7 +9,7 @@ import pytest
 from rockref.measure.experiment import load_experiment
 from rockref.measure.gyroscope import record, saturate
 from rockref.measure.records.release import Gyro
-from rockref.measure.signals.impacts import checked_signal, main_impacts, swings
+from rockref.measure.signals.impacts import FLAT, _impact, checked_signal, main_impacts, swings
 from rockref.measure.signals.running import running_mean
 from tests.refusal import refused
 
@@ -279,3 +279,13 @@ def test_what_is_no_run_is_refused_and_what_is_one_is_made_numbers():
         for ask in (checked_signal, main_impacts):
             error = refused(ask, *wrong)
             assert str(error) == f"arguments t, crv: {said} [E-SIGNAL]"
+
+
+def test_a_flat_top_beyond_its_swing_ends_at_its_peak_and_begins_a_hundredth_below():
+    t, peak = np.arange(200) * 1e-3, 103
+    fine = np.where(np.arange(200) < peak, 0.5, 0.995)
+    fine[peak - 1 : peak + 1] = 1.0 - FLAT, 1.0
+    # The swing ends at row 100, where the smooth rate is largest.
+    time, sign, height, drop, row = _impact(t, fine, np.minimum(t, t[100]), 50, 101, -1)
+    assert time == 0.5 * (t[peak - 1] + t[peak])
+    assert (sign, height, drop, row) == (-1, 1.0, 0.0, peak - 1)

@@ -144,3 +144,10 @@ def test_values_that_are_no_multiples_have_no_step():
     assert not smallest_step(np.stack([values, 0.3 * np.arange(280.0), values**1.1], axis=-1)).any()
     values = np.tile([0.0, 1.0, 2.0, 4.0, 5.0002, 7.0, 8.0], 40)
     assert smallest_step(np.stack([values] * 3, axis=-1)) == pytest.approx(0.9998, abs=3e-4)
+
+
+def test_a_short_run_of_a_small_block_has_shorter_windows():
+    t = np.arange(100) * 1e-3
+    crv = np.random.default_rng(0).standard_normal((100, 3))
+    assert refusal(noise_floor, t, crv)[2] == "100 samples, less than four windows of 40"
+    assert noise_floor(t, crv, window=0.02).sigma.shape == (3,)
