@@ -32,8 +32,10 @@ def test_verdict_is_right_or_a_class_that_holds_the_truth(name):
         return
     assert found["verdict"] in (("pair",) if len(truth) > 1 else ("named", "indicated", "class"))
     assert set(truth) <= set(found["effects"]) and len(found["effects"]) <= 3
-    # The gap to the noise closes by half at least, on runs that were never fitted as on those that were.
+    # The error falls, and a clear gap to the noise closes by half at least, on runs that were never fitted as on those
+    # that were.
     error, noise = found["error"], found["error"]["noise_floor"]
     for use in ("fit", "holdout"):
         before, after = error["baseline"][use], error["with_effect"][use]
+        assert after < before
         assert before < GAP * noise or before - after > 0.5 * (before - noise)

@@ -26,7 +26,7 @@ def penalised(h: FittedModel) -> float:
     return h.objective + WORTH * len(h.effects)
 
 
-def race(fitter: Fitter, field: Sequence[FittedModel], beam: Sequence[FittedModel], most: int = CONVERGED) -> None:
+def follow(fitter: Fitter, field: Sequence[FittedModel], beam: Sequence[FittedModel], most: int = CONVERGED) -> None:
     """Let fits take steps as long as they gain; one stops that at the pace of the field does not come near the best of
     a beam.
 
@@ -55,12 +55,12 @@ def converged(fitter: Fitter, beam: list[FittedModel]) -> list[FittedModel]:
     """
     limit = CLOSE * min(h.objective for h in beam)
     finalists = sorted((h for h in beam if h.objective <= limit), key=penalised)[:FINALISTS]
-    race(fitter, finalists, beam)
+    follow(fitter, finalists, beam)
     for _ in range(EXCHANGES):
         best = min(beam, key=penalised)
         others = [beside(fitter, best, h) for h in finalists if not holds(h, best)]
         beam += others
-        race(fitter, others, beam)
+        follow(fitter, others, beam)
         if set(min(beam, key=penalised).effects) == set(best.effects):
             break
     return sorted(best_of_each(beam), key=lambda h: h.objective)

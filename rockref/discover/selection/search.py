@@ -20,7 +20,7 @@ from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.ridges import kicked
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
-from rockref.discover.selection.finalists import converged, race
+from rockref.discover.selection.finalists import converged, follow
 from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.together import from_anywhere, from_statement, leads
@@ -110,7 +110,7 @@ class Search:
         for h in field:
             self.fitter.refine(h, S3, STEPS)
         field = within(field, BEAM, MARGINS["S3"])
-        race(self.fitter, field, field)
+        follow(self.fitter, field, field)
         self.remember(field)
         return field
 
@@ -277,7 +277,7 @@ class Search:
         self.problem.progress.begin(stage.name, MEMORY[stage.name], self.best(beam).name)
         self.fitter.widen()
         if stage is F:
-            race(self.fitter, beam, beam)
+            follow(self.fitter, beam, beam)
         else:
             for h in beam:
                 self.fitter.refine(h, stage, STEPS)
@@ -295,7 +295,7 @@ class Search:
         added += self.promising(best, self.test, added)
         for h in added:
             self.fitter.refine(h, S3, STEPS)
-        race(self.fitter, added, [*beam, *added])
+        follow(self.fitter, added, [*beam, *added])
         self.remember(added)
         bar = best.objective - WORTH
         return within([*beam, *(h for h in added if h.objective < bar)], BEAM, MARGINS["F"])
@@ -316,7 +316,7 @@ class Search:
             if e in self.problem.carried:
                 continue
             less = self.fitter.without(best, e)
-            race(self.fitter, [less], [*beam, *found], LESS)
+            follow(self.fitter, [less], [*beam, *found], LESS)
             found += [less, *(self.fitter.polish(h, F, 2) for h in self.replacements(less, [*beam, *found]))]
         if not any(h.effects == self.problem.carried for h in [*beam, *found]):
             found.append(self.fitter.polish(self.nothing(best), F, 3))

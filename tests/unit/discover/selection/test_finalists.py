@@ -4,12 +4,12 @@ import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel
 from rockref.discover.fit.starts import GlobalFit
-from rockref.discover.selection.finalists import CONVERGED, race
+from rockref.discover.selection.finalists import CONVERGED, follow
 from rockref.discover.selection.halving import WORTH
 
 
 class Progress:
-    """What a race says of itself."""
+    """What a fit says of itself."""
 
     def say(self, line): ...
 
@@ -33,20 +33,20 @@ class Descents:
         h.objective = self.falls[h.name][k]
         return k + 1 < len(self.falls[h.name])
 
-    def race(self, **kept):
-        race(self, self.field, self.field, **kept)
+    def follow(self, **kept):
+        follow(self, self.field, self.field, **kept)
         return [h.objective for h in self.field]
 
 
 def test_a_fit_that_turns_late_into_its_valley_arrives_beside_one_that_turns_early():
     descents = Descents(early=[5000.0, 4000.0, 2000.0, 1000.0], late=[5000.0, 4900.0, 4500.0, 2500.0, 990.0])
-    assert descents.race() == [1000.0, 990.0]
+    assert descents.follow() == [1000.0, 990.0]
 
 
 def test_what_at_its_pace_does_not_come_near_stops():
     slow = [1000.0 + 20 * WORTH - WORTH * k for k in range(20)]
     descents = Descents(arrived=[1000.0], slow=slow)
-    descents.race()
+    descents.follow()
     # It gains its worth a step: after the first of eight steps, seven more would leave it twelve times that above.
     assert descents.steps == {"arrived": 1, "slow": 1}
 
@@ -55,7 +55,7 @@ def test_no_fit_takes_more_steps_than_it_may():
     endless = [1000.0 - k for k in range(50)]
     for most in (3, CONVERGED):
         descents = Descents(endless=endless)
-        descents.race(most=most)
+        descents.follow(most=most)
         assert descents.steps == {"endless": most}
 
 
