@@ -6,11 +6,11 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | fifteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | sixteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
-                                fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth`, `fourteenth` or
-                                `fifteenth` of theirs)
+                                fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth`, `fourteenth`,
+                                `fifteenth` or `sixteenth` of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -41,6 +41,7 @@ import strangers_ninth
 import strangers_schemes
 import strangers_second
 import strangers_seventh
+import strangers_sixteenth
 import strangers_sixth
 import strangers_tenth
 import strangers_third
@@ -73,6 +74,7 @@ LISTS = {
     "thirteenth": strangers_thirteenth.MISTAKES,
     "fourteenth": strangers_fourteenth.MISTAKES,
     "fifteenth": strangers_fifteenth.MISTAKES,
+    "sixteenth": strangers_sixteenth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 #: Other integrators, as lines of the function that makes a step.
@@ -81,6 +83,7 @@ STEPS = {
     **strangers_fifth.SCHEMES,
     **strangers_fourteenth.SCHEMES,
     **strangers_fifteenth.SCHEMES,
+    **strangers_sixteenth.SCHEMES,
 }
 
 
@@ -215,6 +218,13 @@ def of_fifteenth_schemes() -> Iterator[tuple[Mistake, str]]:
     yield from in_turn(strangers_fifteenth.MISTAKES, list(strangers_fifteenth.SCHEMES))
 
 
+def of_sixteenth_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The same of the sixteenth list and its integrators, without what dwindles with the step."""
+    yield from strangers_sixteenth.OF_STEPS
+    lasting = tuple(m for m in strangers_sixteenth.MISTAKES if m.says not in strangers_sixteenth.OF_THE_STEP)
+    yield from in_turn(lasting, list(strangers_sixteenth.SCHEMES))
+
+
 def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
     """The mistakes that runs show and that lie outside the law's step, each in the next integrator."""
     source = SOURCE.read_text()
@@ -234,6 +244,7 @@ OF_SCHEMES = {
     "thirteenth scheme": of_thirteenth_schemes,
     "fourteenth scheme": of_fourteenth_schemes,
     "fifteenth scheme": of_fifteenth_schemes,
+    "sixteenth scheme": of_sixteenth_schemes,
 }
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
@@ -251,6 +262,7 @@ IN_PYTHON = (
     *strangers_thirteenth.IN_PYTHON,
     *strangers_fourteenth.IN_PYTHON,
     *strangers_fifteenth.IN_PYTHON,
+    *strangers_sixteenth.IN_PYTHON,
 )
 IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
 

@@ -14,12 +14,13 @@ NAMES = {
     "fifth": "fifth list", "sixth": "sixth list", "seventh": "seventh list", "eighth": "eighth list",
     "ninth": "ninth list", "tenth": "tenth list", "eleventh": "eleventh list",
     "twelfth": "twelfth list", "thirteenth": "thirteenth list",
-    "fourteenth": "fourteenth list", "fifteenth": "fifteenth list",
+    "fourteenth": "fourteenth list", "fifteenth": "fifteenth list", "sixteenth": "sixteenth list",
     "scheme": "mistakes in other integrators", "fourth scheme": "fourth list, in further integrators",
     "fifth scheme": "fifth list, in further integrators",
     "thirteenth scheme": "thirteenth list, in all of them",
     "fourteenth scheme": "fourteenth list, in nine further integrators",
     "fifteenth scheme": "fifteenth list, in six further integrators",
+    "sixteenth scheme": "sixteenth list, in four further integrators",
     "variants": "correct variants", "zoo": "zoo",
 }  # fmt: skip
 
