@@ -10,7 +10,7 @@ from rockref.effects.base import Effect
 def nothing(name: str, question: str, says: str, sentence: str, equation: str, source: str) -> type[Effect]:
     """Make the effect that adds nothing, as the source's answer to a question."""
     facts = {"question": question, "sentence": sentence, "equation": equation, "source": source}
-    return dataclass(frozen=True)(type(name, (Effect,), {"__doc__": says, "__module__": __name__, **facts}))
+    return dataclass(frozen=True)(type(name, (Effect,), {"__doc__": says, **facts}))
 
 
 NoContactEffect = nothing(

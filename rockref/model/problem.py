@@ -139,8 +139,8 @@ class State(Shown):
         return {
             "time": f"{float(self.t):.6g} s",
             "lean": span(np.degrees(self.lean()), "deg"),
-            "speed": span(np.linalg.norm(np.asarray(self.v, float), axis=-1), "m/s"),
-            "rate": span(np.degrees(np.linalg.norm(np.asarray(self.W, float), axis=-1)), "deg/s"),
+            "speed": span(np.linalg.norm(self.v, axis=-1), "m/s"),
+            "rate": span(np.degrees(np.linalg.norm(self.W, axis=-1)), "deg/s"),
             "touching": f"{span(np.sum(self.anchored, axis=-1))} of {self.anchored.shape[-1]} points",
         }
 

@@ -114,10 +114,10 @@ def release_posture(
     Lambda = levelled(tilted(theta_0, turned, dtype), centres, radii, depths)
     if np.any(out_of_plane):
         Lambda = product(Lambda, exponential(about("Y", out_of_plane, dtype)))
-    heights = [apply(Lambda, at)[..., 2] - r for at, r in zip(centres, radii, strict=True)]
+    height_i, height_j = (apply(Lambda, centres[k])[..., 2] - radii[k] for k in (0, 1))
     x = np.zeros(Lambda.shape[:-1], dtype)
-    stiffness = [of_point(points.K_N, k) for k in (i, j)]
-    x[..., 2] = settled_height(heights[0], heights[1], stiffness[0], stiffness[1], weight)
+    K_i, K_j = (of_point(points.K_N, k) for k in (i, j))
+    x[..., 2] = settled_height(height_i, height_j, K_i, K_j, weight)
     check_clear(points, x, Lambda, np.max(depth, axis=-1))
     return State.at_rest(x, Lambda, points.n)
 
@@ -138,7 +138,7 @@ def release_postures(bodies: Sequence[tuple[Block, ContactPoints]], theta_0, tur
         ),
         *(np.asarray(a) for a in (theta_0, turned, out_of_plane)),
     )
-    return [State.at_rest(x, Lambda, points.n) for x, Lambda in zip(batch.x, batch.Lambda, strict=True)]
+    return [State.at_rest(batch.x[k], batch.Lambda[k], points.n) for k in range(len(bodies))]
 
 
 def about(axis: str, angle, dtype) -> np.ndarray:

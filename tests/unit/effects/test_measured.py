@@ -67,7 +67,7 @@ def test_the_channel_scales_filters_adds_asks_the_clock_and_cuts():
 def test_whatever_stands_in_the_channel_is_given_the_instants_of_the_rows(place):
     @dataclass(frozen=True)
     class Stamp(Offset):
-        id = place
+        id, stage = place, EFFECTS[place].stage
 
     assert np.array_equal(rates(measured([Stamp(0.25)], T, CRV)), T + 0.25 + T)
 

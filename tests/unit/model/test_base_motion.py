@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 
+from rockref.effects.catalogue import EFFECTS
 from rockref.model.base_motion import BaseMotion, inertial_force, plate_acceleration
-from tests.refusal import refused
+from rockref.model.problem import as_arrays
+from rockref.model.simulate import check_base, simulate
+from tests import physics
+from tests.refusal import refusal, refused
 
 RECORD = BaseMotion(t_0=0.25, dt=0.125, a=[[1.0, -2.0, 0.5], [3.0, 4.0, -1.5], [-5.0, 0.0, 2.0]])
 
@@ -81,3 +85,41 @@ def test_samples_keep_the_precision_of_a_float_and_stand_in_rows(kind, kept):
     record = BaseMotion("0", np.float32(0.5), np.asfortranarray(2 * RECORD.a).astype(kind))
     assert record.a.dtype == kept and record.a.flags.c_contiguous
     assert (record.t_0, record.dt) == (0.0, 0.5) and type(record.dt) is float
+
+
+def in_flight(**changes):
+    """A body that nothing touches, over a plate that moves from a quarter of a second on."""
+    return physics.flying((2.0, 2.0, 1.0), (0, 0, 0), 1 / 16, 0.5).replace(**{"base": RECORD, **changes})
+
+
+def test_a_body_in_flight_has_the_weights_acceleration_less_that_of_the_plate():
+    """It stays behind in the room; 3/8 s are the middle of the record."""
+    a = simulate(in_flight(duration=0.375)).final_state.a
+    # A rounding each of the force, of the weight and of their quotient, numbers of some 600 N.
+    np.testing.assert_allclose(a, [-3.0, -4.0, 1.5 - 9.81], rtol=1e-15)
+
+
+@pytest.mark.parametrize("precision", [np.float32, np.float64, np.longdouble])
+def test_the_plate_moves_in_the_precision_of_the_run(precision):
+    moved = as_arrays(in_flight(), precision)
+    assert moved.base == RECORD and moved.base.a.dtype == precision
+    assert as_arrays(in_flight(base=None), precision).base is None
+
+
+MOVES = (
+    "cannot act on a plate that moves: it needs the speed through air that stands still in the room, so the velocity"
+)
+
+
+def test_what_does_not_go_with_a_moving_plate_is_refused():
+    record = "a" * 100
+    said = ("E-TYPE", "base", f"is '{record}"[:80], "Give a BaseMotion, or None.")
+    assert refusal(simulate, in_flight(base=record)) == said
+    drag = EFFECTS["quadratic_drag"]
+    said = ("E-BASE", "effect quadratic_drag", f"{MOVES} of the plate too")
+    assert refusal(simulate, in_flight(effects=(drag(0.4),))) == (
+        *said,
+        "Leave the effect out, or the motion of the plate.",
+    )
+    for effects, base in (((drag(0.4),), None), ((drag(0.0), EFFECTS["plate_tilt"](1e-3)), RECORD)):
+        check_base(in_flight(effects=effects, base=base))

@@ -91,7 +91,8 @@ def test_limits_belong_or_do_not():
         geometry.check_number("K_N", 0.0, more_than_least=True)
 
 
-@pytest.mark.parametrize("value", [1e31, 1e308, 1e-31, 5e-324])
+# Whole and extended numbers beyond every float are finite all the same.
+@pytest.mark.parametrize("value", [1e31, 1e308, 1e-31, 5e-324, 10**31, 10**400, np.longdouble("1e400")])
 def test_numbers_of_no_block_are_refused(value):
     with pytest.raises(InputError, match="No block has such a number"):
         geometry.check_number("mass", value, more_than_least=True)

@@ -77,6 +77,20 @@ def test_anchors_move_with_their_feet():
     assert np.abs(moved).max() > 1e-5
 
 
+def test_forces_at_the_lever_arms_make_the_moment_of_the_law():
+    """Of round feet on a leaning block, too, whose contact point is not where the foot ends."""
+    problem = TABLE.problem(1e-3)
+    problem = problem.replace(points=replace(problem.points, radius=np.full(8, 0.02)))
+    start = replace(problem.start, Lambda=exponential(np.array([0.1, -0.05, 0.3])))
+    lowest = (start.x + lever_arms(problem, start))[:, 2].min()
+    pressed = problem.replace(start=replace(start, x=start.x - [0, 0, lowest + 1e-5]))
+    state = first_evaluation(pressed)
+    moment = np.cross(lever_arms(pressed, state), state.F).sum(axis=0)
+    # A few roundings of forces of 1e3 N at arms of 0.4 m.
+    np.testing.assert_allclose(state.Lambda @ state.T, moment, atol=1e-12)
+    assert np.abs(moment).max() > 1
+
+
 def test_in_flight_only_the_turn_is_corrected():
     problem, state, _, load, moment = standing(0.019)
     after = corrected(problem, state, np.ones(3), np.full(3, 1e-3), load, moment, 2)
@@ -127,3 +141,21 @@ def test_a_batch_has_the_bits_of_its_blocks():
     for i, problem in enumerate(problems):
         one = Target(two.rates[i], two.turns[i], two.gain_rate[i], two.gain_attitude[i], 5)
         np.testing.assert_array_equal(both[i], listen(problem, one))
+
+
+@pytest.mark.parametrize(("key", "number"), [("x", np.nan), ("v", np.inf), ("W", np.nan)])
+def test_a_run_that_loses_its_numbers_has_none_from_there_on(key, number):
+    """In flight a lost position or velocity turns no block: its rates are numbers still, of a run that is none. The
+    block beside keeps its bits."""
+    problem = TABLE.problem(1e-3)
+    sound = problem.replace(start=replace(problem.start, x=np.array([0.0, 0.0, 1.0]), W=np.array([0.1, 0.2, 0.3])))
+    lost = sound.replace(start=replace(sound.start, **{key: getattr(sound.start, key) + [number, 0, 0]}))
+    K = 4
+    target = Target(np.zeros((K, 3)), np.broadcast_to(np.eye(3), (K, 3, 3)), np.zeros((K, 3)), np.zeros(K), 2)
+    two = Target(*(np.stack([a, a]) for a in (target.rates, target.turns, target.gain_rate, target.gain_attitude)), 2)
+    alone, (first, second) = listen(lost, target), listen(stack([lost, sound]), two)
+    for rates in (alone, first):
+        np.testing.assert_array_equal(rates[0], lost.start.W)
+        assert np.isnan(rates[1:]).all()
+    np.testing.assert_array_equal(second, listen(sound, target))
+    assert np.isfinite(second).all()

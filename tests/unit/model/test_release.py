@@ -150,6 +150,69 @@ def test_many_bodies_at_once_have_the_bits_of_each_alone():
         assert np.array_equal(state.Lambda, alone.Lambda)
 
 
+def side_by_side(*models):
+    """Block and feet of as many models, side by side; round feet only where all have them."""
+    blocks, feet = zip(*(model.body() for model in models), strict=True)
+    together = {key: np.stack([getattr(p, key) for p in feet]) for key in ("P", "K_N")}
+    mass, g = (np.stack([getattr(b, key) for b in blocks]) for key in ("mass", "g"))
+    return replace(blocks[0], mass=mass, g=g), replace(feet[0], **together)
+
+
+def test_point_feet_side_by_side_have_the_bits_of_each_alone():
+    models, tilts = (MODEL, MODEL.replace(mass=30.0), MODEL.replace(width=0.12)), [0.1, 0.05, 0.02]
+    state = release.release_posture(*side_by_side(*models), np.array(tilts))
+    for k, (model, tilt) in enumerate(zip(models, tilts, strict=True)):
+        alone = release.release_posture(*model.body(), tilt)
+        assert np.array_equal(state.x[k], alone.x) and np.array_equal(state.Lambda[k], alone.Lambda)
+    (one,) = release.release_postures([MODEL.body()], [0.1], [False], [0.0])
+    assert np.array_equal(one.Lambda, release.release_posture(*MODEL.body(), 0.1).Lambda)
+
+
+def test_each_block_has_its_own_tipping_angles():
+    """A small one beside one that is wider by four and higher by two: it tips at half the angle."""
+    models = [MODEL.replace(width=w, depth=w, height=h) for w, h in ((0.1, 0.4), (0.4, 0.8))]
+    block, points = side_by_side(*models)
+    angles = release.tipping_angle(block, points, np.ones(2))
+    assert angles.tolist() == [release.tipping_angle(*model.body()) for model in models]
+    limits = np.arctan2([0.05, 0.2], [0.2, 0.4])
+    # The feet's heights differ by a tenth of a millimetre, the limits so by 5e-4 of them.
+    assert angles == pytest.approx(limits, rel=1e-3)
+    release.check_roll(points, 0.999 * limits)
+    for roll in (1.001 * limits[0], 0.999 * limits[1]):
+        error = refused(release.check_roll, points, np.array([roll, 0.0]))
+        assert error.what.startswith(f"is {float(roll)!r} rad; the block tips over sideways at {angles[0]:.4g} rad")
+
+
+def test_each_block_has_its_own_depth_and_its_own_lowest_point():
+    """One is pressed in by a millimetre, as its soft feet are; as deep, a point of the stiff one beside is refused."""
+    P = np.array([[0.05, 0.0, -0.3], [-0.05, 0.0, -0.3], [0.0, 0.0, -0.3]])
+    deep = np.array([0.0, 0.0, -9e-4])
+    level, upright = np.array([[0.0, 0.0, 0.3]] * 2), np.broadcast_to(np.eye(3), (2, 3, 3))
+    points = replace(physics.points(P), P=np.stack([P + deep, P]))
+    release.check_clear(points, level, upright, np.array([1e-3, 0.0]))
+    askew = replace(points, P=np.stack([P + deep, P + [[0, 0, 0], [0, 0, 0], deep]]))
+    error = refused(release.check_clear, askew, level, upright, np.array([1e-3, 0.0]))
+    assert error.what == "point 2 would start 0.9 mm inside the plate"
+
+
+def test_the_stiff_feet_of_one_block_are_not_as_deep_as_the_soft_ones_of_another():
+    soft, stiff = (physics.points([[0.05, 0.04, -0.3], [-0.05, 0.04, -0.3], [0.0, 0.04, z]], K_N=K)
+                   for K, z in ((2e5, -0.3), (6e7, -0.3005)))  # fmt: skip
+    bodies = [(physics.block(), soft), (physics.block(), stiff)]
+    release.release_postures(bodies[:1], [0.05], [False], [0.0])
+    for chosen in (bodies, bodies[1:]):
+        n = len(chosen)
+        error = refused(release.release_postures, chosen, [0.05] * n, [False] * n, [0.0] * n)
+        assert error.what.startswith("point 2 would start 0.5")
+
+
+def test_every_block_needs_a_point_on_either_side():
+    block, points = side_by_side(MODEL, MODEL)
+    points.P[1, :, 0] = np.abs(points.P[1, :, 0])
+    error = refused(release.release_posture, block, points, np.array([0.1, 0.1]))
+    assert (error.code, error.what) == ("E-RELEASE", "there is no point with x < 0")
+
+
 def test_one_bad_tilt_among_many_is_refused_with_its_number():
     with pytest.raises(InputError, match=r"is 0.2 rad; the block tips over at 0\.1443"):
         release.release_postures([MODEL.body()] * 3, [0.1, 0.2, 0.1], [False] * 3, [0.0] * 3)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rockref
+from rockref.effects.catalogue import EFFECTS
 from rockref.model import shown
 from rockref.model.base_motion import BaseMotion
 from rockref.model.problem import State
@@ -91,10 +92,7 @@ def test_a_state_says_its_motion_and_how_many_feet_touch():
         "rate": f"{np.degrees(0.01):.4g} to {np.degrees(0.03):.4g} deg/s",
         "touching": "1 to 2 of 4 points",
     }
-    # Numbers of another kind than float are none to take a root of.
-    whole = State.at_rest(
-        x=np.zeros(3), Lambda=np.eye(3), n=4, v=np.array([3, 4, 0], object), W=np.array([0, 0, 1], object)
-    )
+    whole = State.at_rest(x=np.zeros(3), Lambda=np.eye(3), n=4, v=np.array([3, 4, 0]), W=np.array([0, 0, 1]))
     assert whole.facts()["speed"] == "5 m/s" and whole.facts()["rate"] == "57.3 deg/s"
 
 
@@ -109,6 +107,8 @@ def test_a_problem_says_its_block_and_how_it_begins():
         "duration": "0.5 s",
         "step": "1e-05 s",
     }
+    both = problem.replace(effects=(EFFECTS["adhesion"](1.0), EFFECTS["plate_tilt"](0.1)))
+    assert both.facts()["effects"] == "adhesion, plate_tilt"
     assert "lean 2.865 deg" in repr(problem.start) and "of 4 points" in repr(problem.start)
 
 
@@ -163,6 +163,7 @@ def test_a_table_holds_every_fact_and_no_raw_text(response):
     assert "<caption" in page and ">Named</caption><tbody><tr style=" in page
     assert page.endswith(">name</th><td style='text-align:left'>&lt;b&gt;</td></tr></tbody></table>")
     assert all(fact in response._repr_html_() for fact in response.facts().values())
+    assert response._repr_html_().count("</td></tr><tr style=") == len(response.facts()) - 1
     lines = response.summary().splitlines()
     assert lines[0] == "Response" and lines[1] == "  duration      0.09 s"
 

@@ -7,8 +7,9 @@ import pytest
 
 import rockref
 from rockref.model.errors import InputError
-from rockref.model.rotation import apply_to_points
+from rockref.model.rotation import apply_to_points, exponential
 from rockref.model.standing import carrying, standing_posture
+from tests import physics
 from tests.refusal import refused
 
 TABLE = rockref.Model.table_3_1()
@@ -80,12 +81,27 @@ def test_a_block_without_a_triangle_below_it_is_refused():
         assert error.cure == "Check the feet, their stiffness in N/m and the centre of mass, or give a start state."
     # feet so soft that a tilt lowers the centre of mass by more than it loads the springs: m g H > sum K y^2
     soft = replace(POINTS, K_N=np.full(8, 0.9 * WEIGHT * 0.344 / (8 * 0.05**2)))
-    with pytest.raises(InputError, match="E-STAND"):
-        standing_posture(BLOCK, soft)
+    error = refused(standing_posture, BLOCK, soft)
+    assert (error.code, error.what) == ("E-STAND", "springs and weight find no equilibrium near the upright")
     # three feet, the centre of mass just outside of their triangle
     corner = replace(POINTS, P=POINTS.P + [0, 0, 1] * np.where([0, 0, 1, 0, 0, 0, 1, 0], 0.02, 0.0)[:, None])
     with pytest.raises(InputError, match="E-STAND"):
         standing_posture(BLOCK, replace(corner, P=corner.P + [0.02, 0.02, 0]))
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("lean, stands", [(0.09, True), (0.11, False)])
+def test_a_block_in_balance_does_not_stand_askew(axis, lean, stands):
+    """Three like feet around the centre of mass, along axes of a body that is turned about X or Y."""
+    angle = 2 * np.pi / 3 * np.arange(3)
+    even = np.column_stack([0.1 * np.cos(angle), 0.1 * np.sin(angle), np.full(3, -0.1)])
+    points = physics.points(even @ exponential(lean * np.eye(3)[axis]))
+    if stands:
+        state = standing_posture(physics.block(), points)
+        # Depths of 3 micrometres, rounded to those of heights of 0.1 m.
+        np.testing.assert_allclose(state.Lambda @ points.P.T, even.T, rtol=0, atol=1e-14)
+    else:
+        assert refused(standing_posture, physics.block(), points).code == "E-STAND"
 
 
 def test_a_release_is_what_it_was_and_a_moving_plate_is_stood_upon():

@@ -10,6 +10,7 @@ from rockref.model.standing import (
     TIPPED,
     carrying,
     check_inside,
+    descent,
     lower,
     potential,
     raised,
@@ -49,6 +50,17 @@ def test_force_and_stiffness_are_the_slopes_of_the_energy(seed):
         assert slope == pytest.approx(gradient[i], abs=1e-4)
         bend = (energy(q + h, points)[1] - energy(q - h, points)[1]) / 2e-8
         np.testing.assert_allclose(bend, curvature[i], rtol=1e-6, atol=1e-6 * np.abs(curvature).max())
+
+
+@pytest.mark.parametrize("tilt", [(0.3, 0.2), (-0.25, 0.35)])
+def test_the_stiffness_is_the_slope_of_the_force_however_far_it_leans(tilt):
+    points = feet(np.zeros(8))
+    q = np.array([0.3, *(B * np.array(tilt))])
+    _, _, curvature = energy(q, points)
+    for i, h in enumerate(np.eye(3) * 1e-7):
+        # Forces of 1e6 N are rounded to 1e-10 N, over 2e-7 m; what the third derivative leaves is (h/b)^2 of 1e9 N/m.
+        bend = (energy(q + h, points)[1] - energy(q - h, points)[1]) / 2e-7
+        np.testing.assert_allclose(bend, curvature[i], rtol=0, atol=1e-8 * np.abs(curvature).max())
 
 
 @pytest.mark.parametrize("tilt, stands", [((0.49, 0), True), ((0, 0.5), True), ((0.51, 0), False), ((0, -0.51), False),
@@ -130,6 +142,19 @@ def test_the_posture_is_as_precise_as_the_feet():
     product = state.Lambda.T @ state.Lambda
     # three rotations are multiplied, each entry rounded a few times
     assert np.abs(product - np.eye(3)).max() < 10 * np.finfo(np.longdouble).eps
+
+
+@pytest.mark.parametrize("stiffness, divisor", [(2000.0, 1.0), (1100.0, 2.3)])
+def test_a_block_that_tips_goes_no_farther_than_it_would_were_it_as_stiff_as_it_is_unstable(stiffness, divisor):
+    """Energy falls all along its way, by a stiffness of -1; of what may be added to that a thousandth is 2, or 1.1, and
+    three thousandths of 1100 are 3.3."""
+
+    def at(q):
+        return 5 * q[0] ** 2 + 5 * q[1] ** 2 - q[2] ** 2 / 2, q * [10.0, 10.0, -1.0], np.diag([10.0, 10.0, -1.0])
+
+    step = descent(np.array([0.0, 0.0, 0.01]), at, stiffness)
+    # A few roundings of a number of 0.01.
+    np.testing.assert_allclose(step, [0.0, 0.0, 0.01 / divisor], rtol=1e-14, atol=0)
 
 
 def held(q, at):

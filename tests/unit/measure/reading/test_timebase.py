@@ -210,6 +210,12 @@ EVENLY = "No sample is missing for that: rows were put at even intervals, 1000 a
          "time stamps come in bunches of 4, and rows over duration are 1000 Hz", EVENLY),
         (np.arange(1000) // 2 * 2e-3 + 2e-5 * (np.arange(1000) % 2), False,
          "time stamps come in bunches of 2, and rows over duration are 1000 Hz", EVENLY),
+        # A bunch's rows come in less than half of their time, if not at once.
+        (np.arange(1000) // 2 * 2e-3 + 3.5e-4 * (np.arange(1000) % 2), False,
+         "time stamps come in bunches of 2, and rows over duration are 1000 Hz", EVENLY),
+        # Off by two steps of the clock, of which a rounding explains one.
+        (np.round((CLEAN + 0.36e-3 * np.sin(2.1 * np.arange(1000))) * 5e3) / 5e3, True,
+         "intervals between samples differ from 1/1000 s by up to 80 %", "The time stamps were kept as they are."),
         # What a clock of whole milliseconds rounds off, and no more.
         (np.floor(np.arange(1000) / 0.87) / 1e3, False,
          "intervals between samples differ from 1/870 s by up to 74 %",
