@@ -18,6 +18,7 @@ from rockref.model.listening import (
 from rockref.model.problem import stack
 from rockref.model.rotation import exponential
 from rockref.model.simulate import simulate
+from tests import physics
 
 TABLE = rockref.Model.table_3_1()
 
@@ -145,10 +146,9 @@ def test_a_batch_has_the_bits_of_its_blocks():
 
 @pytest.mark.parametrize(("key", "number"), [("x", np.nan), ("v", np.inf), ("W", np.nan)])
 def test_a_run_that_loses_its_numbers_has_none_from_there_on(key, number):
-    """In flight a lost position or velocity turns no block: its rates are numbers still, of a run that is none. The
+    """Without feet a lost position or velocity turns no block: its rates are numbers still, of a run that is none. The
     block beside keeps its bits."""
-    problem = TABLE.problem(1e-3)
-    sound = problem.replace(start=replace(problem.start, x=np.array([0.0, 0.0, 1.0]), W=np.array([0.1, 0.2, 0.3])))
+    sound = physics.flying((2.0, 2.0, 1.0), (0.1, 0.2, 0.3), 1e-3, 0.01)
     lost = sound.replace(start=replace(sound.start, **{key: getattr(sound.start, key) + [number, 0, 0]}))
     K = 4
     target = Target(np.zeros((K, 3)), np.broadcast_to(np.eye(3), (K, 3, 3)), np.zeros((K, 3)), np.zeros(K), 2)
