@@ -255,7 +255,7 @@ def as_arrays(problem: Problem, dtype=None) -> Problem:
         block=_convert(problem.block, ARRAYS_OF_BLOCK, batch, dtype),
         points=_convert(problem.points, ARRAYS_OF_POINTS, batch, dtype),
         start=_convert(problem.start, ARRAYS_OF_STATE, batch, dtype),
-        base=None if problem.base is None else replace(problem.base, a=np.asarray(problem.base.a, dtype, order="C")),
+        base=None if problem.base is None else replace(problem.base, a=np.asarray(problem.base.a, dtype)),
     )
 
 

@@ -68,7 +68,7 @@ def pivot_points(points: ContactPoints, theta_0, side) -> tuple:
 
 def of_point(a: np.ndarray, k) -> np.ndarray:
     """Return what belongs to point k (...), of numbers (..., n) or of vectors (..., n, 3)."""
-    return a[(*np.indices(np.shape(k), sparse=True), k)]
+    return a[(*np.ix_(*map(range, np.shape(k))), k)]
 
 
 def release_posture(
@@ -104,7 +104,7 @@ def release_posture(
     check_roll(points, out_of_plane)
     i, j = pivot_points(points, theta_0, side)
     dtype, weight = points.P.dtype, np.asarray(block.mass * block.g)
-    radius = np.zeros(points.P.shape[:-1], dtype) if points.radius is None else points.radius
+    radius = np.zeros_like(points.K_N) if points.radius is None else points.radius
     centre = points.P.copy()
     centre[..., 2] += radius
     depth = weight[..., None] / 2 / points.K_N

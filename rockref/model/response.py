@@ -182,7 +182,8 @@ class Response(Shown):
         columns = {"t_s": self.t}
         columns |= {f"w{a}_deg_s": self.crv[:, i] for i, a in enumerate("xyz")}
         columns |= {f"{a}_m": self.x[:, i] for i, a in enumerate("xyz")}
-        columns |= {f"q{a}": c for a, c in zip("wxyz", quaternion(self.Lambda).T, strict=True)}
+        q = quaternion(self.Lambda)
+        columns |= {f"q{a}": q[:, i] for i, a in enumerate("wxyz")}
         for i, name in enumerate(self.problem.points.names):
             columns |= {f"f{a}_{name}_N": self.F[:, i, j] for j, a in enumerate("xyz")}
             columns |= {f"contact_{name}": self.anchored[:, i], f"slip_{name}": self.sliding[:, i]}

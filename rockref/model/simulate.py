@@ -53,7 +53,7 @@ def largest_step(problem: Problem) -> float:
 
 def stiffest(problem: Problem) -> str:
     """Name, stiffness and damping of the contact that by itself allows the shortest step, in the stiffer direction."""
-    points, mass = problem.points, np.asarray(problem.block.mass, float)[..., None]
+    points, mass = problem.points, np.asarray(problem.block.mass)[..., None]
     pairs = [(np.asarray(points.K_N), np.asarray(points.C_N)), (np.asarray(points.K_T), np.asarray(points.C_T))]
     limits = np.stack([(np.sqrt(C * C + K * mass) - C) / K for K, C in pairs])
     place = tuple(np.unravel_index(np.argmin(limits), limits.shape))

@@ -8,7 +8,7 @@ import numpy as np
 
 from rockref.model.errors import InputError
 from rockref.model.problem import Block, ContactPoints, State
-from rockref.model.rotation import apply_to_points, cross, exponential, product
+from rockref.model.rotation import apply_to_points, exponential, product
 
 #: Iterations of the search for the equilibrium. Decided: eight even feet take three, defects of a millimetre some ten.
 ITERATIONS = 200
@@ -57,16 +57,15 @@ def standing_posture(
         are too soft for its height.
     """
     check_inside(points)
-    dtype = points.P.dtype
     n, height = equilibrium(block, points)
     turn = heading - 2 * np.pi * np.rint(heading / (2 * np.pi))
-    Lambda = product(exponential(np.array([0, 0, turn], dtype)), upright(n))
-    return State.at_rest(np.array([*place, height], dtype), Lambda, points.n)
+    Lambda = product(exponential(np.array([0, 0, turn], n.dtype)), upright(n))
+    return State.at_rest(np.array([*place, height]), Lambda, points.n)
 
 
 def raised(points: ContactPoints) -> tuple[np.ndarray, np.ndarray]:
     """Return centres of the feet in body axes (n, 3) [m] and their radii (n,) [m]."""
-    radius = np.zeros(points.n, points.P.dtype) if points.radius is None else points.radius
+    radius = np.zeros_like(points.K_N) if points.radius is None else points.radius
     centre = points.P.copy()
     centre[:, 2] += radius
     return centre, radius
@@ -74,10 +73,11 @@ def raised(points: ContactPoints) -> tuple[np.ndarray, np.ndarray]:
 
 def upright(n: np.ndarray) -> np.ndarray:
     """Return the shortest rotation (3, 3) that takes the unit vector n (3,) of the body to the vertical."""
-    axis = cross(n, np.array([0, 0, 1], n.dtype))
+    axis = np.zeros_like(n)  # n x e_z
+    axis[0], axis[1] = n[1], 0 - n[0]
     sine = np.sqrt(np.sum(axis * axis))
     if sine == 0:
-        return np.eye(3, dtype=n.dtype)
+        return exponential(axis)
     return exponential(np.arctan2(sine, n[2]) / sine * axis)
 
 
@@ -108,7 +108,7 @@ def equilibrium(block: Block, points: ContactPoints) -> tuple[np.ndarray, np.nda
         if step is None:
             break
         q = q + step
-    stable = np.linalg.eigvalsh(curvature.astype(float))[0] > 0
+    stable = np.linalg.eigvalsh(np.float64(curvature))[0] > 0
     if askew or not stable or np.max(np.abs(gradient)) > LEFT_OVER * weight:
         raise falls("springs and weight find no equilibrium near the upright")
     return vertical(q, b), q[0]
@@ -116,17 +116,17 @@ def equilibrium(block: Block, points: ContactPoints) -> tuple[np.ndarray, np.nda
 
 def tipped(gradient: np.ndarray, curvature: np.ndarray, b: float) -> np.ndarray | None:
     """Return the step that tips a block which balances on two feet to the lower side; None where it stands."""
-    values, vectors = np.linalg.eigh(curvature.astype(float))
+    values, vectors = np.linalg.eigh(np.float64(curvature))
     if values[0] >= 0:
         return None
-    way = vectors[:, 0] * (-1 if vectors[:, 0] @ gradient.astype(float) > 0 else 1)
+    way = vectors[:, 0] * (-1 if vectors[:, 0] @ np.float64(gradient) > 0 else 1)
     return (TIPPED * b * way).astype(gradient.dtype)
 
 
 def descent(q: np.ndarray, at, stiffness) -> np.ndarray | None:
     """Return Newton's step, or the first of the steps with more and more damping, that leads down; None without one."""
     energy, gradient, curvature = at(q)
-    least = np.linalg.eigvalsh(curvature.astype(float))[0]
+    least = np.linalg.eigvalsh(np.float64(curvature))[0]
     for share in DAMPING:
         # On fewer than three feet the block tips over, and energy falls all the way: a step goes at most as far as it
         # would if the block were as stiff there as it is unstable, so that the next foot is not passed by.
@@ -134,11 +134,11 @@ def descent(q: np.ndarray, at, stiffness) -> np.ndarray | None:
             continue
         try:
             # LAPACK knows no long double. What a step lacks in digits the next one finds.
-            stiff = (curvature + share * stiffness * np.eye(3)).astype(float)
-            trial = -np.linalg.solve(stiff, gradient.astype(float))
+            stiff = np.float64(curvature + share * stiffness * np.eye(3))
+            trial = -np.linalg.solve(stiff, np.float64(gradient))
         except np.linalg.LinAlgError:
             continue
-        step = lower(q, trial.astype(q.dtype), energy, gradient, at)
+        step = lower(q, trial, energy, gradient, at)
         if step is not None:
             return step
     return None
@@ -150,7 +150,7 @@ def rigid_support(centre: np.ndarray, radius: np.ndarray, b: float) -> np.ndarra
     Of all planes through three feet with no foot below, the one on which the centre of mass is lowest.
     """
     low = radius - centre[:, 2]
-    flat = np.array([np.max(low), 0, 0], centre.dtype)
+    flat = np.array([np.max(low), 0, 0])
     if len(centre) > MOST_FEET:
         return flat
     slope = np.concatenate([np.ones_like(centre[:, :1]), centre[:, :2] / b], axis=1).astype(float)
@@ -185,7 +185,7 @@ def lower(q, trial, energy, gradient, at) -> np.ndarray | None:
 def vertical(q: np.ndarray, b: float) -> np.ndarray:
     """Return the unit vector (3,) in body axes that points upwards."""
     x, y = q[1] / b, q[2] / b
-    return np.array([x, y, np.sqrt(1 - x * x - y * y)], q.dtype)
+    return np.array([x, y, np.sqrt(1 - x * x - y * y)])
 
 
 def potential(q, b, weight, K, centre, radius) -> tuple[float, np.ndarray, np.ndarray]:
@@ -201,7 +201,7 @@ def potential(q, b, weight, K, centre, radius) -> tuple[float, np.ndarray, np.nd
     gradient[0] += weight
     curvature = np.sum((K * (depth > 0))[:, None, None] * slope[:, :, None] * slope[:, None, :], axis=0)
     turning = np.sum(F * z) / n[2] / b**2
-    bend = turning * (np.eye(2, dtype=q.dtype) + n[:2, None] * n[None, :2] / n[2] ** 2)
+    bend = turning * (np.eye(2) + n[:2, None] * n[None, :2] / n[2] ** 2)
     curvature[1:, 1:] += bend
     return weight * q[0] + np.sum(F * np.maximum(depth, 0)) / 2, gradient, curvature
 
