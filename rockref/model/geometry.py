@@ -64,7 +64,7 @@ def check_number(key: str, value, least: float = 0.0, more_than_least: bool = Fa
     """Refuse what is no finite number (E-TYPE, E-RANGE), or too small (E-RANGE)."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise InputError("E-TYPE", key, f"is {value!r}"[:120], "Give one real number.")
-    finite = math.isfinite(value) if isinstance(value, float) else isinstance(value, int) or np.isfinite(value)
+    finite = isinstance(value, int) or np.isfinite(value)
     if not finite or value < least or (more_than_least and value == least):
         limit = f"{'above' if more_than_least else 'not below'} {least:g}"
         raise InputError("E-RANGE", key, f"is {value!r}", f"Give a finite number, {limit}.")

@@ -120,7 +120,7 @@ def listen(problem: Problem, target: Target) -> np.ndarray:
                 F = np.asarray(state.F)
                 load = load + sum_over_points(F)[..., 2]
                 moment = moment + sum_over_points(F[..., 2:] * lever_arms(problem, state))
-            lost = ~np.isfinite(state.x.sum(-1) + state.v.sum(-1) + state.W.sum(-1))
+            lost = ~np.all(np.isfinite(state.x) & np.isfinite(state.v) & np.isfinite(state.W), axis=-1)
             rates[..., k, :] = np.where(lost[..., None], np.nan, state.W)
             if np.all(lost):
                 break

@@ -142,7 +142,7 @@ class Response(Shown):
             raise InputError("E-BATCH", "contacts", "was asked of a batch", "Index the response first: response[i].")
         found = []
         for i, name in enumerate(self.problem.points.names):
-            on = np.concatenate([[False], self.anchored[:, i], [False]]).astype(np.int8)
+            on = np.concatenate([[0], self.anchored[:, i], [0]])
             begin, end = np.flatnonzero(np.diff(on) == 1), np.flatnonzero(np.diff(on) == -1) - 1
             found.append((name, np.column_stack([self.t[begin], self.t[end]])))
         return found

@@ -141,7 +141,7 @@ def check_size(problem: Problem) -> None:
         )
     # x, v, Lambda, W; a force, an anchor and two flags a point
     numbers, flags = 18 + 5 * problem.points.n, 2 * problem.points.n
-    size = rows * float(np.prod(problem.batch)) * (numbers * np.dtype(float).itemsize + flags)
+    size = rows * float(np.prod(problem.batch)) * (numbers * np.float64().itemsize + flags)
     if size > LARGEST_RESPONSE:
         raise InputError(
             "E-SIZE",
