@@ -15,7 +15,7 @@ from rockref.model.listening import (
     listen,
     rate_correction,
 )
-from rockref.model.problem import stack
+from rockref.model.problem import State, stack
 from rockref.model.rotation import exponential
 from rockref.model.simulate import simulate
 from tests import physics
@@ -145,10 +145,13 @@ def test_a_batch_has_the_bits_of_its_blocks():
 
 
 @pytest.mark.parametrize(("key", "number"), [("x", np.nan), ("v", np.inf), ("W", np.nan)])
-def test_a_run_that_loses_its_numbers_has_none_from_there_on(key, number):
-    """Without feet a lost position or velocity turns no block: its rates are numbers still, of a run that is none. The
-    block beside keeps its bits."""
+@pytest.mark.parametrize("feet", [False, True])
+def test_a_run_that_loses_its_numbers_has_none_from_there_on(key, number, feet):
+    """Without feet a lost position or velocity turns no block: its rates are numbers still, of a run that is none. With
+    them nothing is warned of. The block beside keeps its bits."""
     sound = physics.flying((2.0, 2.0, 1.0), (0.1, 0.2, 0.3), 1e-3, 0.01)
+    if feet:
+        sound = TABLE.problem(1e-3).replace(start=State.at_rest(sound.start.x, np.eye(3), 8, W=sound.start.W))
     lost = sound.replace(start=replace(sound.start, **{key: getattr(sound.start, key) + [number, 0, 0]}))
     K = 4
     target = Target(np.zeros((K, 3)), np.broadcast_to(np.eye(3), (K, 3, 3)), np.zeros((K, 3)), np.zeros(K), 2)
