@@ -97,7 +97,7 @@ MISTAKES = (
             AFTER.replace("\n", " if (u_t - s) @ v_slide > 0 else s\n")),
     # The body.
     Mistake("no loads where no foot touches", ("A1",), "    force = F.sum(axis=0) - [0, 0, mass * g]\n",
-            "    force = F.sum(axis=0) - [0, 0, mass * g] * F.any()\n"),
+            "    force = F.sum(axis=0) - np.array([0, 0, mass * g]) * F.any()\n"),
     Mistake("the sum of forces is not set back before the next step", ("A1", "S1"), SUMS,
             SUMS + '    force = force + (0 if memory.get("a") is None else block.mass * memory["a"])\n'),
     Mistake("the lever overwritten while its moment is made", ("A2",), MOMENT, OVERWRITTEN),
