@@ -139,3 +139,11 @@ def no_rotation() -> Iterator[Case]:
     """Yield I3 of the vector that is exactly zero: nothing is moved, and nothing is divided by nothing."""
     fields = {"Lambda": ("I3", "I3")}
     yield Case("I3", "L3", "rotate", {"Theta": np.zeros(3)}, fields, ("zero",), on_surface=True)
+
+
+def hardly_turned() -> Iterator[Case]:
+    """Yield I3 of turns far below a nanoradian: they are turns."""
+    d = Draw(33)
+    for size in (2.0**-30, 2.0**-34):
+        fields = {"Lambda": ("I3", "I3")}
+        yield Case("I3", "L3", "rotate", {"Theta": size * normalised(d.vector(1))}, fields, ("tiny",))

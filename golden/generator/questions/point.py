@@ -201,6 +201,22 @@ def two_coefficients() -> Iterator[Case]:
         yield ask("T3", SLIDE, ("slip", "outside both cones"), s=s, **made)
 
 
+def whatever_else() -> Iterator[Case]:
+    """Yield T6 between the cones of feet that rise or sink, and that are dragged on or back: nothing but what they did
+    before decides which cone is theirs."""
+    d = Draw(27)
+    fields = {"sliding": ("T6", "T6"), "trace.threshold": ("T6", "T6")}
+    for share, dragged in ((-0.4, 0.0), (-0.2, 0.5), (0.3, -0.5), (-0.3, -0.4), (0.0, 0.5), (0.0, -0.5)):
+        for slid in (False, True):
+            xi, way = d.decade(1e-6, 1e-4), d.between(0, 6.2)
+            F_N = (1 + share) * xi * FOOT["K_N"]
+            # Spring and damper together pull by one and a half times the smaller cone.
+            s, v = towards(way, 1.5 - dragged, F_N, 0.25), -towards(way, dragged, F_N, 0.25) * FOOT["K_T"] / FOOT["C_T"]
+            rate = share * xi * FOOT["K_N"] / FOOT["C_N"]
+            flags = ("slip" if slid else "stick", "between the cones", "moving")
+            yield ask("T6", fields, flags, xi=xi, xi_rate=rate, s=s, v_slide=v, sliding=slid, mu_0=0.5, mu=0.25)
+
+
 def sliding() -> Iterator[Case]:
     """Yield T3 and T4: the force that remains, and the anchor that follows; with and without damper; in many
     directions."""

@@ -150,9 +150,47 @@ def thrown_up() -> Iterator[tuple[float, Case]]:
     yield 22.96, ask({"F_N@1": "N2"}, "open after a step, and coming down", 2, standing(2.0**-13), made=made, **up)
 
 
+def in_flight() -> Iterator[tuple[float, Case]]:
+    """Yield I1 of a leaning block: its velocity is the plate's; A1 of a fall of four steps: none is like the others
+    where loads add up."""
+    oblique = rotation((0.3, -0.2, 0.5))
+    drift: Any = {"v": Draw(87, 53).vector(1), "g": WEIGHTLESS, "Lambda": oblique}
+    yield 4.65, fly({"x@1": "I1"}, "drifting without a weight, leaning", **drift)
+    pulled: Any = {"a": -9.81 * Z, "T": np.zeros(3), "F": np.zeros((8, 3))}
+    for place, v in ((8.06, DRIFT), (8.07, (-2.0, 4.0, 8.0))):
+        yield place, fly({"x@4": "A1"}, "falling, four steps", 4, v=v, **pulled)
+
+
+def sliding_on() -> Iterator[tuple[float, Case]]:
+    """Yield T6 of eight feet that slide on between the cones, each its own way: who asks whether a foot slides by the
+    force that sliding leaves decides by a rounding."""
+    # Dampers beyond both cones; a step later every spring is stretched by less than what lies between them.
+    fast: Any = {"v": [-1.1, -0.9, 0.0], "W": [0.0, 0.0, 3.0], **held(Draw(86).vectors(1e-6, 8, 2)), "anchored": ALL}
+    made = {"mu": 0.25, "mu_0": 0.5}
+    fields = {f"F_T@{i}": "T6" for i in (1, 2, 3)}
+    yield 64.48, ask(fields, "eight feet slide on, between the cones", 4, DEEP, made=made, **fast)
+
+
+def at_once() -> Iterator[tuple[float, Case]]:
+    """Yield I3 of a ball that hardly turns, and brings no loads; T2 of feet that slide in the step in which they touch;
+    T6 between the cones of feet that rise and of feet that sink."""
+    spun: Any = {"inertia": diagonal(1.0, 1.0, 1.0), "W": Draw(88).vector(4) * SLOW}
+    yield 8.66, fly({"Lambda@1": "I3"}, "a ball that hardly turns, falling", **spun)
+    # Three times the cone of the deepest feet, by dampers alone: wherever the anchors are, they pull by nothing.
+    v = 3 * 0.25 * 32 * IN * 6e7 / C_T * np.array([-0.6, 0.8, 0.0])
+    made = {"mu": 0.25, "mu_0": 0.25, "K_T": 1.0}
+    yield 60.8, ask({"F_T@0": "T2"}, "touching anew, and sliding", 1, DEEP, made=made, v=v)
+    # A damper takes a quarter of the normal force, or adds one.
+    for place, share, slid in ((62.12, 0.75, False), (62.14, 1.25, True)):
+        up = (1 - share) * IN * 6e7 / float(table_3_1(delta_long=EVEN)["C_N"][4])
+        some: Any = {"v": up * Z, "sliding": ALL & slid, **held(TIP * 1.5 * share)}
+        flag = f"between the cones, {'sinking, slid' if slid else 'rising, stuck'}"
+        yield place, ask({"F_T@0": "T6"}, flag, 1, standing(), made={"mu": 0.25, "mu_0": 0.5}, **some)
+
+
 def habits() -> Iterator[Case]:
     """Yield all of them."""
     return placed(
         slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied, let_go, turned_twice,
-        rising, pulled_back, loads, thrown_up,
+        rising, pulled_back, loads, thrown_up, in_flight, sliding_on, at_once,
     )  # fmt: skip

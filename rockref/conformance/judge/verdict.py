@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-from rockref.conformance.judge.causes.flags import telling
+from rockref.conformance.judge.causes.flags import FORCES, later, telling
 from rockref.conformance.judge.causes.other_runs import cause_of
 from rockref.conformance.judge.causes.whole_steps import rule_of_a_step
 from rockref.conformance.judge.compare_answer import ELSEWHERE, OTHERWISE, Check
@@ -24,6 +24,7 @@ NO_RULE = "No short run diverges: the first divergent sample of the long ones is
 A_STEP = "A whole step is wrong, and no short run tells by which rule: it is this one, or one that comes before it."
 HANDED = "The piece by itself passes: look at what the step hands to it."
 STEP_OF_THE_RUN = "The pieces pass by themselves, steps of other runs, too; the step from a state of this run does not."
+HANDED_ON = "All pieces pass by themselves, a step from any state, too: what a step hands to the next makes it wrong."
 COMPANY = "The piece by itself passes; where several feet stand together, at the very start of a run, it does not."
 ANEW = "The answer is that of a start evaluated anew: the a, T and F that the start brings were not taken."
 SMALL = ("L0", "L1", "L2", "L3", "L7")
@@ -187,6 +188,8 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
             return unproved.rule, unproved, ""
         if findings.step_is_wrong:
             return check.rule, check, STEP_OF_THE_RUN
+        if check.name.startswith(FORCES) and later(check) and all_asked(findings):
+            return check.rule, check, HANDED_ON
         return ("S2", check, LOOP) if all_asked(findings) else (None, check, UNASKED)
     return None, None, ""
 
@@ -225,7 +228,7 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     rules = status_of_rules(findings.checks)
     rule, check, says = suspect(findings)
     # Of another integrator a run alone shows what its step hands to the pieces.
-    asked = ("", COMPANY, LOOP) if findings.profile == "scheme" else ("", COMPANY)
+    asked = ("", COMPANY, HANDED_ON, *([LOOP] if findings.profile == "scheme" else []))
     if check is not None and rule == check.rule and says in asked:
         rule, words = cause_of(findings.answers, findings.checks, check, findings.profile)
         says = " ".join(filter(None, (says, words)))

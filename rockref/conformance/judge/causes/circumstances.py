@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.conformance.judge.causes.as_if import GIVEN_UP, given_up
 from rockref.conformance.judge.causes.rows_of_the_law import Feet, Row, off, rows_of_the_law, same
 from rockref.conformance.judge.compare_answer import Check
 from rockref.conformance.vectors import Vector
@@ -38,6 +39,7 @@ CIRCUMSTANCES: Circumstances = (
     ("T1", "springs of sticking feet are stretched", lambda f: f["spring"] & ~f["slides"]),
     ("T2", "feet slide", lambda f: f["slides"]),
     ("T2", "feet begin or cease to slide", lambda f: f["slides"] != f["slid"]),
+    ("T2", "feet that touch anew slide", lambda f: f["new"] & f["slides"]),
     ("T6", "feet that slid are between the cones", lambda f: f["between"] & f["slid"]),
     ("T6", "feet that stuck are between the cones", lambda f: f["between"] & ~f["slid"]),
     ("T3", "feet slide", lambda f: f["slides"]),
@@ -95,7 +97,9 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
         return "K1", UNDAMPED
     if rule == "T1" and anew_alone(wrong, right):
         return "T5", ANEW
-    if rule == "T5" and after_sliding_alone(wrong, right):
+    if rule == "T1" and given_up(answers):
+        return "T5", GIVEN_UP
+    if after_sliding_alone(wrong, right) and (rule == "T5" or (rule == "T6" and beyond_the_cones(wrong, right))):
         return "T4", SLID
     scores = [agreement(meets, wrong, right) for _, _, meets in CIRCUMSTANCES]
     own = max((s for s, (r, _, _) in zip(scores, CIRCUMSTANCES, strict=True) if r == rule),
@@ -139,6 +143,13 @@ def after_sliding_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
     stuck = [f for f in right if np.any(f["later"] & ~f["new"] & f["spring"] & ~f["slid"])]
     at_start = any(bool(np.any(f["slid"] & ~f["later"])) for f in wrong)
     return len(stuck) >= SOME and not at_start and sum(bool(np.any(f["moved"])) for f in wrong) >= CLEAR * len(wrong)
+
+
+def beyond_the_cones(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
+    """Return whether feet that slid before the start are right between the cones, and many are wrong that are not
+    between them: the threshold is right."""
+    asked = [f for f in right if np.any(f["between"] & f["slid"] & ~f["later"])]
+    return len(asked) >= SOME and sum(not np.any(f["between"]) for f in wrong) >= SOME
 
 
 def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[str, str]:

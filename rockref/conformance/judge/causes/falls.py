@@ -28,6 +28,7 @@ AT_THE_START = "Where the start brings its own acceleration, the fall is right: 
 FAR = 4.0
 TOO_FAR = "Falls from rest are right, others off by more in a step than a weight makes: it is the velocity."
 A_STEP_LATE = "The first step of every fall is right, and the second of some is not: the velocity is wrong."
+ADD_UP = "Falls gain more in each step, by the same whatever their velocity: loads add up from step to step."
 ON_TIME = "Turns are right at the same instants: the place is wrong, and not the clock."
 
 Answers = Sequence[tuple[Vector, dict[str, Any]]]
@@ -40,6 +41,8 @@ def rule_of_a_fall(answers: Answers, rule: str) -> tuple[str, str]:
     """
     if rule == "S2":
         return ("I1", ON_TIME) if on_time(answers) else (rule, "")
+    if rule == "I4" and loads_add_up(answers):
+        return "A1", ADD_UP
     if rule != "A1":
         return rule, ""
     if a_step_late(answers):
@@ -87,11 +90,27 @@ def way_of_the_weight(q: dict[str, Any]) -> float:
 
 
 def on_time(answers: Answers) -> bool:
-    """Return whether in runs of one step above the plate all places are wrong of what moves, and no turn is."""
+    """Return whether in runs of one step above the plate places are wrong of what moves, and no turn is."""
     runs = [(v, out, rows_of_the_law(v.id)[1]) for v, out in answers if v.layer == "L5s" and free(v)]
     turned = [same(out, "Lambda", 1, row.Lambda) for v, out, row in runs if np.any(v.inputs["W"])]
     moved = [same(out, "x", 1, row.x) for v, out, row in runs if np.any(v.inputs["v"]) and not np.any(v.inputs["W"])]
-    return len(turned) >= SOME and all(turned) and len(moved) >= SOME and not any(moved)
+    return len(turned) >= SOME and all(turned) and len(moved) >= SOME and not all(moved)
+
+
+def loads_add_up(answers: Answers) -> bool:
+    """Return whether falls of several steps gain more speed in each, and those of all velocities alike."""
+    found = []
+    for vector, out in answers:
+        rows = rows_of_the_law(vector.id) if vector.layer == "L5s" and free(vector) else ()
+        if len(rows) < 5:
+            continue
+        try:
+            gained = np.diff(np.asarray(out["x"], float)[:, 2], 2) / np.diff([row.x[2] for row in rows], 2)
+        except (KeyError, TypeError, ValueError, IndexError):
+            return False
+        found.append(gained)
+    alike = len(found) > 1 and all(bool(np.max(np.abs(f - found[0])) <= NEAR) for f in found)
+    return alike and bool(np.min(np.diff(found[0])) > NEAR)
 
 
 def a_step_late(answers: Answers) -> bool:

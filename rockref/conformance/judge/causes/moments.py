@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.judge.causes.data_flow import law_extrapolated
+from rockref.conformance.judge.causes.other_integrators import HARDLY, shares_off
 from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
 from rockref.conformance.judge.causes.slips import rotation_vector
 from rockref.conformance.judge.compare_answer import Check
@@ -78,10 +79,20 @@ def rule_of_a_turn_alone(answers: Answers, checks: Sequence[Check], check: Check
     both = {v.id for v, _ in answers if v.layer == check.layer and {"x@1", "Lambda@1"} <= v.expect.keys()}
     wrong = [c for c in checks if c.failed and c.weighed and not c.follows and c.layer == check.layer]
     names = [c.name for c in wrong if c.vector in both]
-    if not check.name.startswith("Lambda@") or names.count("Lambda@1") < SOME or "x@1" in names:
+    known = {v.id: (v, out) for v, out in answers}
+    moved = [c for c in wrong if c.vector in both and c.name == "x@1" and not hardly_moved(*known[c.vector])]
+    if not check.name.startswith("Lambda@") or names.count("Lambda@1") < SOME or moved:
         return check.rule, ""
     of_moments = [c for c in wrong if c.rule == "A2" and c.name == "Lambda@1"]
     return rule_of_a_moment(answers, checks, of_moments[0])[0] if of_moments else "A2", ALONE
+
+
+def hardly_moved(vector: Vector, out: dict[str, Any]) -> bool:
+    """Return whether what a run of sixteen steps is off by is its turn, by far."""
+    if vector.layer != "LS":
+        return False
+    way, turn = shares_off(vector, out)
+    return way <= HARDLY * turn
 
 
 def is_upright(vector: Vector) -> bool:

@@ -19,6 +19,7 @@ CHAIN = (
     ("s", "T4"),
 )  # fmt: skip
 EARLIER = "The {} of the same foot is wrong already."
+ANCHORED = "The anchor of the same foot is right: it is the trial force."
 NAMES = {"F_N": "normal force", "s_trial": "anchor", "F_trial": "trial force", "threshold": "threshold"}
 
 
@@ -34,6 +35,10 @@ def rule_of_one_foot(q: dict[str, Any], out: dict[str, Any], check: Check) -> tu
             break
         if name in NAMES and differs(shown.get(name), right[name], right, q, name):
             return rule, EARLIER.format(NAMES[name])
+    anchor = "s_trial" if shown.get("s_trial") is not None else "s"
+    of_anchor = check.rule == "T5" and check.name == "F_T" and not right["sliding"] and shown.get(anchor) is not None
+    if of_anchor and not differs(shown[anchor], right[anchor], right, q, anchor):
+        return "T1", ANCHORED
     return check.rule, ""
 
 

@@ -30,10 +30,13 @@ STEADY = 1e-9
 GROWTH = 1.25
 #: A coefficient of friction beyond every cone, as short runs have it. Decided.
 HELD = 2.0**20
+#: A share of the runs with dampers that have to be wrong for the dampers to be. Decided.
+MOST = 0.5
 SLID = "Anchors of feet that never slide are right: those of feet that slide are not."
 SUMMED = "Springs alone turn the block as they should, and move it otherwise."
 RATE = "Springs alone push as they should; dampers turn the block as they should, and move it otherwise."
 STICKING = "Where feet stick, friction moves the block as it should; where they slide on, it does not."
+AFTER_THE_START = "Forces of the start and all that springs alone make are right: after a step dampers are wrong."
 SLOWED = "The rates of a ball that nothing turns change."
 PULLED = "What the place of a drifting block is off by grows faster than the steps: its velocity changes."
 
@@ -57,6 +60,8 @@ def rule_of_sixteen_steps(answers: Answers, checks: Sequence[Check], check: Chec
         return "A1", PULLED
     if check.rule == "A1" and is_clear(next(v for v, _ in answers if v.id == check.vector)) and too_far(answers, "LS"):
         return "I1", TOO_FAR
+    if check.rule in ("A1", "N1") and dampers_alone(answers, checks, check):
+        return "S1", AFTER_THE_START
     if check.rule == "I2" and balls_are_slowed(answers):
         return "I5", SLOWED
     if check.rule == "N1":
@@ -66,6 +71,30 @@ def rule_of_sixteen_steps(answers: Answers, checks: Sequence[Check], check: Chec
     if check.rule == "A1" and sticking_is_right(answers, checks, check):
         return "T4", STICKING
     return check.rule, ""
+
+
+def dampers_alone(answers: Answers, checks: Sequence[Check], check: Check) -> bool:
+    """Return whether forces of the start are shown and right, and on ice all runs without dampers are right and most
+    others wrong, the one that is told among them."""
+    told = next(v for v, _ in answers if v.id == check.vector)
+    failed = {c.vector for c in checks if c.failed and c.layer == "LS"}
+    pushed = [v for v, _ in answers if v.layer == "LS" and "Lambda@1" in v.expect and on_ice(v)]
+    springs, dampers = ({v.id for v in pushed if damped(v) is is_damped} for is_damped in (False, True))
+    shown = [v.id for v, out in answers if v.layer == "L5s" and "F_N@0" in v.expect and out.get("F") is not None]
+    right = bool(shown) and not any(c.failed and c.layer == "L5s" for c in checks)
+    damped_alone = damped(told) and not is_clear(told) and not np.any(told.inputs["mu_0"])
+    return (
+        right
+        and damped_alone
+        and len(springs) > 1
+        and not failed & springs
+        and len(failed & dampers) >= MOST * len(dampers)
+    )
+
+
+def damped(vector: Vector) -> bool:
+    """Return whether any foot of a run has a normal damper."""
+    return bool(np.any(vector.inputs["C_N"]))
 
 
 def sticking_is_right(answers: Answers, checks: Sequence[Check], check: Check) -> bool:
@@ -127,7 +156,8 @@ def shares_off(vector: Vector, out: dict[str, Any]) -> tuple[float, float]:
             off = np.linalg.norm(np.asarray(out[key], float)[1] - right[key][1])
         except (KeyError, TypeError, ValueError, IndexError):
             return np.inf, np.inf
-        shares.append(float(off / np.linalg.norm(right[key][1] - q[key])))
+        size = np.linalg.norm(right[key][1] - q[key])
+        shares.append(float(off / size) if size > 0 else np.inf if off > 0 else 0.0)
     return shares[0], shares[1]
 
 

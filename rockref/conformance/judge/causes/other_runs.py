@@ -9,6 +9,7 @@ import numpy as np
 
 from rockref.conformance.judge.causes.as_if import rule_as_if
 from rockref.conformance.judge.causes.circumstances import rule_in_common, rule_of_normal_forces
+from rockref.conformance.judge.causes.constants import rule_of_a_constant
 from rockref.conformance.judge.causes.data_flow import is_clear
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
 from rockref.conformance.judge.causes.friction import DAMPER, moves_alone, rule_of_friction
@@ -25,6 +26,7 @@ OF_FORCES = ("K1", "N1", "N2", "T5", "T1", "T2", "T6", "T3", "T4")
 #: A share of its way by which a block that goes up or down goes sideways. Decided: integrators differ by a millionth.
 SHARE = 1e-5
 SIDEWAYS = "Without friction, what pushes moves the block sideways: the forces are summed wrongly."
+PUSHED = "Falls of two steps are right: what pushes after the first step is wrong, and not the velocity."
 PUSHES_ALONE = "Normal forces turn the block as they should, and move it otherwise."
 
 
@@ -36,6 +38,10 @@ def cause_of(
     Its own numbers are asked first, then the normal forces of its row, then what all runs have in common that are
     wrong, then how a fall or a turn goes on.
     """
+    if profile != "float32" and check.weighed and check.layer in ("L5s", "LS"):
+        other, says = rule_of_a_constant(answers, checks, check)
+        if says:
+            return other, says
     hidden = profile != "float32" and check.weighed and stands_for_forces(answers, check)
     of_moments = profile != "float32" and check.rule in ("A2", "A3")
     if (of_moments or (hidden and check.rule in PUSHES)) and pushed_sideways(answers, check.layer):
@@ -47,6 +53,10 @@ def cause_of(
             other, says = told(answers, checks, check)
             if says:
                 return other, says
+    if profile == "scheme" and check.layer == "LS" and check.rule in OF_FORCES and check.name.startswith("Lambda@"):
+        other, says = rule_of_a_turn_alone(answers, checks, check)
+        if says:
+            return other, says
     if profile == "scheme" and check.layer == "LS":
         return rule_of_sixteen_steps(answers, checks, check) if check.weighed else (check.rule, "")
     rule, words = rule_of_friction(answers, checks, check)
@@ -62,6 +72,9 @@ def cause_of(
             return other, says
     if words or check.note:
         return rule, words
+    vector, out = next(((v, out) for v, out in answers if v.id == check.vector), (None, {}))
+    if rule == "I4" and vector is not None and not is_clear(vector) and out.get("F") is None:
+        return "S1", PUSHED
     return rule_of_a_turn(answers, rule) if rule == "I3" else rule_of_a_fall(answers, rule)
 
 

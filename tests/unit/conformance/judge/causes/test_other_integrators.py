@@ -186,3 +186,41 @@ def test_numbers_that_are_lost_tell_less_than_wrong_ones():
     assert without_lost_numbers([lost, wrong]) == [wrong] and without_lost_numbers([lost]) == [lost]
     early = replace(lost, layer="L5s")
     assert without_lost_numbers([early, wrong]) == [early, wrong], "of the law's own steps the first one tells"
+
+
+def half_the_velocity(rules, problem, state, inertia):
+    """The step; its forces are evaluated with half of the velocities."""
+
+    def contact(rules, problem, state, x, Lambda, v, W):
+        return law().contact(rules, problem, state, x, Lambda, v / 2, W / 2)
+
+    return kick_and_drift(rules.replace(contact=contact), problem, state, inertia)
+
+
+def test_dampers_that_are_wrong_after_the_start_alone_speak_of_the_velocities_there():
+    rule, found = named(Other((*HIDDEN, "F", "anchored"), step=half_the_velocity))
+    assert rule == "S1" and "after a step" in found.says, (rule, found.check)
+    damper = named(Other((*HIDDEN, "F", "anchored"), normal=lambda xi, rate, K, C: law().normal(xi, rate / 2, K, C)))
+    assert damper[0] == "N1", "forces of the start are wrong"
+
+
+def without_friction_of_sliding_feet():
+    """Contact and moment: friction of feet that slide has no moment."""
+    seen = []
+
+    def contact(rules, problem, state, x, Lambda, v, W):
+        made = law().contact(rules, problem, state, x, Lambda, v, W)
+        seen[:] = [made[1].sliding]
+        return made
+
+    def moment(r, F):
+        slides = seen[0][..., None] & np.array([True, True, False])
+        return law().moment(r, np.where(slides, 0.0, F))
+
+    return {"contact": contact, "moment": moment}
+
+
+@pytest.mark.parametrize("shown", [HIDDEN, (*HIDDEN, "F", "anchored")])
+def test_what_turns_otherwise_and_moves_rightly_is_the_moment_in_other_integrators_too(shown):
+    rule, found = named(Other(shown, **without_friction_of_sliding_feet()))
+    assert rule == "A2" and "what they turn is not" in found.says, (rule, found.says, found.check)

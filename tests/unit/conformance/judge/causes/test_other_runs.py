@@ -53,3 +53,18 @@ def test_a_push_that_goes_sideways_without_friction_is_summed_wrongly(backend):
     """Forces that are shown are right, and all failures follow from where they move the block."""
     found = verdict(judge(backend(**along_the_height()), ["L5s"]))
     assert found.rule == "A1", (found.rule, found.says, found.check)
+
+
+class Limited(Hidden):
+    """Runs without forces; the block gains a micrometre less in each step after the first in which a foot touches."""
+
+    def simulate(self, problem):
+        rows = super().simulate(problem)
+        down = np.min((rows["x"][0] + problem.points.P @ rows["Lambda"][0].T)[:, 2]) < 0
+        late = np.maximum(np.arange(len(rows["x"])) - 1, 0)[:, None] * [0, 0, 1e-6]
+        return rows | {"x": rows["x"] - late * down}
+
+
+def test_where_falls_are_right_what_pushes_after_a_step_is_no_velocity():
+    found = verdict(judge(Limited(), ["L5s"]))
+    assert found.rule == "S1" and "Falls of two steps" in found.says, (found.rule, found.says, found.check)
