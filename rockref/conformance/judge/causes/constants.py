@@ -21,6 +21,9 @@ from rockref.model.errors import InputError
 #: decisions as well: none slides by a large coefficient, none pushes by a soft spring.
 CONSTANTS = (("I2", "inertia"), ("A1", "g"))
 SAYS = "The runs that are wrong are those of the law with the {} of {}, which is right."
+#: A change of the rates that shows an inertia [rad/s]. Decided: moments of feet make a thousand times as much,
+#: and less than a tenth of it of a block that is to turn by nothing.
+TURNS = 1e-8
 #: So many of the wrong runs are asked before all. Decided: constants explain all of them, or none.
 FEW = 3
 #: By how many times as much a quantity may be off that other constants do not explain. Decided: what is right is off by
@@ -34,7 +37,7 @@ def rule_of_a_constant(
     """Return the rule of the constant by which the runs that are wrong are explained, and a sentence; the rule that is
     told and "" where there is none.
 
-    Runs that have it themselves have to be right.
+    Runs that have it themselves have to be right, one that shows it among them.
     """
     runs = [(v, out) for v, out in answers if v.piece == "simulate" and v.layer == check.layer]
     failed = {c.vector for c in checks if c.failed and c.weighed and c.layer == check.layer}
@@ -44,7 +47,7 @@ def rule_of_a_constant(
         if key == "inertia" and not is_clear(told):
             # Moments that are wrong turn a block as another inertia does.
             continue
-        for vector in distinct([v for v, _ in runs if v.id not in failed], key):
+        for vector in distinct([v for v, _ in runs if v.id not in failed and shows(v, key)], key):
             own = {key: np.asarray(vector.inputs[key])}
             if not all(has_another(v, own) for v, _ in wrong) or not any(is_made_with(*w, own) for w in wrong[:FEW]):
                 continue
@@ -52,6 +55,14 @@ def rule_of_a_constant(
             if count >= SOME and count >= MOST * len(wrong):
                 return rule, SAYS.format(key, vector.id)
     return check.rule, ""
+
+
+def shows(vector: Vector, key: str) -> bool:
+    """Return whether a run depends on a constant: on gravity, all; on the inertia, one whose rates change."""
+    if key == "g":
+        return True
+    W = law(vector)["W"]
+    return bool(np.max(np.abs(W[-1] - W[0])) > TURNS)
 
 
 def distinct(vectors: Sequence[Vector], key: str) -> list[Vector]:
