@@ -69,8 +69,10 @@ def add_loads(on, e, load, timed, resisting, mass, g, x0, x1, v0, v1, v2, L2, L5
     if on.cable:
         k, c, z = e[slots.CABLE + 1], e[slots.CABLE + 2], e[slots.CABLE + 3]
         rx, ry, rz = L2 * z, L5 * z, L8 * z
-        fx = -k * (x0 + rx - e[slots.CABLE + 4]) - c * (v0 + (oy * rz - oz * ry))
-        fy = -k * (x1 + ry - e[slots.CABLE + 5]) - c * (v1 + (oz * rx - ox * rz))
+        wx, wy = x0 + rx - e[slots.CABLE + 4], x1 + ry - e[slots.CABLE + 5]
+        k = k + e[slots.CABLE + 6] * (wx * wx + wy * wy)
+        fx = -k * wx - c * (v0 + (oy * rz - oz * ry))
+        fy = -k * wy - c * (v1 + (oz * rx - ox * rz))
         Fx += fx
         Fy += fy
         Mx -= rz * fy

@@ -178,7 +178,8 @@ def _normals(row, e, problem):
 def _cable(row, e, problem):
     m = with_memory(problem).start.memory[problem.effects.index(e)]
     height = _height(problem) if e.height is None else e.height
-    _put(row, slots.CABLE, e.k, e.c, height, m["anchor"][0], m["anchor"][1])
+    k, growth = e.stiffnesses()
+    _put(row, slots.CABLE, k, e.c, height, m["anchor"][0], m["anchor"][1], growth)
 
 
 def _vibration(row, e, problem):

@@ -30,8 +30,10 @@ INLINE void add_loads(const double *e, double *F, double *M, Timed timed, double
   if (ON(e, S_CABLE)) {
     double k = e[S_CABLE + 1], c = e[S_CABLE + 2], z = e[S_CABLE + 3];
     double rx = L[2] * z, ry = L[5] * z, rz = L[8] * z;
-    double fx = -k * (x[0] + rx - e[S_CABLE + 4]) - c * (v[0] + (o[1] * rz - o[2] * ry));
-    double fy = -k * (x[1] + ry - e[S_CABLE + 5]) - c * (v[1] + (o[2] * rx - o[0] * rz));
+    double wx = x[0] + rx - e[S_CABLE + 4], wy = x[1] + ry - e[S_CABLE + 5];
+    k = k + e[S_CABLE + 6] * (wx * wx + wy * wy);
+    double fx = -k * wx - c * (v[0] + (o[1] * rz - o[2] * ry));
+    double fy = -k * wy - c * (v[1] + (o[2] * rx - o[0] * rz));
     F[0] += fx, F[1] += fy, M[0] -= rz * fy, M[1] += rz * fx, M[2] += rx * fy - ry * fx;
   }
   if (ON(e, S_WIRE)) {

@@ -117,8 +117,9 @@ void effects_row(const double *v, const Body *b, const double *state, double *ro
   PUT(quadratic_drag, S_DRAG, 2);
   PUT(plate_tilt, S_TILT, 2);
   if (IS_ON(cable_restraint)) {
-    double *to = row + S_CABLE, height = OF(cable_restraint, height);
-    put(to, &OF(cable_restraint, k), 2);
+    double *to = row + S_CABLE, height = OF(cable_restraint, height), k = OF(cable_restraint, k);
+    double share = OF(cable_restraint, stiffening), reference = OF(cable_restraint, reference);
+    to[0] = 1, to[1] = k * (1 - share), to[2] = OF(cable_restraint, c), to[6] = k * share / reference / reference;
     to[3] = height == height ? height : half_height(b);
     to[4] = state[C_X] + state[C_L + 2] * to[3], to[5] = state[C_X + 1] + state[C_L + 5] * to[3];
   }

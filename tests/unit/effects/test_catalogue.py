@@ -137,7 +137,11 @@ def test_parse_says_what_is_wrong(text, code, said):
 @pytest.mark.parametrize(
     "id, shape, brought_in",
     [
-        ("cable_restraint", {"height": 0.1}, {"k": 5.0, "c": 0.3, "height": 0.1}),
+        (
+            "cable_restraint",
+            {"height": 0.1},
+            {"k": 5.0, "c": 0.3, "height": 0.1, "stiffening": 0.0, "reference": 0.08},
+        ),
         ("lingering_wire_pull", {"tau": 0.2}, {"force": 3.0, "tau": 0.2, "evenness": 0.0}),
         ("quadratic_drag", {}, {"c": 0.4, "c_v": 1.0}),
     ],

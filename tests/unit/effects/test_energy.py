@@ -139,11 +139,12 @@ def test_dissipative_contacts_only_take(effect, damper):
     assert energies[-1] - 9.81e-3 < 0.95 * (energies[0] - 9.81e-3)
 
 
-def test_cable_spring_and_tilted_gravity_conserve():
-    """Kinetic energy, weight along the turned gravity, and k d^2/2 of the cable's end."""
-    k, slope, mass = 300.0, (0.02, -0.03), 1.0
+@pytest.mark.parametrize("share", [0.0, 0.6])
+def test_cable_spring_and_tilted_gravity_conserve(share):
+    """Kinetic energy, weight along the turned gravity, and k ((1 - q) d^2/2 + q d^4/(4 d_0^2)) of the cable's end."""
+    k, slope, mass, reference = 300.0, (0.02, -0.03), 1.0, 0.01
     problem = body(
-        points_at([(0.1, 0.1, -0.5)]), [CableRestraint(k, 0.0), PlateTilt(*slope)],
+        points_at([(0.1, 0.1, -0.5)]), [CableRestraint(k, 0.0, None, share, reference), PlateTilt(*slope)],
         x=(0, 0, 10), v=(0.3, 0.1, 0), W=(0.5, -0.4, 0.2), J=(0.2, 0.3, 0.1), h=1e-4,
     )  # fmt: skip
     g = 9.81 * np.array([*slope, -1 + (slope[0] ** 2 + slope[1] ** 2) / 2])
@@ -152,7 +153,9 @@ def test_cable_spring_and_tilted_gravity_conserve():
         end = s.x + s.Lambda[:, 2] * 0.5
         stretch = (end - [0, 0, 10.5])[:2]
         turning = np.dot(s.W, [0.2, 0.3, 0.1] * s.W) / 2
-        total.append(mass * s.v @ s.v / 2 + turning - mass * g @ s.x + k * stretch @ stretch / 2)
+        square = stretch @ stretch
+        cable = k * ((1 - share) * square / 2 + share * square**2 / (4 * reference**2))
+        total.append(mass * s.v @ s.v / 2 + turning - mass * g @ s.x + cable)
     # Second order in the step of 1e-4 s against a swing of 0.1 s, of some joules moved.
     assert np.ptp(total) < 1e-5 * abs(total[0])
 

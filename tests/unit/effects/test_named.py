@@ -123,7 +123,8 @@ def test_a_table_brings_back_what_was_written():
     effects = (EFFECTS["adhesion"](3.0, 1e-5), EFFECTS["cable_restraint"](0.5, 0.25), parse("mine.py:Mine:c=2"))
     table = to_table(effects, Path("models"))
     assert table == {
-        "adhesion": {"force": 3.0, "range": 1e-5}, "cable_restraint": {"k": 0.5, "c": 0.25},
+        "adhesion": {"force": 3.0, "range": 1e-5},
+        "cable_restraint": {"k": 0.5, "c": 0.25, "stiffening": 0.0, "reference": 0.08},
         "mine": {"file": "../mine.py:Mine", "c": 2.0, "d": 1.0},
     }  # fmt: skip
     back = from_table("model.toml", table, Path("models"))

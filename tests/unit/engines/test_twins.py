@@ -61,6 +61,15 @@ def test_alone_bit_for_bit(id):
     assert not np.array_equal(a.W, law(kicked([])).W), "the run must show the effect"
 
 
+def test_a_cable_that_stiffens_bit_for_bit():
+    """The way of the run is some micrometres."""
+    stiffening = EFFECTS["cable_restraint"](5.0, 0.3, None, 0.5, 1e-6)
+    problem = kicked([stiffening])
+    a = law(problem)
+    assert_same_bits(a, engine.simulate(problem))
+    assert not np.array_equal(a.W, law(kicked([EFFECTS["cable_restraint"](5.0, 0.3)])).W)
+
+
 @pytest.mark.parametrize("leave_out", [None, *EXACT])
 def test_together_bit_for_bit(leave_out):
     problem = kicked([ALL[id].typical() for id in EXACT if id != leave_out], 1e-3)

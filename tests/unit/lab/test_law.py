@@ -56,6 +56,18 @@ def test_every_row_has_the_bits_of_the_numpy_text(backend, change):
     np.testing.assert_array_equal(ours.s[law.anchored], law.s[law.anchored])
 
 
+@pytest.mark.parametrize("stiffening", [0.0, 0.5])
+def test_a_cable_has_the_bits_of_the_numpy_text(backend, stiffening):
+    """Its anchor and its numbers are the C text's, too; the way of the run is some tens of micrometres."""
+    cable = {"k": 5.0, "c": 0.3, "stiffening": stiffening, "reference": 1e-5}
+    problem = rockref.Model.table_3_1().problem(0.02, theta_0=0.01)
+    law = rockref.simulate(replace(problem, effects=(EFFECTS["cable_restraint"](**cable),)), engine="numpy")
+    ours = backend.effect(problem, "cable_restraint", cable)
+    for name in ("x", "v", "Lambda", "W", "F"):
+        np.testing.assert_array_equal(getattr(ours, name), getattr(law, name), err_msg=name)
+    assert not np.array_equal(law.W, rockref.simulate(problem, engine="numpy").W)
+
+
 def test_a_run_goes_on_bit_for_bit(backend):
     problem = rockref.Model.table_3_1().problem(0.02, theta_0=0.01)
     whole = backend.simulate(problem)

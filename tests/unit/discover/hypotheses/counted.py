@@ -74,6 +74,7 @@ PARAMETERS = {
     "quadratic_drag.c_v": (0.0, 20.0, 0.1, 0.0, inf, False),
     "cable_restraint.k": (0.0, 5.0, 3.0, 0.0, inf, False),
     "cable_restraint.c": (0.0, 0.3, 3.0, 0.0, inf, False),
+    "cable_restraint.stiffening": (0.0, 1.0, 0.1, 0.0, 1.0, False),
     "lingering_wire_pull.force": (0.0, 3.0, 3.0, 0.0, inf, False),
     "lingering_wire_pull.evenness": (0.0, 1.0, 0.1, 0.0, 1.0, False),
     "lingering_wire_pull.tau": (0.3, 0.5, 1.0, -inf, inf, True),

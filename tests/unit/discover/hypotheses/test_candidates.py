@@ -60,7 +60,7 @@ def test_the_tables_are_read_from_the_effects():
     assert LEFT_OUT == ("base_vibration", "gyro_saturation")
     assert len(SHAPES) == 12
     forms = {key: p.spread for key, p in PRIORS.items() if p.role == "form"}
-    assert set(forms.values()) == {1.0} and len(forms) == 8
+    assert set(forms.values()) == {1.0} and len(forms) == 9
     seldom = {("quadratic_drag", "c_v"): 20.0}
     seldom |= {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
     seldom |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}

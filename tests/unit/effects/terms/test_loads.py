@@ -85,6 +85,31 @@ def test_a_cable_pulls_its_end_back_sideways(height, above):
     assert load(CableRestraint(0.0, 0.0, 0.1), problem, m) is None
 
 
+def test_a_cable_stiffens_with_the_square_of_the_way_about_its_reference():
+    """k ((1 - q) + q o^2/o_0^2): k where the way is the reference one, k (1 + q) where its square is twice that."""
+    anchor = X + TURNED @ (0, 0, 0.15) - (0.03, -0.04, 0.5)
+    for reference, k in ((0.05, 7.0), (0.05 / math.sqrt(2), 7.0 * 1.6), (1e9, 7.0 * 0.4)):
+        effect = CableRestraint(7.0, 0.0, 0.15, 0.6, reference)
+        force, _ = load(effect, body(FEET), {"anchor": anchor})
+        assert force == pytest.approx([-0.03 * k, 0.04 * k, 0.0], rel=ROUNDED)
+
+
+def test_a_cable_that_does_not_stiffen_is_linear_to_the_last_bit():
+    """Whatever the reference; and in a batch each block has a way of its own."""
+    r, anchor = arm(TURNED, 0.15), np.array([0.7, 0.3, 0.0])
+    wanted = -7.0 * (X + r - anchor) - 2.0 * velocity_at(r, TURNED, V, W)
+    for reference in (1e-300, 0.08, 1e300):
+        effect = CableRestraint(7.0, 2.0, 0.15, 0.0, reference)
+        assert np.array_equal(load(effect, body(FEET), {"anchor": anchor})[0][:2], wanted[:2])
+    effect = CableRestraint(7.0, 2.0, 0.15, 0.6, 0.1)
+    both = [X, X + (0.2, 0.0, 0.0)]
+    states = np.stack(both), np.stack([TURNED] * 2), np.stack([V] * 2), np.stack([W] * 2)
+    force, _ = effect.body_wrench(body(FEET), contact([-1.0]), *states, {"anchor": anchor})
+    for x, of_batch in zip(both, force, strict=True):
+        alone, _ = effect.body_wrench(body(FEET), contact([-1.0]), x, TURNED, V, W, {"anchor": anchor})
+        assert np.array_equal(alone, of_batch)
+
+
 def test_a_wire_pulls_the_top_toward_y_and_lets_go_slowly():
     """3 N after no time, 3/e N after tau, at the top of the body."""
     effect = LingeringWirePull(3.0, 0.2)

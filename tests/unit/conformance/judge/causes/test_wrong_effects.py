@@ -130,6 +130,7 @@ def test_what_is_left_out_is_named():
         ("gyro_bandwidth", "delay"),
         ("base_vibration", "direction"),
         ("cable_restraint", "height"),
+        ("cable_restraint", "stiffening"),
     ],
 )
 def test_a_parameter_that_does_not_show_at_the_typical_size_is_looked_for_in_a_second_vector(effect, left_out):
