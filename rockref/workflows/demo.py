@@ -187,10 +187,8 @@ def find_experiments(given: Path | None) -> Path:
     for place in places:
         if all((place / name / "experiment.toml").is_file() for name in EXPERIMENTS):
             return place
-    what = f"the experiments {' and '.join(EXPERIMENTS)} are not there"
-    cure = (
-        "They belong to the source repository, not to the installed package: run the demo in a clone, or give --data."
-    )
+    what = f"{', '.join(EXPERIMENTS)} is missing"
+    cure = "Experiments belong to the source repository, not to the package: run the demo in a clone, or give --data."
     raise InputError("E-DEMO", str(places[0]), what, cure)
 
 
