@@ -232,7 +232,7 @@ def in_json(value: float | None) -> float | str | None:
     """Return a number as JSON holds it: an infinite one as a word, what is open as null."""
     if value is None or math.isnan(value):
         return None
-    return value if math.isfinite(value) else ("inf" if value > 0 else "-inf")
+    return value if math.isfinite(value) else str(value)
 
 
 def implausible(effect: Effect) -> list[tuple[str, str, str]]:
