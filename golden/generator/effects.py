@@ -67,6 +67,7 @@ LATER: dict[str, dict[str, float]] = {
     "compliant_support": {"pitch": 0.5},
     "rounded_feet": {"foot1": 0.75, "foot2": 1.5, "foot3": 0.625, "foot4": 1.25},
     "cable_restraint": {"stiffening": 0.5, "reference": 1e-5},
+    "base_vibration": {"phase": 0.5, "harmonic_cosine": 0.5, "harmonic_sine": -0.25},
 }
 OF_ALL_FEET = (
     "uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals", "rounded_feet",

@@ -6,7 +6,7 @@ do, the text asks `anyof` whether some run does it, and takes by `choose` what i
 is the condition itself, and the compiler takes the choice away.
 
 The type is LLVM's vector of doubles. Each operation on it is that of IEEE 754, lane by lane, and nothing is contracted:
-the bits are those of one run. `exp`, `cos` and powers call the scalar function for each lane.
+the bits are those of one run. `exp`, `cos`, `sin` and powers call the scalar function for each lane.
 """
 
 from __future__ import annotations
@@ -197,6 +197,7 @@ def _lane_by_lane(function: Any, n: int) -> None:
 
 _lane_by_lane(math.exp, 1)
 _lane_by_lane(math.cos, 1)
+_lane_by_lane(math.sin, 1)
 _lane_by_lane(operator.pow, 2)
 
 

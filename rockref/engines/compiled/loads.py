@@ -12,8 +12,8 @@ from rockref.engines.compiled.lanes import anyof, both, choose, entry, negated, 
 
 @inlined
 def of_time(on, e, t):
-    """Return what of the loads depends on the time alone: pull of the wire [N], cosine of the vibration."""
-    pull = cosine = 0.0
+    """Return what of the loads depends on the time alone: pull of the wire [N], wave of the vibration."""
+    pull = wave = 0.0
     if on.wire:
         even = e[slots.WIRE + 4]
         evenly = even > LEAST_EVENNESS
@@ -24,8 +24,10 @@ def of_time(on, e, t):
             left = choose(evenly, left, math.exp(-t / e[slots.WIRE + 2]))
         pull = e[slots.WIRE + 1] * left
     if on.vibration:
-        cosine = math.cos(e[slots.VIBRATION + 2] * t + e[slots.VIBRATION + 3])
-    return pull, cosine
+        psi = e[slots.VIBRATION + 2] * t + e[slots.VIBRATION + 3]
+        x, y = math.cos(psi), math.sin(psi)
+        wave = x + e[slots.VIBRATION + 6] * (x * x - y * y) + e[slots.VIBRATION + 7] * (2.0 * x * y)
+    return pull, wave
 
 
 @inlined
@@ -58,7 +60,7 @@ def resistance(on, e, v0, v1, v2, ox, oy, oz):
 def add_loads(on, e, load, timed, resisting, mass, g, x0, x1, v0, v1, v2, L2, L5, L8, ox, oy, oz):
     """Return force and moment (6) with drag, cable, wire, vibration and tilt, in the order of the step."""
     Fx, Fy, Fz, Mx, My, Mz = load
-    (pull, cosine), (moving, turning) = timed, resisting
+    (pull, wave), (moving, turning) = timed, resisting
     if on.drag:
         Fx += moving * v0
         Fy += moving * v1
@@ -85,7 +87,7 @@ def add_loads(on, e, load, timed, resisting, mass, g, x0, x1, v0, v1, v2, L2, L5
         Mz += (L2 * z) * pull
     if on.vibration:
         k = slots.VIBRATION
-        size = -mass * e[k + 1] * cosine
+        size = -mass * e[k + 1] * wave
         Fx += size * e[k + 4]
         Fy += size * e[k + 5]
     if on.tilt:

@@ -184,7 +184,8 @@ def _cable(row, e, problem):
 
 def _vibration(row, e, problem):
     omega = 2 * math.pi * e.frequency
-    _put(row, slots.VIBRATION, e.amplitude, omega, e.phase, math.sin(e.direction), math.cos(e.direction))
+    along = math.sin(e.direction), math.cos(e.direction)
+    _put(row, slots.VIBRATION, e.amplitude, omega, e.phase, *along, e.harmonic_cosine, e.harmonic_sine)
 
 
 FILL = {

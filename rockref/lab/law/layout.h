@@ -4,7 +4,7 @@ enum { C_X = 0, C_V = 3, C_L = 6, C_W = 15, C_A = 18, C_T = 21, C_GIVEN = 24, C_
 enum { C_MASS = 0, C_GRAVITY = 1, C_J = 2, C_J_INVERSE = 11, C_PRINCIPAL = 20, C_BODY = 21 }; // body
 enum { C_K_N = 0, C_K_T = 1, C_C_N = 2, C_C_T = 3, C_MU_0 = 4, C_MU = 5, C_RADIUS = 6, C_FOOT = 7, C_PROPS = 8 }; // points
 enum { C_S_X = 0, C_S_Y = 1, C_ANCHORED = 2, C_SLIDING = 3, C_XI_LARGEST = 4, C_YAW = 5, C_ROLL_X = 6, C_ROLL_Y = 7, C_MEMORY = 8 }; // memory
-enum { S_HERTZ = 0, S_HYSTERESIS = 3, S_HUNT = 6, S_ORIENTATION = 8, S_STRIBECK = 10, S_LOAD = 13, S_ADHESION = 16, S_VISCOUS = 19, S_NORMALS = 21, S_SPIN = 31, S_ROLLING = 34, S_DRAG = 36, S_CABLE = 39, S_WIRE = 46, S_VIBRATION = 51, S_TILT = 57, S_SUPPORT = 60, S_SLOTS = 68, S_CONTACT = 1, S_FORCES = 2, S_MOMENTS = 4, S_LOADS = 8, S_PLATE = 16 }; // effects
+enum { S_HERTZ = 0, S_HYSTERESIS = 3, S_HUNT = 6, S_ORIENTATION = 8, S_STRIBECK = 10, S_LOAD = 13, S_ADHESION = 16, S_VISCOUS = 19, S_NORMALS = 21, S_SPIN = 31, S_ROLLING = 34, S_DRAG = 36, S_CABLE = 39, S_WIRE = 46, S_VIBRATION = 51, S_TILT = 59, S_SUPPORT = 62, S_SLOTS = 70, S_CONTACT = 1, S_FORCES = 2, S_MOMENTS = 4, S_LOADS = 8, S_PLATE = 16 }; // effects
 enum { M_mass, M_width, M_depth, M_height, M_g, M_foot_radius, M_points, M_K_N, M_K_T, M_beta_int, M_beta_ext, M_mu_int, M_mu_ext, M_delta_long_1, M_delta_long_2, M_delta_long_3, M_delta_long_4, M_delta_diag, M_theta_0, M_inertia_0, M_inertia_1, M_inertia_2, M_inertia_3, M_inertia_4, M_inertia_5, M_inertia_6, M_inertia_7, M_inertia_8, M_COUNT }; // model
 enum { E_foot_defects_on = 0, E_foot_defects_delta_long1 = 1, E_foot_defects_delta_long2 = 2, E_foot_defects_delta_long3 = 3, E_foot_defects_delta_long4 = 4, E_foot_defects_delta_diag = 5, E_foot_defects_mu_int = 6, E_foot_defects_beta_int = 7 };
 enum { E_dimension_deviation_on = 8, E_dimension_deviation_width = 9, E_dimension_deviation_depth = 10, E_dimension_deviation_height = 11, E_dimension_deviation_inertia_share = 12 };
@@ -27,14 +27,14 @@ enum { E_rolling_resistance_on = 79, E_rolling_resistance_lever = 80 };
 enum { E_quadratic_drag_on = 81, E_quadratic_drag_c = 82, E_quadratic_drag_c_v = 83 };
 enum { E_cable_restraint_on = 84, E_cable_restraint_k = 85, E_cable_restraint_c = 86, E_cable_restraint_height = 87, E_cable_restraint_stiffening = 88, E_cable_restraint_reference = 89 };
 enum { E_lingering_wire_pull_on = 90, E_lingering_wire_pull_force = 91, E_lingering_wire_pull_tau = 92, E_lingering_wire_pull_evenness = 93 };
-enum { E_base_vibration_on = 94, E_base_vibration_amplitude = 95, E_base_vibration_frequency = 96, E_base_vibration_direction = 97, E_base_vibration_phase = 98 };
-enum { E_plate_tilt_on = 99, E_plate_tilt_x = 100, E_plate_tilt_y = 101 };
-enum { E_compliant_support_on = 102, E_compliant_support_mass = 103, E_compliant_support_frequency = 104, E_compliant_support_ratio = 105, E_compliant_support_pitch = 106 };
-enum { E_release_velocity_on = 107, E_release_velocity_x = 108, E_release_velocity_y = 109, E_release_velocity_z = 110 };
-enum { E_gyro_misalignment_on = 111, E_gyro_misalignment_x = 112, E_gyro_misalignment_y = 113, E_gyro_misalignment_z = 114, E_gyro_misalignment_xy = 115, E_gyro_misalignment_xz = 116, E_gyro_misalignment_yz = 117 };
-enum { E_gyro_scale_on = 118, E_gyro_scale_x = 119, E_gyro_scale_y = 120, E_gyro_scale_z = 121 };
-enum { E_gyro_bandwidth_on = 122, E_gyro_bandwidth_frequency = 123, E_gyro_bandwidth_damping = 124, E_gyro_bandwidth_delay = 125 };
-enum { E_gyro_drift_on = 126, E_gyro_drift_bias_x = 127, E_gyro_drift_bias_y = 128, E_gyro_drift_bias_z = 129, E_gyro_drift_rate_x = 130, E_gyro_drift_rate_y = 131, E_gyro_drift_rate_z = 132 };
-enum { E_gyro_saturation_on = 133, E_gyro_saturation_range = 134, E_gyro_saturation_softness = 135 };
-enum { E_clock_error_on = 136, E_clock_error_rate = 137 };
-enum { E_COUNT = 138 };
+enum { E_base_vibration_on = 94, E_base_vibration_amplitude = 95, E_base_vibration_frequency = 96, E_base_vibration_direction = 97, E_base_vibration_phase = 98, E_base_vibration_harmonic_cosine = 99, E_base_vibration_harmonic_sine = 100 };
+enum { E_plate_tilt_on = 101, E_plate_tilt_x = 102, E_plate_tilt_y = 103 };
+enum { E_compliant_support_on = 104, E_compliant_support_mass = 105, E_compliant_support_frequency = 106, E_compliant_support_ratio = 107, E_compliant_support_pitch = 108 };
+enum { E_release_velocity_on = 109, E_release_velocity_x = 110, E_release_velocity_y = 111, E_release_velocity_z = 112 };
+enum { E_gyro_misalignment_on = 113, E_gyro_misalignment_x = 114, E_gyro_misalignment_y = 115, E_gyro_misalignment_z = 116, E_gyro_misalignment_xy = 117, E_gyro_misalignment_xz = 118, E_gyro_misalignment_yz = 119 };
+enum { E_gyro_scale_on = 120, E_gyro_scale_x = 121, E_gyro_scale_y = 122, E_gyro_scale_z = 123 };
+enum { E_gyro_bandwidth_on = 124, E_gyro_bandwidth_frequency = 125, E_gyro_bandwidth_damping = 126, E_gyro_bandwidth_delay = 127 };
+enum { E_gyro_drift_on = 128, E_gyro_drift_bias_x = 129, E_gyro_drift_bias_y = 130, E_gyro_drift_bias_z = 131, E_gyro_drift_rate_x = 132, E_gyro_drift_rate_y = 133, E_gyro_drift_rate_z = 134 };
+enum { E_gyro_saturation_on = 135, E_gyro_saturation_range = 136, E_gyro_saturation_softness = 137 };
+enum { E_clock_error_on = 138, E_clock_error_rate = 139 };
+enum { E_COUNT = 140 };

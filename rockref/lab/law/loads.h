@@ -5,9 +5,9 @@
 // Evenness up to which the pull of the wire is the exponential.
 #define LEAST_EVENNESS 1e-8
 
-typedef struct { double pull, cosine; } Timed;
+typedef struct { double pull, wave; } Timed;
 
-// What of the loads depends on the time alone: pull of the wire [N], cosine of the vibration.
+// What of the loads depends on the time alone: pull of the wire [N], wave of the vibration.
 INLINE Timed of_time(const double *e, double t) {
   Timed timed = {0.0, 0.0};
   if (ON(e, S_WIRE)) {
@@ -16,7 +16,10 @@ INLINE Timed of_time(const double *e, double t) {
     else left = exp(-t / e[S_WIRE + 2]);
     timed.pull = e[S_WIRE + 1] * left;
   }
-  if (ON(e, S_VIBRATION)) timed.cosine = cos(e[S_VIBRATION + 2] * t + e[S_VIBRATION + 3]);
+  if (ON(e, S_VIBRATION)) {
+    double psi = e[S_VIBRATION + 2] * t + e[S_VIBRATION + 3], x = cos(psi), y = sin(psi);
+    timed.wave = x + e[S_VIBRATION + 6] * (x * x - y * y) + e[S_VIBRATION + 7] * (2.0 * x * y);
+  }
   return timed;
 }
 
@@ -41,7 +44,7 @@ INLINE void add_loads(const double *e, double *F, double *M, Timed timed, double
     F[1] += timed.pull, M[0] -= (L[8] * z) * timed.pull, M[2] += (L[2] * z) * timed.pull;
   }
   if (ON(e, S_VIBRATION)) {
-    double size = -mass * e[S_VIBRATION + 1] * timed.cosine;
+    double size = -mass * e[S_VIBRATION + 1] * timed.wave;
     F[0] += size * e[S_VIBRATION + 4], F[1] += size * e[S_VIBRATION + 5];
   }
   if (ON(e, S_TILT)) {

@@ -132,6 +132,7 @@ void effects_row(const double *v, const Body *b, const double *state, double *ro
     double *to = row + S_VIBRATION, direction = OF(base_vibration, direction);
     to[0] = 1, to[1] = OF(base_vibration, amplitude), to[2] = 2 * M_PI * OF(base_vibration, frequency);
     to[3] = OF(base_vibration, phase), to[4] = sin(direction), to[5] = cos(direction);
+    to[6] = OF(base_vibration, harmonic_cosine), to[7] = OF(base_vibration, harmonic_sine);
   }
   if (IS_ON(compliant_support)) support(v, b, state, row + S_SUPPORT);
 }

@@ -93,6 +93,22 @@ def test_vibrating_base_moves_a_free_body(direction):
     assert state.v == pytest.approx(expected, abs=6e-5 * A / omega)
 
 
+def test_a_second_harmonic_moves_a_free_body():
+    """dv/dt = -A (cos psi + q_c cos 2 psi + q_s sin 2 psi), psi = 2 pi f t + phase."""
+    A, f, phase, cosine, sine = 0.5, 30.0, 0.7, 0.6, -0.4
+    h, steps = 1e-4, 250
+    state = last(flying(BaseVibration(A, f, 0.0, phase, cosine, sine), g=0.0, h=h), steps)
+    omega = 2 * math.pi * f
+
+    def way(psi):
+        return math.sin(psi) + (cosine * math.sin(2 * psi) - sine * math.cos(2 * psi)) / 2
+
+    speed = -A / omega * (way(omega * steps * h + phase) - way(phase))
+    # Trapezoidal in time: (2 omega h)^2/12 = 1.2e-4 of A/omega, of less than half of it, at either end.
+    assert state.v[1] == pytest.approx(speed, abs=1.8e-4 * A / omega)
+    assert abs(state.v[1] + A / omega * (math.sin(omega * steps * h + phase) - math.sin(phase))) > 0.1 * A / omega
+
+
 def test_tilted_plate_is_tilted_gravity():
     """The weight in the plate's axes is m g (sin, sin, -cos) to third order in the angles."""
     x, y = 3e-3, -2e-3

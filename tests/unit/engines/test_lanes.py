@@ -39,7 +39,7 @@ def mixed(a, b):
         c = choose(other, math.sqrt(abs(c)), c)
     c = max(-c, b) + min(a, c)
     c += choose(a == b, 1, choose(a != a, b, 2.0))
-    c -= choose(a >= b, math.exp(-abs(b)), math.cos(a)) * choose(a <= 0.1, a, 0.25)
+    c -= choose(a >= b, math.exp(-abs(b)), math.cos(a) + math.sin(b)) * choose(a <= 0.1, a, 0.25)
     return choose(abs(a) < 2.0, c + abs(a) ** b, c)
 
 

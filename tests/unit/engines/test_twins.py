@@ -61,13 +61,20 @@ def test_alone_bit_for_bit(id):
     assert not np.array_equal(a.W, law(kicked([])).W), "the run must show the effect"
 
 
-def test_a_cable_that_stiffens_bit_for_bit():
-    """The way of the run is some micrometres."""
-    stiffening = EFFECTS["cable_restraint"](5.0, 0.3, None, 0.5, 1e-6)
-    problem = kicked([stiffening])
+@pytest.mark.parametrize(
+    "effect, plain",
+    [
+        # The way of the run is some micrometres.
+        (EFFECTS["cable_restraint"](5.0, 0.3, None, 0.5, 1e-6), EFFECTS["cable_restraint"](5.0, 0.3)),
+        (EFFECTS["base_vibration"](0.1, 10.0, 0.4, 0.5, 0.3, -0.2), EFFECTS["base_vibration"](0.1, 10.0, 0.4, 0.5)),
+    ],
+    ids=lambda effect: effect.id,
+)
+def test_another_form_bit_for_bit(effect, plain):
+    problem = kicked([effect])
     a = law(problem)
     assert_same_bits(a, engine.simulate(problem))
-    assert not np.array_equal(a.W, law(kicked([EFFECTS["cable_restraint"](5.0, 0.3)])).W)
+    assert not np.array_equal(a.W, law(kicked([plain])).W)
 
 
 @pytest.mark.parametrize("leave_out", [None, *EXACT])

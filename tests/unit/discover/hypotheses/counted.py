@@ -78,6 +78,8 @@ PARAMETERS = {
     "lingering_wire_pull.force": (0.0, 3.0, 3.0, 0.0, inf, False),
     "lingering_wire_pull.evenness": (0.0, 1.0, 0.1, 0.0, 1.0, False),
     "lingering_wire_pull.tau": (0.3, 0.5, 1.0, -inf, inf, True),
+    "base_vibration.harmonic_cosine": (0.0, 1.0, 0.1, -1.0, 1.0, False),
+    "base_vibration.harmonic_sine": (0.0, 1.0, 0.1, -1.0, 1.0, False),
     "base_vibration.frequency": (10.0, 0.02, 10.0, -inf, inf, True),
     "base_vibration.direction": (0.0, 0.5, 3.0, -inf, inf, False),
     "base_vibration.cosine[0]": (0.0, 0.1, 3.0, -inf, inf, False),

@@ -137,8 +137,9 @@ def test_each_run_of_a_shaking_base_has_its_own_phase():
     kind = catalogue.find("base_vibration")
     parameters = parameters_of(kind, 3, frequency=16.4)
     shared = [p for p in parameters if p.run is None]
-    assert [p.name for p in shared] == ["base_vibration.frequency", "base_vibration.direction"]
-    assert shared[0].value(0.0) == 16.4
+    forms = ["harmonic_cosine", "harmonic_sine"]
+    assert [p.name for p in shared] == [f"base_vibration.{key}" for key in (*forms, "frequency", "direction")]
+    assert shared[2].value(0.0) == 16.4
     model = TABLE
     for p in parameters:
         if p.run in (None, 1):
@@ -146,6 +147,9 @@ def test_each_run_of_a_shaking_base_has_its_own_phase():
     (effect,) = model.active_effects()
     size = kind.quantities["amplitude"].typical
     assert effect.amplitude == pytest.approx(np.sqrt(2) * size) and effect.phase == pytest.approx(-np.pi / 4)
+    # The second harmonic is shared, and turns with the run's own phase.
+    assert (effect.harmonic_cosine, effect.harmonic_sine) == (1.0, 1.0)
+    assert effect.wave(0.0) == pytest.approx(np.cos(np.pi / 4) - 1.0)
 
 
 EXAMPLE = Path(__file__).resolve().parents[4] / "examples/my_effect.py"
@@ -216,7 +220,7 @@ def test_one_who_fits_or_plans_may_name_a_file(monkeypatch):
 
 
 def test_a_shaking_base_that_does_not_shake_is_not_there():
-    frequency, direction, cosine, sine = parameters_of(catalogue.find("base_vibration"), 1, 12.0)
+    *_, frequency, direction, cosine, sine = parameters_of(catalogue.find("base_vibration"), 1, 12.0)
     assert (frequency.centre, direction.run, cosine.run) == (12.0, None, 0)
     assert cosine.set(TABLE, 0.0) is TABLE
     model = sine.set(cosine.set(TABLE, 0.03), 0.04)

@@ -146,11 +146,25 @@ def test_a_plate_that_shakes_pushes_every_mass_alike_along_its_direction():
     assert load(BaseVibration(0.0, 2.0, 1.0, 1.0), problem) is None
 
 
+def test_a_second_harmonic_keeps_twice_the_phase_of_the_first_tone():
+    """cos 2 psi = 2 cos^2 psi - 1, sin 2 psi at psi = 2 pi f t + phase; none of it leaves the first tone's bits."""
+    first, both = BaseVibration(0.5, 2.0, 0.0, 0.7), BaseVibration(0.5, 2.0, 0.0, 0.7, 0.3, -0.2)
+    for t in (0.0, 0.125, 0.3):
+        psi = 4 * math.pi * t + 0.7
+        assert first.wave(t) == math.cos(psi)
+        assert both.wave(t) == pytest.approx(math.cos(psi) + 0.3 * math.cos(2 * psi) - 0.2 * math.sin(2 * psi))
+        force, _ = load(both, body(FEET, mass=3.0), t=t)
+        assert force == pytest.approx([0.0, -1.5 * both.wave(t), 0.0], rel=ROUNDED)
+
+
 @pytest.mark.parametrize(
     "effect",
-    [LingeringWirePull(3.0, 0.2), LingeringWirePull(3.0, 0.2, evenness=0.7), BaseVibration(0.5, 2.0, 0.6, 0.7)],
-    ids=("falls as what is left", "falls more evenly", "vibration"),
-)
+    [
+        LingeringWirePull(3.0, 0.2), LingeringWirePull(3.0, 0.2, evenness=0.7), BaseVibration(0.5, 2.0, 0.6, 0.7),
+        BaseVibration(0.5, 2.0, 0.6, 0.7, 0.3, -0.2),
+    ],
+    ids=("falls as what is left", "falls more evenly", "vibration", "second harmonic"),
+)  # fmt: skip
 def test_a_time_for_each_run_gives_each_its_own_load(effect):
     """As the windows of a fit have."""
     times = np.array([0.0, 0.13, 0.4])

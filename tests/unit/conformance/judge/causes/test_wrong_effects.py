@@ -129,6 +129,8 @@ def test_what_is_left_out_is_named():
         ("gyro_misalignment", "yz"),
         ("gyro_bandwidth", "delay"),
         ("base_vibration", "direction"),
+        ("base_vibration", "harmonic_cosine"),
+        ("base_vibration", "harmonic_sine"),
         ("cable_restraint", "height"),
         ("cable_restraint", "stiffening"),
     ],
