@@ -47,14 +47,22 @@ def rule_of_a_constant(
         if key == "inertia" and not is_clear(told):
             # Moments that are wrong turn a block as another inertia does.
             continue
-        for vector in distinct([v for v, _ in runs if v.id not in failed and shows(v, key)], key):
-            own = {key: np.asarray(vector.inputs[key])}
+        for vectors in by_value([v for v, _ in runs if v.id not in failed], key):
+            own = {key: np.asarray(vectors[0].inputs[key])}
             if not all(has_another(v, own) for v, _ in wrong) or not any(is_made_with(*w, own) for w in wrong[:FEW]):
                 continue
             count = sum(is_made_with(v, out, own) for v, out in wrong)
-            if count >= SOME and count >= MOST * len(wrong):
-                return rule, SAYS.format(key, vector.id)
+            if count >= SOME and count >= MOST * len(wrong) and any(shows(v, key) for v in vectors):
+                return rule, SAYS.format(key, vectors[0].id)
     return check.rule, ""
+
+
+def by_value(vectors: Sequence[Vector], key: str) -> list[list[Vector]]:
+    """Return the runs that have the same value of a constant, together."""
+    found: dict[bytes, list[Vector]] = {}
+    for v in vectors:
+        found.setdefault(np.asarray(v.inputs[key]).tobytes(), []).append(v)
+    return list(found.values())
 
 
 def shows(vector: Vector, key: str) -> bool:
@@ -63,14 +71,6 @@ def shows(vector: Vector, key: str) -> bool:
         return True
     W = law(vector)["W"]
     return bool(np.max(np.abs(W[-1] - W[0])) > TURNS)
-
-
-def distinct(vectors: Sequence[Vector], key: str) -> list[Vector]:
-    """Return the first of the runs with each value of a constant."""
-    found: dict[bytes, Vector] = {}
-    for v in vectors:
-        found.setdefault(np.asarray(v.inputs[key]).tobytes(), v)
-    return list(found.values())
 
 
 def is_made_with(vector: Vector, out: dict[str, Any], constants: dict[str, np.ndarray]) -> bool:
