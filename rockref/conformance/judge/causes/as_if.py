@@ -24,6 +24,7 @@ Answers = Sequence[tuple[Vector, dict[str, Any]]]
 HELD = {"mu": 2.0**40, "mu_0": 2.0**40}
 #: Rules, in words, and the inputs that stand for another law; numbers for all feet.
 INPUTS: tuple[tuple[str, str, dict[str, float | bool]], ...] = (
+    ("T6", "no foot slid before the start", {"sliding": False}),
     ("T2", "feet never slide", HELD),
     ("T5", "feet that touch anew keep an old anchor", {"anchored": True}),
 )

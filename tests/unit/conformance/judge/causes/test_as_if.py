@@ -23,6 +23,7 @@ def never_slides_slowly(size, threshold):
     [
         ({"touch": kept_nearby}, "T5", "keep an old anchor"),
         ({"sticks": never_slides_slowly}, "T2", "never slide"),
+        ({"threshold": lambda F_N, slid, mu_0, mu: law().threshold(F_N, slid & False, mu_0, mu)}, "T6", "no foot slid"),
         ({"trial": lambda u_t, s, v, K_T, C_T: law().trial(u_t, s, v, 1.001 * K_T, C_T)}, "T1", ""),
     ],
 )
