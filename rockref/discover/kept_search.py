@@ -23,6 +23,7 @@ class KeptSearch(Search):
         self.state: dict[str, Any] | None = store.kept["searches"].get(key)
         if self.state is not None:
             self.problem.tone = self.state["tone"]
+            self.problem.finer.update(self.state["finer"])
             self.baseline = self.model(self.state["baseline"])
             self.remember([self.model(known) for known in self.state["seen"]])
             self.problem.say(f"going on after stage {self.state['stage']}")
@@ -47,6 +48,7 @@ class KeptSearch(Search):
         self.store.kept["searches"][self.key] = {
             "stage": stage,
             "tone": self.problem.tone,
+            "finer": self.problem.finer,
             "beam": fits,
             "baseline": written(self.problem, self.baseline),
             "seen": [written(self.problem, h) for h in self.seen.values()],

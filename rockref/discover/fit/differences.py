@@ -56,11 +56,10 @@ class Residuals:
         return self.of(jobs, self.fineness(parameters, points[0]))
 
     def fineness(self, parameters: Sequence[Parameter], z: np.ndarray) -> float:
-        """Return the factor on the number of steps that the stiffness at z asks for."""
-        for p, value in zip(parameters, z, strict=True):
-            if p.name == "K_N":
-                return fineness(p.value(float(value)), self.problem.base.mass)
-        return fineness(self.problem.base.parameters.K_N, self.problem.base.mass)
+        """Return the factor on the number of steps that the stiffness at z, and the records, ask for."""
+        found = [p.value(float(value)) for p, value in zip(parameters, z, strict=True) if p.name == "K_N"]
+        stiffness = found[0] if found else self.problem.base.parameters.K_N
+        return fineness(stiffness, self.problem.base.mass) * self.problem.finer.get(self.stage.name, 1.0)
 
 
 def jacobian(

@@ -31,6 +31,7 @@ class FitProblem:
 
     base : the baseline without effects.  carried : effects of the user's model, part of every hypothesis
     candidates : ids of the effects that may be missing.  tone : frequency [Hz] of a line in the misfit, if there is one
+    finer : factor on the steps of a stage, by its name (`rockref.discover.fit.steps`)
     progress : counts the stages.  refined : called with every hypothesis that was refined, and its stage
     """
 
@@ -41,6 +42,7 @@ class FitProblem:
     carried: tuple[str, ...] = ()
     seed: int = 0
     tone: float | None = None
+    finer: dict[str, float] = field(default_factory=dict)
     progress: StageCounter = field(default_factory=lambda: StageCounter({}), repr=False)
     refined: Callable[[Any, Stage], None] = lambda h, stage: None
     _known: dict = field(default_factory=dict, repr=False)

@@ -16,6 +16,7 @@ from rockref.discover.fit.evolution import best, evolved, survivors
 from rockref.discover.fit.few_runs import FewRuns
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import S1, F, Stage
+from rockref.discover.fit.steps import fine_enough
 from rockref.discover.hypotheses.law import is_height
 from rockref.discover.listening.listener import record_of
 from rockref.measure.signals.impacts import main_impacts
@@ -29,6 +30,8 @@ HORIZONS: tuple[float | None, ...] = (2.2, 3.7, None)
 ROUNDS = ((32, 1), (16, 1), (8, 2))
 #: Members of the population over each horizon.
 MEMBERS = (8, 6, 4)
+#: The best of a population, for which steps are to be fine enough.
+LOOKED = 4
 #: Steps of the best with all runs.
 AGAIN = 4
 #: Share of each prior within which draws lie.
@@ -114,6 +117,13 @@ class GlobalFit:
         return [h for h in others if h.loss <= margin * first.loss][:most]
 
 
+def finely(fitter: Fitter, field: list[FittedModel], stage: Stage) -> list[FittedModel]:
+    """Return a field, evaluated at a stage with steps that are fine enough for its best."""
+    if not fine_enough(fitter, best(field, LOOKED), [stage]):
+        fitter.evaluate_all(field, stage)
+    return field
+
+
 def global_fit(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> GlobalFit:
     """Fit a hypothesis at the shortest memory from starts over the whole prior, farther and farther, on few runs.
 
@@ -135,12 +145,13 @@ def populations(fitter: Fitter, effects: Sequence[str], z: np.ndarray) -> Global
     first = stages(fitter)[0]
     fitter.evaluate_all(field, first)
     for most, steps in ROUNDS:
-        field = best(field, most)
+        field = finely(fitter, best(field, most), first)
         for h in field:
             fitter.tempered(h, first, steps)
         found.wide = found.wide or [h.copy() for h in best(field, most)]
     for stage, members in zip(stages(fitter), MEMBERS, strict=True):
         fitter.evaluate_all(field, stage)
+        field = finely(fitter, field, stage)
         before = [h.copy() for h in field]
         field = evolved(fitter, field, stage, members, rng)
         there = [*field, *before]

@@ -20,6 +20,7 @@ from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.ridges import kicked
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
+from rockref.discover.fit.steps import fine_enough
 from rockref.discover.selection.finalists import converged, follow
 from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
@@ -124,12 +125,14 @@ class Search:
         """Return the baseline from its nominal numbers at S2, and at S3 where S2 is contradicted."""
         carried = self.problem.carried
         null = FittedModel(carried, self.problem.nominal(carried))
+        fine_enough(self.fitter, [released(self.fitter, null)])
         self.fitter.tempered(null, S1, 4)
         null.start = null.z.copy()
         return self.settled(null)
 
     def settled(self, h: FittedModel) -> FittedModel:
         """Refine at S2, and go on there as long as innovations that are not white become much smaller."""
+        fine_enough(self.fitter, [h])
         self.fitter.refine(h, S2, 3)
         if self.leaves_more(h, CONTRADICTED, S2):
             self.fitter.settle(h, S2, 3)

@@ -17,7 +17,7 @@ from rockref.discover.fit.few_runs import FewRuns
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import S1, S2, Stage
-from rockref.discover.fit.starts import AGAIN, GlobalFit, stages
+from rockref.discover.fit.starts import AGAIN, GlobalFit, finely, stages
 from rockref.discover.selection.halving import MARGIN, SECOND, proposed, say, sized_at_release, within
 
 #: Mean loss of the law alone from which a horizon tells effects apart: beside the stated law, where few pairs go on,
@@ -91,6 +91,7 @@ def from_anywhere(fitter: Fitter, found: GlobalFit) -> list[FittedModel]:
         field += pairs(part, [few.start(h) for h in starts[:most]], stages(part)[k], effects)
     for stage, (size, of_each) in zip(stages(part)[k:], MEMBERS[k:], strict=True):
         part.evaluate_all(field, stage)
+        field = finely(part, field, stage)
         field = evolved(part, field, stage, size, rng, of_each)
         say(part, "together", field)
     return at_S2(fitter, [fitter.tempered(on_all_runs(fitter, few, h, found.best), S1, AGAIN) for h in field])
