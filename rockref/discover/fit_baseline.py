@@ -27,6 +27,7 @@ from rockref.discover.evidence.widths import deviations
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.problem import END, FitProblem, fit_problem
 from rockref.discover.fit.stages import S1, S2, S3, F
+from rockref.discover.fit.steps import fine_enough
 from rockref.discover.fit_gates import Gate, innovations_white, off_bounds, same_place, step_halved
 from rockref.discover.fit_store import FitStore
 from rockref.discover.listening.records import opened
@@ -282,6 +283,7 @@ def lengthened(fitter: Fitter, h: FittedModel, after: str = "S2") -> tuple[Fitte
     earlier = None
     fitter.problem.progress.begin("memory", "refining at longer memories", h.name)
     fitter.widen()
+    fine_enough(fitter, [h], (S3, F))
     if after in (S1.name, S2.name):
         fitter.refine(h, S3, STEPS)
         earlier = h.z.copy()

@@ -125,14 +125,14 @@ class Search:
         """Return the baseline from its nominal numbers at S2, and at S3 where S2 is contradicted."""
         carried = self.problem.carried
         null = FittedModel(carried, self.problem.nominal(carried))
-        fine_enough(self.fitter, [released(self.fitter, null)])
+        fine_enough(self.fitter, [released(self.fitter, null)], (S1, S2))
         self.fitter.tempered(null, S1, 4)
         null.start = null.z.copy()
         return self.settled(null)
 
     def settled(self, h: FittedModel) -> FittedModel:
         """Refine at S2, and go on there as long as innovations that are not white become much smaller."""
-        fine_enough(self.fitter, [h])
+        fine_enough(self.fitter, [h], (S1, S2))
         self.fitter.refine(h, S2, 3)
         if self.leaves_more(h, CONTRADICTED, S2):
             self.fitter.settle(h, S2, 3)
@@ -279,6 +279,7 @@ class Search:
         """Fit a beam at a longer memory; at the longest let the score test add to the best."""
         self.problem.progress.begin(stage.name, MEMORY[stage.name], self.best(beam).name)
         self.fitter.widen()
+        fine_enough(self.fitter, beam, [stage])
         if stage is F:
             follow(self.fitter, beam, beam)
         else:
