@@ -282,6 +282,7 @@ class Search:
         fine_enough(self.fitter, beam, [stage])
         if stage is F:
             follow(self.fitter, beam, beam)
+            self.remember(beam)
         else:
             for h in beam:
                 self.fitter.refine(h, stage, STEPS)
