@@ -21,7 +21,7 @@ from rockref.discover.fit.ridges import kicked
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
 from rockref.discover.fit.steps import fine_enough
-from rockref.discover.selection.finalists import converged, follow
+from rockref.discover.selection.finalists import converged, follow, penalised
 from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, sized_at_release, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.together import from_anywhere, from_statement, leads
@@ -287,14 +287,14 @@ class Search:
             for h in beam:
                 self.fitter.refine(h, stage, STEPS)
         beam = within(beam, BEAM, MARGINS[stage.name])
-        if stage is F and len(beam[0].effects) < MOST:
+        if stage is F and len(min(beam, key=penalised).effects) < MOST:
             beam = self.joined(beam)
         say(self.fitter, stage.name, beam)
         return beam
 
     def joined(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Return a beam at F with the additions to its best that gain enough, by the score test."""
-        best = beam[0]
+        best = min(beam, key=penalised)
         self.test = score_test(self.fitter, self.fitter.evaluate(best, F), F)
         added = proposals(self.fitter, self.fitter.evaluate(best.copy(), S3), S3, ADDED)
         added += self.promising(best, self.test, added)
@@ -314,7 +314,7 @@ class Search:
 
     def eliminate(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Take each effect of the best model out, try the best replacements, and return all at F."""
-        best = self.best(beam)
+        best = min(beam, key=penalised)
         self.problem.progress.begin("without", "leaving out each effect in turn", best.name)
         found: list[FittedModel] = []
         for e in best.effects:
