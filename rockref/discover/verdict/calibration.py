@@ -20,6 +20,7 @@ class Calibration:
     misfit_of_run: float
     proof: float
     remnant: float
+    trust: float
     interval: float
 
     @property

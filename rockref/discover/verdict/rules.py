@@ -8,12 +8,13 @@
 4. The verdict is the most probable set where it is certain; else the effects that are certain to be in it, summed over
    all sets; else the smallest class of sets that is certain.
 5. Held-out runs have to show what the fit runs say.
+6. What is stated is less than what the evidence says by the share of verdicts in which the search itself fails.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -56,8 +57,15 @@ class Verdict:
 
 
 def decide(evidence: Evidence, numbers: Calibration | None = None) -> Verdict:
-    """Return the verdict of an experiment's evidence."""
+    """Return the verdict of an experiment's evidence, with the probabilities that are stated."""
     c = numbers or calibration()
+    v = by_evidence(evidence, c)
+    stated = tuple(replace(a, probability=c.trust * a.probability) for a in v.alternatives)
+    return replace(v, probability=c.trust * v.probability, alternatives=stated)
+
+
+def by_evidence(evidence: Evidence, c: Calibration) -> Verdict:
+    """Return the verdict, with probabilities as if one of the fitted sets were the truth."""
     found = alternatives(evidence, c)
     best = found[0]
     if (run := contradicting_run(best.evidence, c)) is not None:
