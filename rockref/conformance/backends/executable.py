@@ -35,6 +35,8 @@ MUCH_RUBBISH = 100
 LONGEST_LINE = 16_000_000
 #: Seconds in which a program whose input has ended hands out what it kept in a buffer; decided.
 AFTER_END = 1.0
+#: Seconds for which what an ended program has said is waited for; decided: what it has started may hold the pipe open.
+LAST_WORDS = 1.0
 #: Lines that wait to be looked at, so that a program that prints without end is stopped by its own full pipe; decided.
 WAITING = 3
 
@@ -49,6 +51,7 @@ class Executable:
     def __init__(self, command: list[str], small: float = SMALL, long: float = LONG):
         self.command, self.small, self.long = command, small, long
         self.process: subprocess.Popen[str] | None = None
+        self.keeper: threading.Thread | None = None
         self.lines: queue.Queue[str | None] = queue.Queue(WAITING)
         self.ended = threading.Event()
         self.complaints: list[str] = []
@@ -151,7 +154,9 @@ class Executable:
                 "E-BACKEND", shlex.join(self.command), f"cannot be started ({e.strerror})", "Give a program."
             ) from e
         threading.Thread(target=_pump, args=(self.process.stdout, self.lines, self.ended), daemon=True).start()
-        threading.Thread(target=_keep, args=(self.process.stderr, self.complaints), daemon=True).start()
+        keeper = threading.Thread(target=_keep, args=(self.process.stderr, self.complaints), daemon=True)
+        keeper.start()
+        self.keeper = keeper
 
     def _asked(self, request: dict[str, Any], patience: float) -> dict[str, Any]:
         assert self.process is not None and self.process.stdin is not None
@@ -210,6 +215,8 @@ class Executable:
             code: Any = self.process.wait(timeout=2)
         except subprocess.TimeoutExpired:
             code = "closed its output"
+        if self.keeper is not None:
+            self.keeper.join(timeout=LAST_WORDS)
         self.close()
         said = " ".join(self.complaints[-3:]).strip()[-200:]
         place = _frame(self.complaints)
