@@ -8,8 +8,8 @@ from typing import Any
 
 from rockref.shake.statistics.bands import wilson_interval
 
-#: Edges of the bins of stated probabilities; the last holds one.
-EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
+#: Edges of the bins of stated probabilities; the last holds one, and the last but one what a sure verdict says.
+EDGES = (0.0, 0.5, 0.7, 0.85, 0.95, 1.0)
 
 
 def wilson(hits: int, n: int) -> tuple[float, float]:
