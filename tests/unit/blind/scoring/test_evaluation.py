@@ -142,7 +142,8 @@ def test_stored_evidence_is_decided_again_and_nothing_is_written(folder):
     control, cable = evaluation.judge(folder)["marks"]
     assert control["verdict"] == "none", "without evidence the stored verdict stands"
     assert (cable["verdict"], cable["said"], cable["right"]) == ("named", ["cable_restraint"], True)
-    assert cable["probability"] > 0.99 * calibration().trust and cable["covered"] == [True] and cable["size_errors"] == [0.0]
+    assert cable["probability"] > 0.99 * calibration().trust
+    assert cable["covered"] == [True] and cable["size_errors"] == [0.0]
     assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
 
 

@@ -19,12 +19,12 @@ def said(probability, right):
 
 
 def test_probabilities_are_counted_by_bins_that_hold_their_lower_edge():
-    marks = [said(0.9, True), said(0.94, False), said(0.95, True), said(1.0, True), said(None, False), {"right": True}]
+    marks = [said(0.85, True), said(0.9, False), said(0.95, True), said(1.0, True), said(None, False), {"right": True}]
     rows = reliability(marks)
     found = [(r["from"], r["to"], r["right"], r["n"]) for r in rows]
-    assert found == [(0.9, 0.95, 1, 2), (0.95, 0.99, 1, 1), (0.99, 1.0, 1, 1)]
-    assert rows[0]["stated"] == pytest.approx(0.92) and rows[0]["low"] < 0.5 < rows[0]["high"]
-    assert as_text(rows).splitlines()[2].startswith("| 0.9 to 0.95 | 92.0 % | 1 of 2 |")
+    assert found == [(0.85, 0.95, 1, 2), (0.95, 1.0, 2, 2)]
+    assert rows[0]["stated"] == pytest.approx(0.875) and rows[0]["low"] < 0.5 < rows[0]["high"]
+    assert as_text(rows).splitlines()[2].startswith("| 0.85 to 0.95 | 87.5 % | 1 of 2 |")
     assert reliability([]) == []
 
 
