@@ -11,7 +11,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.listening.released import released
-from rockref.discover.listening.target import Grid, Target, grid, target_of, zero_offset
+from rockref.discover.listening.target import Grid, Target, grid, target_of, ticks_upto, zero_offset
 from rockref.discover.threads import on_threads, threads_left
 from rockref.effects.base import Effect
 from rockref.engines.compiled import pack
@@ -148,7 +148,7 @@ class Listener:
     def _predict_rows(self, rows, memory: Memory, N: int, out: np.ndarray) -> int:
         """Write what is seen of some rows (job, run, model) to `out`; return the number of block-steps."""
         last = max(float(t[min(N, len(t)) - 1]) for t in self.t)
-        ticks = Grid(self.ticks.interval, min(self.ticks.count, int(last / self.ticks.interval * 1.03) + 40))
+        ticks = Grid(self.ticks.interval, min(self.ticks.count, ticks_upto(last, self.ticks.interval)))
         problems = released([model for _, _, model in rows], [self.runs[i] for _, i, _ in rows])
         zeros = [zero_offset(model) for _, _, model in rows]
         rates, steps = self.listened([i for _, i, _ in rows], problems, memory, ticks, zeros)

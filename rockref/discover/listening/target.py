@@ -25,6 +25,9 @@ BEYOND = 0.1
 #: How far a run listens beyond its end [s] (decided: the electronics of a gyroscope of 100 Hz have passed on by then
 #: what happens at the end).
 FARTHER = 0.03
+#: Share of it by which a recorder's clock may be slow, and the run go on (decided: a clock that is out by as much as
+#: that loses an hour a day).
+SLOW_CLOCK = 0.05
 #: Share of an interval by which instants may be uneven and are taken as they are (decided: 0.03 ms at 1 kHz).
 UNEVEN = 0.03
 
@@ -54,7 +57,12 @@ def grid(sample_rate: float, end: float) -> Grid:
     """Return the ticks up to `end` s and a little beyond: whole parts of a sample, at TICK_RATE or above."""
     parts = math.ceil(TICK_RATE / sample_rate - 1e-9)
     interval = 1.0 / (sample_rate * parts)
-    return Grid(interval, int((end + FARTHER) / interval) + 2)
+    return Grid(interval, ticks_upto(end, interval))
+
+
+def ticks_upto(end: float, interval: float) -> int:
+    """Return how many ticks [s] a run needs of which a record tells up to `end` s of the recorder's time."""
+    return int(((1 + SLOW_CLOCK) * end + FARTHER) / interval) + 2
 
 
 @dataclass(frozen=True)
