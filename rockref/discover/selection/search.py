@@ -8,6 +8,8 @@
    what a step gains at S3 and by what it promises at F, and those that gain enough join.
 4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
 5. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
+
+On the way steps of the law are made as fine as the records ask for (`rockref.discover.fit.steps`).
 """
 
 from __future__ import annotations
@@ -287,7 +289,7 @@ class Search:
             for h in beam:
                 self.fitter.refine(h, stage, STEPS)
         beam = within(beam, BEAM, MARGINS[stage.name])
-        if stage is F and len(min(beam, key=penalised).effects) < MOST:
+        if stage is F:
             beam = self.joined(beam)
         say(self.fitter, stage.name, beam)
         return beam
@@ -295,6 +297,8 @@ class Search:
     def joined(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Return a beam at F with the additions to its best that gain enough, by the score test."""
         best = min(beam, key=penalised)
+        if len(best.effects) >= MOST:
+            return beam
         self.test = score_test(self.fitter, self.fitter.evaluate(best, F), F)
         added = proposals(self.fitter, self.fitter.evaluate(best.copy(), S3), S3, ADDED)
         added += self.promising(best, self.test, added)

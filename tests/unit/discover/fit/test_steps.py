@@ -35,7 +35,7 @@ def test_a_quiet_gyroscope_asks_for_finer_steps():
     assert before > COARSE["S1"][0]
     assert not fine_enough(fitter, [truth], [S1])
     assert fitter.problem.finer["S1"] > 1.0 and fitter.problem.finer.keys() == {"S1"}
-    # The integrator is of second order between impacts and of first at them: at most half is left of an error.
+    # At impacts the integrator is of first order: half of an error is left at most, and a quarter of its square.
     assert changed(fitter, [truth], S1) < before / 4
     assert fine_enough(fitter, [truth], [S1]) or fitter.problem.finer["S1"] == COARSE["S1"][1]
 
@@ -51,6 +51,7 @@ def test_the_worst_of_a_field_counts():
     stiff = truth.copy()
     stiff.z[0] += 1.0
     both = changed(fitter, [truth, stiff], S1)
+    # Side by side all take the steps of the stiffest; alone, the softer one takes coarser ones.
     assert both == pytest.approx(max(changed(fitter, [h], S1) for h in (truth, stiff)), rel=0.3)
 
 
