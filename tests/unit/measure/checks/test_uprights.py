@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rockref.measure.checks.uprights import zero_of
+from rockref.measure.checks.uprights import kept_shifts, zero_of
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.arcs import turned_angle
 from rockref.measure.signals.impacts import main_impacts
@@ -93,3 +93,11 @@ def test_the_zero_is_what_all_arcs_have_in_common():
     assert zero_of(leaning) == 0.0
     assert zero_of(zero + leaning) == pytest.approx(zero)
     assert zero_of(np.array([1.0, -1.0])) == 0.0
+
+
+def test_what_is_lost_stays_lost():
+    """A step after the third of six impacts; an impact that is put too late; a block that leans to either side."""
+    assert list(kept_shifts(np.array([0.0, 0.0, 0.0, 2.0, 2.0, 2.0]))) == [0.0, 0.0, 2.0, 0.0, 0.0]
+    assert list(kept_shifts(np.array([0.0, 0.0, 2.0, 0.0, 0.0]))) == [0.0] * 4
+    assert list(kept_shifts(np.array([0.0, 2.0, 0.0, 2.0]))) == [0.0] * 3
+    assert list(kept_shifts(np.array([0.0, -2.0]))) == [2.0]
