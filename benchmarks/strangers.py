@@ -6,11 +6,11 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | sixteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | seventeenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth`, `fourteenth`,
-                                `fifteenth` or `sixteenth` of theirs)
+                                `fifteenth`, `sixteenth` or `seventeenth` of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -40,6 +40,7 @@ import strangers_list
 import strangers_ninth
 import strangers_schemes
 import strangers_second
+import strangers_seventeenth
 import strangers_seventh
 import strangers_sixteenth
 import strangers_sixth
@@ -75,6 +76,7 @@ LISTS = {
     "fourteenth": strangers_fourteenth.MISTAKES,
     "fifteenth": strangers_fifteenth.MISTAKES,
     "sixteenth": strangers_sixteenth.MISTAKES,
+    "seventeenth": strangers_seventeenth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 #: Other integrators, as lines of the function that makes a step.
@@ -84,6 +86,7 @@ STEPS = {
     **strangers_fourteenth.SCHEMES,
     **strangers_fifteenth.SCHEMES,
     **strangers_sixteenth.SCHEMES,
+    **strangers_seventeenth.SCHEMES,
 }
 
 
@@ -225,6 +228,12 @@ def of_sixteenth_schemes() -> Iterator[tuple[Mistake, str]]:
     yield from in_turn(lasting, list(strangers_sixteenth.SCHEMES))
 
 
+def of_seventeenth_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The same of the seventeenth list and its integrators."""
+    yield from strangers_seventeenth.OF_STEPS
+    yield from in_turn(strangers_seventeenth.MISTAKES, list(strangers_seventeenth.SCHEMES))
+
+
 def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
     """The mistakes that runs show and that lie outside the law's step, each in the next integrator."""
     source = SOURCE.read_text()
@@ -245,6 +254,7 @@ OF_SCHEMES = {
     "fourteenth scheme": of_fourteenth_schemes,
     "fifteenth scheme": of_fifteenth_schemes,
     "sixteenth scheme": of_sixteenth_schemes,
+    "seventeenth scheme": of_seventeenth_schemes,
 }
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
@@ -263,8 +273,9 @@ IN_PYTHON = (
     *strangers_fourteenth.IN_PYTHON,
     *strangers_fifteenth.IN_PYTHON,
     *strangers_sixteenth.IN_PYTHON,
+    *strangers_seventeenth.IN_PYTHON,
 )
-IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C)
+IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C, *strangers_seventeenth.IN_C)
 
 
 def variants() -> Iterator[tuple[str, Any, list[str], str]]:
