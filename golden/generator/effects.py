@@ -68,6 +68,8 @@ LATER: dict[str, dict[str, float]] = {
     "rounded_feet": {"foot1": 0.75, "foot2": 1.5, "foot3": 0.625, "foot4": 1.25},
     "cable_restraint": {"stiffening": 0.5, "reference": 1e-5},
     "base_vibration": {"phase": 0.5, "harmonic_cosine": 0.5, "harmonic_sine": -0.25},
+    "foot_defects": {"diag1": 0.75, "diag2": 1.5, "diag3": 0.625, "diag4": 1.25},
+    "clock_error": {"growth": 0.5},
 }
 OF_ALL_FEET = (
     "uneven_foot_stiffness", "uneven_foot_damping", "uneven_foot_friction", "uneven_contact_normals", "rounded_feet",

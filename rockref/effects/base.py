@@ -135,6 +135,11 @@ class Effect:
         place."""
         return math.inf
 
+    def within(self, width: float, depth: float) -> Effect:
+        """Return the effect that a fit makes of this one on a base with these sides [m]: places for which there is no
+        room are drawn inside."""
+        return self
+
     def values(self) -> dict[str, Any]:
         """Return the parameters by name."""
         return {f.name: getattr(self, f.name) for f in fields(self)}

@@ -22,6 +22,13 @@ def foot_numbers(points: ContactPoints, effect: str) -> np.ndarray:
     return np.array([int(name[0]) - 1 for name in points.names])
 
 
+def over_mean(factors) -> np.ndarray:
+    """Return four factors, one a foot, over their geometric mean, (4,); ones stay ones to the last bit."""
+    if all(factor == 1 for factor in factors):
+        return np.ones(len(factors))
+    return np.divide(factors, np.exp(np.mean(np.log(factors))))
+
+
 def of_foot(points: ContactPoints, values, effect: str) -> np.ndarray:
     """Return four values, one a foot, spread over the points: (n,), in the points' dtype."""
     return np.array(values, points.K_N.dtype)[foot_numbers(points, effect)]

@@ -64,7 +64,8 @@ def setter(kind: type[Effect], key: str) -> Callable[[Model, float], Model]:
         there = kind.of_run or any(e.id == kind.id for e in model.effects)
         if not there and (shapes or value == absent):
             return model
-        return with_effect(model, replace(current(model, kind), **{key: value}))
+        effect = replace(current(model, kind), **{key: value})
+        return with_effect(model, effect.within(model.width, model.depth))
 
     return set_value
 

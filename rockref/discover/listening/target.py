@@ -28,6 +28,8 @@ FARTHER = 0.03
 #: Share of it by which a recorder's clock may be slow, and the run go on (decided: a clock that is out by as much as
 #: that loses an hour a day).
 SLOW_CLOCK = 0.05
+#: Intervals of two clocks are alike where their ratio changes by no more over a record (decided: rounding of instants).
+ALIKE = 1e-9
 #: Share of an interval by which instants may be uneven and are taken as they are (decided: 0.03 ms at 1 kHz).
 UNEVEN = 0.03
 
@@ -107,8 +109,8 @@ def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid, undo
         heard &= np.abs(crv) < gyro.range * (1 - 1e-6)
     at, behind = ticks.t, tuple(e for e in effects if e.stage != "mounting")
     if behind not in undone:
-        t, crv = catalogue.undone(behind, t, crv, gyro.bandwidth)
-        undone[behind] = Behind(t, between(t, crv, at))
+        dated, (t, crv) = t, catalogue.undone(behind, t, crv, gyro.bandwidth)
+        undone[behind] = Behind(t, between(t, crv, at, dated))
     t = undone[behind].t
     _, rates = catalogue.undone([e for e in effects if e.stage == "mounting"], at, undone[behind].rates)
     seen = np.ones((len(at), 3), bool)
@@ -121,17 +123,28 @@ def target_of(run: Run, gyro: Gyro, effects: Sequence[Effect], ticks: Grid, undo
     )
 
 
-def between(t: np.ndarray, crv: np.ndarray, at: np.ndarray) -> np.ndarray:
+def between(t: np.ndarray, crv: np.ndarray, at: np.ndarray, dated: np.ndarray | None = None) -> np.ndarray:
     """Return rates (K, 3) at instants `at`: Lagrange's polynomial through the six samples (N, 3) about each.
 
-    t : even.  Beyond its ends the first or the last sample.  Straight lines between samples of 2 ms cut the corners of
-    an impact by ten noise widths, and a model that listens to them follows.
+    t : (N,) [s], even, or true instants of rows that a clock whose rate moves has dated evenly, `dated` (N,) [s].
+    Beyond its ends the first or the last sample.  Straight lines between samples of 2 ms cut the corners of an impact
+    by ten noise widths, and a model that listens to them follows.
     """
-    first, shares = nodes_about(float(t[0]), float(t[-1]), len(t), at)
+    if dated is None or alike(t, dated):
+        first, shares = nodes_about(float(t[0]), float(t[-1]), len(t), at)
+    else:
+        # The place is straight between samples to a millionth of one: a clock moves by 1e-5 of itself from one to the
+        # next, and a chord leaves an arc by an eighth of that.
+        first, shares = nodes_at(np.interp(at, t, np.arange(len(t))), len(t))
     rates = np.zeros((len(at), 3))
     for k in range(shares.shape[1]):
         rates += shares[:, k, None] * crv[first + k]
     return rates
+
+
+def alike(t: np.ndarray, dated: np.ndarray) -> bool:
+    """Return whether the instants t (N,) of rows are their dates (N,) on another scale."""
+    return bool(np.ptp(np.diff(t) / np.diff(dated)) <= ALIKE)
 
 
 def nodes_about(start: float, end: float, count: int, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -142,11 +155,15 @@ def nodes_about(start: float, end: float, count: int, at: np.ndarray) -> tuple[n
 @lru_cache(maxsize=32)
 def _nodes_about(start: float, end: float, count: int, instants: bytes) -> tuple[np.ndarray, np.ndarray]:
     at = np.frombuffer(instants)
+    return nodes_at(np.clip((at - start) * ((count - 1) / (end - start)), 0, count - 1), count)
+
+
+def nodes_at(place: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the first of the `count` samples about each place (K,), counted in samples, and the shares of those."""
     nodes = min(NODES, count)
-    place = np.clip((at - start) * ((count - 1) / (end - start)), 0, count - 1)
     first = np.clip(np.floor(place).astype(int) - nodes // 2 + 1, 0, count - nodes)
     away = (place - first)[:, None] - np.arange(nodes)
-    shares = np.empty((len(at), nodes))
+    shares = np.empty((len(place), nodes))
     for k in range(nodes):
         others = [j for j in range(nodes) if j != k]
         shares[:, k] = np.prod(away[:, others], axis=1) / math.prod(k - j for j in others)

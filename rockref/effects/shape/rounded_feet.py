@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rockref.effects.base import POSITIVE, Effect, Quantity
-from rockref.effects.feet import of_foot
+from rockref.effects.feet import of_foot, over_mean
 from rockref.effects.prior import Prior
 from rockref.model.problem import ContactPoints
 
@@ -58,4 +58,4 @@ class RoundedFeet(Effect):
         feet, alike = (self.foot1, self.foot2, self.foot3, self.foot4), np.ones_like(points.K_N)
         if all(foot == 1 for foot in feet):
             return alike
-        return alike * of_foot(points, np.divide(feet, np.exp(np.mean(np.log(feet)))), self.id)
+        return alike * of_foot(points, over_mean(feet), self.id)

@@ -23,7 +23,7 @@ static void inverse_of(const double *A, double *B) {
 // The record (m, 3) without bias, drift, low-pass of the data sheet, scale and misalignment; returns the lateness [s]
 // of what is left.
 static double undone(const double *v, Gyro gyro, const double *y, int m, double *out) {
-  double A[9], late = 0, clock = IS_ON(clock_error) ? OF(clock_error, rate) : 1, dt = 1 / gyro.rate;
+  double A[9], late = 0, dt = 1 / gyro.rate;
   double omega = natural_frequency(gyro.bandwidth, 1 / sqrt(2)), turn = omega * dt;
   double first = turn > LEAST_TURN ? sqrt(2) / turn : 0, second = turn > LEAST_TURN ? 1 / (turn * turn) : 0;
   if (first == 0) late += sqrt(2) / omega;
@@ -42,7 +42,7 @@ static double undone(const double *v, Gyro gyro, const double *y, int m, double 
     for (int j = 0; j < 3; j++) {
       double here = y[3 * i + j], before = y[3 * a + j], after = y[3 * b + j];
       z[j] = here + first * (after - before) / 2 + second * (after - 2 * here + before);
-      if (IS_ON(gyro_drift)) z[j] -= v[E_gyro_drift_bias_x + j] + clock * i * dt * v[E_gyro_drift_rate_x + j];
+      if (IS_ON(gyro_drift)) z[j] -= v[E_gyro_drift_bias_x + j] + true_time(v, i * dt) * v[E_gyro_drift_rate_x + j];
     }
     apply(A, z, out + 3 * i);
   }
@@ -53,9 +53,8 @@ static double undone(const double *v, Gyro gyro, const double *y, int m, double 
 void target(const double *v, Gyro gyro, const double *y, int m, const double *start, int ticks, double *rates,
             double *attitudes) {
   double *z = taken(3 * m), late = undone(v, gyro, y, m, z), E[9];
-  double clock = IS_ON(clock_error) ? OF(clock_error, rate) : 1;
   for (int k = 0; k < ticks; k++) {
-    double place = smaller((k * TICK + late) / clock * gyro.rate, m - 1);
+    double place = smaller(recorder_time(v, k * TICK + late) * gyro.rate, m - 1);
     int i = (int)smaller(place, m - 2);
     for (int j = 0; j < 3; j++) rates[3 * k + j] = z[3 * i + j] + (place - i) * (z[3 * i + 3 + j] - z[3 * i + j]);
   }
@@ -95,8 +94,7 @@ static int smoothed(double *r, int m, int width) {
 static int listened(const double *model, const double *v, Gyro gyro, Listening how, const double *y, int m, double *out) {
   static Body b;
   double state[C_STATE], e[S_SLOTS], memory[C_MEMORY * MOST_POINTS] = {0}, forces[3 * MOST_POINTS];
-  double clock = IS_ON(clock_error) ? OF(clock_error, rate) : 1;
-  int ticks = (int)(clock * m / gyro.rate / TICK) + 2, n = ticks;
+  int ticks = (int)(true_time(v, m / gyro.rate) / TICK) + 2, n = ticks;
   of_model(model, &b), with_effects(v, &b), prepare(&b);
   if (!release(&b, how.theta_0, how.turned, how.roll, state)) return 0;
   released_with(v, &b, state), effects_row(v, &b, state, e);

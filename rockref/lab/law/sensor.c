@@ -13,6 +13,26 @@ static Complex over(Complex a, Complex b) {
   return (Complex){(a.re * b.re + a.im * b.im) / square, (a.im * b.re - a.re * b.im) / square};
 }
 
+#define HELD 0.05 // of itself, by which a clock's rate moves at most
+static double change_of_rate(const double *v) { return (OF(clock_error, rate) - 1) * OF(clock_error, growth); }
+
+double true_time(const double *v, double t) {
+  if (!IS_ON(clock_error)) return t;
+  double rate = OF(clock_error, rate), change = change_of_rate(v);
+  if (change == 0) return rate * t;
+  double moves = smaller(t, HELD * rate / fabs(change));
+  return rate * t + change * moves * (t - moves / 2);
+}
+
+double recorder_time(const double *v, double t) {
+  if (!IS_ON(clock_error)) return t;
+  double rate = OF(clock_error, rate), change = change_of_rate(v);
+  if (change == 0) return t / rate;
+  double held = HELD * rate / fabs(change), last = rate + change * held;
+  if (t > true_time(v, held)) return (t + change * held * held / 2) / last;
+  return 2 * t / (rate + sqrt(rate * rate + 2 * change * t));
+}
+
 // Undamped angular frequency [rad/s] of a second-order low-pass whose -3 dB point is `bandwidth` Hz.
 double natural_frequency(double bandwidth, double damping) {
   double b = 1.0 - 2.0 * damping * damping;
@@ -96,15 +116,17 @@ static double between(const double *t, const double *y, int stride, const double
   return Y(i) + z * (s[i] + z * (((slope - s[i]) / dx - bend) + z * (bend / dx)));
 }
 
-// Cubic values of crv (n, 3) at scale * k * spacing + shift for k < m, held beyond the ends; work: 3 n numbers.
-static void resampled(const double *t, const double *crv, int n, double scale, double shift, const double *times,
+// Cubic values of crv (n, 3) at k * spacing + shift, or at the true times of `times` (m,) by the clock, for k < m, held
+// beyond the ends; work: 3 n numbers.
+static void resampled(const double *t, const double *crv, int n, const double *clock, double shift, const double *times,
                       double spacing, double *out, int m, double *work) {
   double *s = work + 2 * n;
   for (int axis = 0; axis < 3; axis++) {
     int i = 0;
     slopes(t, crv + axis, 3, n, s, work);
     for (int k = 0; k < m; k++) {
-      double at = scale * (times ? times[k] : k * spacing) + shift;
+      double at = times ? times[k] : k * spacing;
+      at = (clock ? true_time(clock, at) : at) + shift;
       at = smaller(larger(at, t[0]), t[n - 1]);
       while (i < n - 2 && t[i + 1] <= at) i++;
       out[3 * (long)k + axis] = between(t, crv + axis, 3, s, i, at);
@@ -125,7 +147,7 @@ static void bandwidth_and_delay(const double *v, const double *t, double *crv, i
   if (frequency < INFINITY) low_pass(crv, n, (t[n - 1] - t[0]) / (n - 1), frequency, OF(gyro_bandwidth, damping));
   if (delay == 0.0) return;
   for (int i = 0; i < 3 * n; i++) copy[i] = crv[i];
-  resampled(t, copy, n, 1, -delay, t, 0, crv, n, work);
+  resampled(t, copy, n, 0, -delay, t, 0, crv, n, work);
 }
 
 // What a sampler finds, in place; work: 6 n numbers.
@@ -145,7 +167,7 @@ void analogue(const double *v, const double *t, double *crv, int n, double bandw
       crv[i] = crv[i] + v[E_gyro_drift_bias_x + i % 3] + t[i / 3] * v[E_gyro_drift_rate_x + i % 3];
   if (!IS_ON(clock_error)) return;
   for (int i = 0; i < 3 * n; i++) copy[i] = crv[i];
-  resampled(t, copy, n, OF(clock_error, rate), 0, t, 0, crv, n, work);
+  resampled(t, copy, n, v, 0, t, 0, crv, n, work);
 }
 
 // What becomes of the samples (n, 3): cut where the sensor runs into its stops.
@@ -164,7 +186,7 @@ void sampled(const double *v, Gyro gyro, const double *t, const double *crv, int
   if (fabs(every - whole) * m < 1e-3) // a thousandth of a row is rounding of the clock
     for (int i = 0; i < 3 * m; i++) out[i] = crv[3 * (long)smaller((i / 3) * whole, n - 1) + i % 3];
   else
-    resampled(t, crv, n, 1, 0, 0, 1 / gyro.rate, out, m, work);
+    resampled(t, crv, n, 0, 0, 0, 1 / gyro.rate, out, m, work);
   digital(v, out, m);
   if (gyro.range > 0)
     for (int i = 0; i < 3 * m; i++) out[i] = smaller(larger(out[i], -gyro.range), gyro.range);

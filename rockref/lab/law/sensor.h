@@ -5,6 +5,9 @@
 // The data sheet of a gyroscope: rate [Hz], bandwidth [Hz] (0: none), range [rad/s] (0: none).
 typedef struct { double rate, bandwidth, range; } Gyro;
 
+// The true time [s] of what the recorder dates t [s], and back.
+double true_time(const double *values, double t);
+double recorder_time(const double *values, double t);
 double natural_frequency(double bandwidth, double damping);
 void low_pass(double *crv, int n, double step, double bandwidth, double damping);
 void mounting(const double *values, double *A);

@@ -3,10 +3,18 @@
 #define IS_ON(id) (v[E_##id##_on] != 0.0)
 #define OF(id, name) v[E_##id##_##name]
 
+// Geometric mean of four factors, one a foot.
+static double mean_of(const double *feet) {
+  int alike = feet[0] == 1 && feet[1] == 1 && feet[2] == 1 && feet[3] == 1;
+  return alike ? 1 : exp((log(feet[0]) + log(feet[1]) + log(feet[2]) + log(feet[3])) / 4);
+}
+
 static void foot_defects(const double *v, Body *b) {
+  const double *diag = &OF(foot_defects, diag1);
+  double mean = mean_of(diag);
   for (int i = 0; i < 4; i++) {
     double *P = b->P + 3 * i, *Q = b->P + 3 * (4 + i), *q = b->props + C_PROPS * i, *inner = q + 4 * C_PROPS;
-    double inward = 1 - OF(foot_defects, delta_diag) / sqrt(P[0] * P[0] + P[1] * P[1]);
+    double inward = 1 - OF(foot_defects, delta_diag) * (diag[i] / mean) / sqrt(P[0] * P[0] + P[1] * P[1]);
     Q[0] = P[0] * inward, Q[1] = P[1] * inward, Q[2] = P[2];
     P[2] += v[E_foot_defects_delta_long1 + i];
     for (int j = 0; j < C_PROPS; j++) inner[j] = q[j];
@@ -28,8 +36,7 @@ static void dimension_deviation(const double *v, Body *b) {
 
 static void rounded_feet(const double *v, Body *b) {
   const double *feet = &OF(rounded_feet, foot1);
-  int alike = feet[0] == 1 && feet[1] == 1 && feet[2] == 1 && feet[3] == 1;
-  double mean = alike ? 1 : exp((log(feet[0]) + log(feet[1]) + log(feet[2]) + log(feet[3])) / 4);
+  double mean = mean_of(feet);
   for (int i = 0; i < b->n; i++) {
     double *q = b->props + C_PROPS * i;
     q[C_RADIUS] = OF(rounded_feet, radius) * (feet[(int)q[C_FOOT] - 1] / mean);

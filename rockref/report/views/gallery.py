@@ -17,6 +17,7 @@ import numpy as np
 from rockref import api
 from rockref.effects.base import HOOKS, POSITIVE, Effect, Quantity, in_json
 from rockref.effects.catalogue import OF_TOSSES, measured
+from rockref.effects.sensor.clock_error import ClockError
 from rockref.model.channel import DEGREES
 from rockref.model.storage import write_bytes
 from rockref.report.charts import style
@@ -129,7 +130,7 @@ def curves(
     """
     base = api.Model.four_points() if effect.id == ON_FOUR_POINTS else api.Model.table_3_1()
     without = api.simulate(base, duration=duration, engine="auto")
-    longer = duration * max(1.0, float(effect.values()["rate"])) if effect.id == "clock_error" else duration
+    longer = max(duration, float(effect.true_time(np.array(duration)))) if isinstance(effect, ClockError) else duration
     with_it = api.simulate(base.replace(effects=(effect,)), duration=longer, engine="auto", progress=progress)
     shown = measured([effect], with_it.t, with_it.W)[: len(without.t)]
     return without.t, without.W * DEGREES, shown * DEGREES

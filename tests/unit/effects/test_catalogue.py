@@ -63,7 +63,7 @@ def test_every_effect_says_what_a_reader_needs(kind):
     for quantity in kind.quantities.values():
         assert quantity.unit in {
             "1", "m", "N", "N/m", "N s/m", "N s2/m2", "N m s2", "s", "s/m", "m/s", "m/s2", "kg", "Hz", "rad", "rad/s",
-            "rad/s2",
+            "rad/s2", "1/s",
         }  # fmt: skip
         assert quantity.meaning and quantity.sign in ("+", "any")
         assert quantity.least <= quantity.low < quantity.high <= quantity.most
@@ -212,7 +212,7 @@ def test_limits_in_words():
 
 
 def test_hooks_are_the_methods_of_the_base():
-    methods = {n for n, f in vars(Effect).items() if inspect.isfunction(f)} - {"values", "is_absent", "check"}
+    methods = {n for n, f in vars(Effect).items() if inspect.isfunction(f)} - {"values", "is_absent", "check", "within"}
     methods = {m for m in methods if not m.startswith("__")}
     assert methods == set(HOOKS | UNDO_HOOKS)
     for name, arguments in (HOOKS | UNDO_HOOKS).items():

@@ -1,7 +1,7 @@
 """What a fit assumes of every quantity beforehand: declared in the effect's own file, or computed from the quantity."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -136,3 +136,12 @@ def test_inner_points_stay_on_their_side_of_a_small_base():
     kind = EFFECTS["foot_defects"]
     assert kind.largest_on("delta_diag", 0.03, 0.04) == pytest.approx(0.9 * 0.025)
     assert kind.largest_on("mu_int", 0.03, 0.04) == EFFECTS["gyro_scale"].largest_on("x", 0.03, 0.04) == math.inf
+
+
+def test_the_inner_point_that_is_farthest_in_stays_on_its_side():
+    """Ratios are kept; of those of the typical one the largest is twice the mean."""
+    uneven = replace(EFFECTS["foot_defects"](delta_diag=0.006), diag1=0.5, diag2=2.0)
+    assert uneven.within(0.03, 0.04) is uneven
+    assert uneven.within(0.012, 0.016) == replace(uneven, delta_diag=0.9 * 0.01 / 2)
+    moved = EFFECTS["gyro_scale"](2.0)
+    assert moved.within(1e-3, 1e-3) is moved

@@ -10,6 +10,7 @@ import pytest
 pytest.importorskip("wasmtime", reason="wasmtime runs WebAssembly outside a browser: the extra `lab`")
 
 import rockref
+from rockref.conformance.backends.law import NumpyEngine
 from rockref.conformance.judge.findings import judge
 from rockref.effects.catalogue import EFFECTS
 from rockref.lab import build, golden, layout
@@ -66,6 +67,17 @@ def test_a_cable_has_the_bits_of_the_numpy_text(backend, stiffening):
     for name in ("x", "v", "Lambda", "W", "F"):
         np.testing.assert_array_equal(getattr(ours, name), getattr(law, name), err_msg=name)
     assert not np.array_equal(law.W, rockref.simulate(problem, engine="numpy").W)
+
+
+def test_inner_points_at_their_own_distances_have_the_bits_of_the_numpy_text(backend):
+    """Of factors whose logarithms add up to nothing: roundings of other logarithms are no matter of the text."""
+    defects = EFFECTS["foot_defects"].typical().values() | {"diag1": 0.5, "diag2": 2.0, "diag3": 2.0, "diag4": 0.5}
+    problem = rockref.Model.four_points().problem(0.02, theta_0=0.01)
+    ours, law = backend.effect(problem, "foot_defects", defects), NumpyEngine().effect(problem, "foot_defects", defects)
+    for name in ("x", "v", "Lambda", "W", "F"):
+        np.testing.assert_array_equal(getattr(ours, name), getattr(law, name), err_msg=name)
+    alike = defects | dict.fromkeys(("diag1", "diag2", "diag3", "diag4"), 1.0)
+    assert not np.array_equal(law.W, NumpyEngine().effect(problem, "foot_defects", alike).W)
 
 
 def test_a_run_goes_on_bit_for_bit(backend):

@@ -93,13 +93,18 @@ def module():
 
 @pytest.fixture(scope="module")
 def record():
+    return recorded()
+
+
+def recorded(effects=()):
+    """What the block of Table 3.1 shows, its gyroscope having these effects."""
     from rockref.measure.gyroscope import record
     from rockref.measure.records.release import Gyro
 
-    response = rockref.simulate(Model.table_3_1(), 1.05, output_rate=4000.0, engine="auto")
+    response = rockref.simulate(Model.table_3_1(), 1.2, output_rate=4000.0, engine="auto")
     rng = np.random.default_rng(1)
     gyro = Gyro(sample_rate=1000.0, noise=SIGMA[0], bandwidth=300.0, resolution=0.0)
-    return np.ascontiguousarray(record(response.t, response.W, gyro, rng)[1][:SAMPLES])
+    return np.ascontiguousarray(record(response.t, response.W, gyro, rng, effects)[1][:SAMPLES])
 
 
 def loss(module, record, model, memory=(0.04, 1.0), steps=16, effects=()):
@@ -117,6 +122,17 @@ def test_the_truth_leaves_white_noise(module, record):
     # White noise leaves 0.945; its mean over 3000 samples is known to 0.02, and impacts in steps three times as
     # long as those of the record add up to 0.1.
     assert 0.9 < loss(module, record, Model.table_3_1()) < 1.1
+
+
+@pytest.mark.parametrize(
+    "words", ["clock_error:rate=1.03", "clock_error:rate=1.02,growth=0.25", "clock_error:rate=1.06,growth=1"]
+)
+def test_a_wrong_clock_leaves_white_noise_where_it_is_known(module, words):
+    """The last one has moved by a twentieth before the record ends, and moves no more."""
+    effect = (parse(words),)
+    shown = recorded(effect)
+    assert 0.9 < loss(module, shown, Model.table_3_1(), effects=effect) < 1.1
+    assert loss(module, shown, Model.table_3_1()) > 1.3
 
 
 def test_without_listening_the_run_is_the_free_one(module, record):

@@ -15,6 +15,10 @@ PARAMETERS = {
     "foot_defects.delta_diag": (0.0, 0.006, 3.0, 0.0, 0.02, False),
     "foot_defects.mu_int": (1.0, 0.19999999999999996, 3.0, 0.0, inf, False),
     "foot_defects.beta_int": (1.0, 0.16666666666666663, 3.0, 0.0, inf, False),
+    "foot_defects.diag1": (1.0, 0.3, 1.0, -inf, inf, True),
+    "foot_defects.diag2": (1.0, 0.3, 1.0, -inf, inf, True),
+    "foot_defects.diag3": (1.0, 0.3, 1.0, -inf, inf, True),
+    "foot_defects.diag4": (1.0, 0.3, 1.0, -inf, inf, True),
     "dimension_deviation.width": (1.0, 0.004999999999999893, 3.0, TINY, inf, False),
     "dimension_deviation.depth": (1.0, 0.004999999999999893, 3.0, TINY, inf, False),
     "dimension_deviation.height": (1.0, 0.004999999999999893, 3.0, TINY, inf, False),
@@ -113,4 +117,5 @@ PARAMETERS = {
     "gyro_saturation.range": (0.0, 2.5, 3.0, 0.0, inf, False),
     "gyro_saturation.softness": (0.0, 1.0, 0.1, 0.0, 1.0, False),
     "clock_error.rate": (1.0, 0.010000000000000009, 3.0, TINY, 100.0, False),
+    "clock_error.growth": (0.0, 1.0, 0.1, -1.0, 1.0, False),
 }  # fmt: skip

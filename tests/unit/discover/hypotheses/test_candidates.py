@@ -58,9 +58,9 @@ def test_what_the_effects_declare_is_what_fits_have_counted():
 
 def test_the_tables_are_read_from_the_effects():
     assert LEFT_OUT == ("base_vibration", "gyro_saturation")
-    assert len(SHAPES) == 12
+    assert len(SHAPES) == 16
     forms = {key: p.spread for key, p in PRIORS.items() if p.role == "form"}
-    assert set(forms.values()) == {1.0} and len(forms) == 9
+    assert set(forms.values()) == {1.0} and len(forms) == 10
     seldom = {("quadratic_drag", "c_v"): 20.0}
     seldom |= {("inertia_deviation", axes): 0.02 for axes in ("xy", "xz", "yz")}
     seldom |= {("gyro_misalignment", axes): 0.005 for axes in ("xy", "xz", "yz")}

@@ -12,6 +12,7 @@ from rockref.discover.listening.listener import Job, Listener, Memory, noise_of
 from rockref.discover.listening.target import between, grid, target_of
 from rockref.discover.provenance import ZERO_OFFSETS
 from rockref.effects.catalogue import parse
+from rockref.effects.sensor.clock_error import ClockError
 from tests.unit.discover.synthetic import GYRO, experiment
 
 MODEL = Model.table_3_1()
@@ -31,8 +32,12 @@ def mean_losses(listener: Listener, model: Model) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    "effects", [(), ("rolling_resistance",), ("gyro_misalignment", "gyro_scale"), ("clock_error",), ("gyro_drift",)]
-)
+    "effects",
+    [
+        (), ("rolling_resistance",), ("gyro_misalignment", "gyro_scale"), ("clock_error",), ("gyro_drift",),
+        ("clock_error:rate=1.02,growth=0.25",),
+    ],
+)  # fmt: skip
 def test_innovations_are_white_at_the_truth(effects):
     e, model = made(effects)
     listener = Listener(e, e.runs, END, workers=1)
@@ -149,6 +154,29 @@ def test_rates_between_samples_are_those_of_a_band_limited_signal():
     bound = (2 * np.pi * np.array([10, 40, 80]) / 500) ** 6 * 3.52 / 720
     assert np.all(error <= bound) and np.all(error < straight / 10)
     assert np.allclose(between(t, signal(t), np.array([-1.0, 9.0])), signal(t)[[0, -1]])
+
+
+def test_rates_between_rows_of_a_clock_whose_rate_moves_are_those_of_the_signal():
+    """It moves by 4 % over the record, in whose middle rows lie two and a half samples beside even ones."""
+    dated, tones = np.arange(500) / 500, np.array([10, 40, 80])
+    t = ClockError(1.04, 1.0).true_time(dated)
+    signal = lambda t: np.stack([np.sin(2 * np.pi * f * t) for f in tones], axis=-1)  # noqa: E731
+    at = np.linspace(0.1, 0.9, 1201)
+    error = np.abs(between(t, signal(t), at, dated) - signal(at)).max(axis=0)
+    # Lagrange's remainder, as above, of tones that turn further from row to row; and a hundred thousandth of a sample.
+    turn = 2 * np.pi * tones * 1.08 / 500
+    assert np.all(error <= turn**6 * 3.52 / 720 + 1e-5 * turn)
+    assert np.all(np.abs(between(t, signal(t), at) - signal(at)).max(axis=0) > turn)
+    assert np.allclose(between(t, signal(t), np.array([-1.0, 9.0]), dated), signal(t)[[0, -1]])
+
+
+def test_a_clock_of_another_rate_leaves_rows_where_they_are_among_each_other():
+    """To the last bit, as if nobody had asked how they were dated; rows that were a little uneven, too."""
+    rng = np.random.default_rng(3)
+    dated = np.arange(500) / 500 + rng.uniform(0, 4e-5, 500)
+    t, crv = ClockError(1.02).true_time(dated) - 1e-3, rng.normal(size=(500, 3))
+    at = np.linspace(0.0, 1.0, 300)
+    assert np.array_equal(between(t, crv, at, dated), between(t, crv, at))
 
 
 def test_noise_is_the_stated_one_where_the_calmest_run_agrees():

@@ -158,6 +158,30 @@ def test_a_clock_shows_a_line_steeper_or_flatter_within_the_record(rate):
     assert out == pytest.approx(0.2 + np.outer(true_time - 0.01, (3.0, -1.0, 0.5)), abs=1e-12)
 
 
+def test_the_error_of_a_clock_grows_by_its_share_a_second():
+    """True time is t + (rate - 1)(t + growth t^2/2), in which a line shows as a parabola."""
+    out = ClockError(0.9, 0.2).sensor(T, LINE)
+    true_time = T - 0.1 * (T + 0.1 * T * T)
+    assert out == pytest.approx(0.2 + np.outer(true_time, (3.0, -1.0, 0.5)), abs=1e-12)
+
+
+@pytest.mark.parametrize("rate, growth, fastest", [(1.02, 0.25, 1.05), (1.02, -0.25, 0.95), (100.0, 1.0, 1.05)])
+def test_the_rate_of_a_clock_moves_by_a_twentieth_at_most(rate, growth, fastest):
+    """And from there on by nothing: no time stands still or turns back."""
+    effect, t = ClockError(rate, growth), np.linspace(0.0, 60.0, 6001)
+    still = 0.05 * rate / (abs(rate - 1) * abs(growth))
+    speed = np.diff(effect.true_time(t)) / 0.01
+    assert speed[0] == pytest.approx(rate * (1 + (rate - 1) / rate * growth * min(0.005, still)), rel=1e-2)
+    after = t[1:] > still + 0.02
+    assert after.any() and speed[after] == pytest.approx(rate * fastest, rel=1e-9)
+    assert np.array_equal(effect.true_time(t[:3]), [effect.true_time(x) for x in t[:3]])
+
+
+def test_a_clock_whose_error_does_not_grow_has_the_bits_of_its_rate():
+    assert np.array_equal(ClockError(1.013).true_time(T), 1.013 * T)
+    assert ClockError(1.0, 0.5).is_absent() and np.array_equal(ClockError(1.0, 0.5).true_time(T), T)
+
+
 @pytest.mark.parametrize("effect", [GyroBandwidth(delay=0.0017), ClockError(0.7)])
 def test_times_are_kept_whatever_they_are_written_in(effect):
     """Times of single precision, written as such, are moved in double: a line comes out straight."""
@@ -174,7 +198,7 @@ def test_times_are_kept_whatever_they_are_written_in(effect):
     "effect",
     [
         GyroMisalignment(0.1, 0.2, 0.3, 0.1), GyroScale(1.1, 0.9, 1.2), GyroDrift(0.1, rate_y=1.0),
-        GyroBandwidth(40.0), GyroBandwidth(delay=0.0017), ClockError(0.7), GyroSaturation(0.8),
+        GyroBandwidth(40.0), GyroBandwidth(delay=0.0017), ClockError(0.7, 0.5), GyroSaturation(0.8),
     ],
 )  # fmt: skip
 def test_runs_side_by_side_do_not_see_each_other(effect):

@@ -50,6 +50,28 @@ def test_a_corner_rises_and_its_neighbour_stands_further_in_on_the_diagonal():
     assert points.names == EXTERNAL + INTERNAL and points.radius is None
 
 
+@pytest.mark.parametrize("common", [1.0, 3.0])
+def test_of_the_factors_of_distances_only_the_ratios_count(common):
+    """Of 1 m of 5 m, and half, twice, twice and half of it."""
+    diag = {f"diag{i}": factor * common for i, factor in enumerate((0.5, 2.0, 2.0, 0.5), 1)}
+    effect = FootDefects(delta_diag=1.0, **diag)
+    _, points = effect.points(None, base())
+    inner = [(s * x, s * y, z) for (x, y, z), s in zip(CORNERS, (0.9, 0.6, 0.6, 0.9), strict=True)]
+    assert points.P == pytest.approx(np.array(CORNERS + inner), rel=ROUNDED)
+    assert FootDefects(**diag).is_absent() and not effect.is_absent()
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
+def test_inner_points_all_at_one_distance_stand_there_to_the_last_bit(dtype):
+    """1 - d/D of their corners, whatever the numbers are written in."""
+    given = base()
+    given = replace(given, P=(given.P / 3).astype(dtype), K_N=given.K_N.astype(dtype))
+    _, points = FootDefects(delta_diag=0.3).points(None, given)
+    x, y = given.P[:, 0], given.P[:, 1]
+    wanted = given.P[:, :2] * (1 - 0.3 / np.sqrt(x * x + y * y))[:, None]
+    assert points.P.dtype == dtype and np.array_equal(points.P[4:, :2], wanted)
+
+
 def test_an_inner_point_has_its_corners_properties_times_the_ratios():
     block, points = FootDefects(mu_int=1.5, beta_int=0.5).points("block", base(radius=0.02))
     assert block == "block"
@@ -87,6 +109,9 @@ def test_defects_refuse_other_points_and_neighbours_beyond_the_middle():
     error = refusal(FootDefects(delta_diag=5.0), base())
     assert (error.code, error.where) == ("E-RANGE", "effect foot_defects delta_diag")
     assert (error.what, error.cure) == ("is 5.0 m, half the base", "Give a distance from the corner in metres.")
+    # One inner point of four, at twice the mean and more, is enough.
+    error = refusal(FootDefects(delta_diag=2.0, diag1=0.5, diag2=4.0, diag3=1.0, diag4=0.5), base())
+    assert (error.code, error.what) == ("E-RANGE", "is 8.0 m, half the base")
 
 
 def test_a_cuboid_of_other_sides_has_the_inertia_of_its_sides():

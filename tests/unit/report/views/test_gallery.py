@@ -44,6 +44,8 @@ def test_a_slow_clock_is_shown_to_the_end():
     _, longer, _ = gallery.curves(EFFECTS["clock_error"](1.5), duration=0.04)
     np.testing.assert_allclose(with_it, longer[::2], atol=1e-9)
     assert len(t) == len(with_it) == len(without)
+    _, _, with_it = gallery.curves(EFFECTS["clock_error"](2.0, 1.0), duration=0.02)
+    assert not np.allclose(with_it[-1], with_it[-2], atol=1e-9)
 
 
 def test_a_picture_shows_what_changes_and_its_whole_title():

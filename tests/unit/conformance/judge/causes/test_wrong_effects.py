@@ -133,6 +133,8 @@ def test_what_is_left_out_is_named():
         ("base_vibration", "harmonic_sine"),
         ("cable_restraint", "height"),
         ("cable_restraint", "stiffening"),
+        ("foot_defects", "diag3"),
+        ("clock_error", "growth"),
     ],
 )
 def test_a_parameter_that_does_not_show_at_the_typical_size_is_looked_for_in_a_second_vector(effect, left_out):
@@ -169,7 +171,7 @@ def test_a_program_is_asked_for_the_eight_points_too(tmp_path):
     backend = Executable([sys.executable, str(path)], small=120.0)
     checks = [c for c in claims.judge_claims(backend) if c.grade != "not shown"]
     backend.close()
-    assert [c.effect for c in checks] == ["foot_defects"]
+    assert [c.effect for c in checks] == ["foot_defects"] * 2
     assert "as if delta_long2 were of the other sign" in checks[0].note
 
 
