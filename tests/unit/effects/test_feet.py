@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rockref.effects.feet import foot_numbers, of_foot
+from rockref.effects.feet import foot_numbers, of_foot, over_mean
 from tests.refusal import refused
 from tests.unit.effects.bodies import points_at
 
@@ -27,3 +27,12 @@ def test_a_name_without_a_foot_is_refused(name):
         assert (error.code, error.where) == ("E-FEET", "effect uneven_foot_damping")
         assert error.what == f"contact point {name!r} belongs to no foot"
         assert error.cure == 'Names of points begin with the number of their foot, as in "1ext" and "3int".'
+
+
+def test_factors_over_their_geometric_mean():
+    """Of 4, 1, 2 and 2 it is 2; a common factor is no matter."""
+    for common in (1.0, 0.3, 1e200):
+        found = over_mean([4 * common, common, 2 * common, 2 * common])
+        assert found == pytest.approx([2.0, 0.5, 1.0, 1.0], rel=1e-13)
+    assert over_mean((1.0, 1.0, 1.0, 1.0)).tolist() == [1.0] * 4
+    assert over_mean((1.0, 1.0, 1.0, 16.0)) == pytest.approx([0.5, 0.5, 0.5, 8.0], rel=1e-14)
