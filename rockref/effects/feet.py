@@ -24,8 +24,6 @@ def foot_numbers(points: ContactPoints, effect: str) -> np.ndarray:
 
 def over_mean(factors) -> np.ndarray:
     """Return four factors, one a foot, over their geometric mean, (4,); ones stay ones to the last bit."""
-    if all(factor == 1 for factor in factors):
-        return np.ones(len(factors))
     return np.divide(factors, np.exp(np.mean(np.log(factors))))
 
 

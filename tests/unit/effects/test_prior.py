@@ -143,5 +143,7 @@ def test_the_inner_point_that_is_farthest_in_stays_on_its_side():
     uneven = replace(EFFECTS["foot_defects"](delta_diag=0.006), diag1=0.5, diag2=2.0)
     assert uneven.within(0.03, 0.04) is uneven
     assert uneven.within(0.012, 0.016) == replace(uneven, delta_diag=0.9 * 0.01 / 2)
+    edge = uneven.within(0.012, 0.016)
+    assert edge.within(0.012, 0.016) is edge
     moved = EFFECTS["gyro_scale"](2.0)
     assert moved.within(1e-3, 1e-3) is moved

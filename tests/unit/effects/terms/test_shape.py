@@ -64,12 +64,14 @@ def test_of_the_factors_of_distances_only_the_ratios_count(common):
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
 def test_inner_points_all_at_one_distance_stand_there_to_the_last_bit(dtype):
     """1 - d/D of their corners, whatever the numbers are written in."""
-    given = base()
-    given = replace(given, P=(given.P / 3).astype(dtype), K_N=given.K_N.astype(dtype))
-    _, points = FootDefects(delta_diag=0.3).points(None, given)
-    x, y = given.P[:, 0], given.P[:, 1]
-    wanted = given.P[:, :2] * (1 - 0.3 / np.sqrt(x * x + y * y))[:, None]
-    assert points.P.dtype == dtype and np.array_equal(points.P[4:, :2], wanted)
+    sizes = np.random.default_rng(5).uniform(0.5, 2.0, (30, 4, 3))
+    given = replace(base(), P=(CORNERS * sizes).astype(dtype))
+    _, points = FootDefects(delta_diag=0.3).points(
+        None, replace(given, **{k: np.ones((30, 4)) for k in PROPERTIES[1:]})
+    )
+    x, y = given.P[..., 0], given.P[..., 1]
+    wanted = given.P[..., :2] * (1 - 0.3 / np.sqrt(x * x + y * y))[..., None]
+    assert points.P.dtype == dtype and np.array_equal(points.P[:, 4:, :2], wanted)
 
 
 def test_an_inner_point_has_its_corners_properties_times_the_ratios():
