@@ -3,8 +3,9 @@
 1. Each hypothesis has a probability: Laplace's evidence at one temperature, times the prior odds of its effects.
 2. An effect too small to matter gives its probability to the hypothesis without it.
 3. If even the best hypothesis leaves innovations above the floor, the runs are not explained: by one run alone, or all.
-   An effect that leaves next to nothing of the misfit is indicated all the same. So it is where one more explains a
-   part of that: an effect that is there explains all that is left, another form of the first does not.
+   An effect that leaves next to nothing of the misfit is indicated all the same, without those beside it that others
+   could replace. So it is where one more explains a part of that: an effect that is there explains all that is left,
+   another form of the first does not.
 4. The verdict is the most probable set where it is certain; else the effects that are certain to be in it, summed over
    all sets; else the smallest class of sets that is certain.
 5. Held-out runs have to show what the fit runs say.
@@ -72,7 +73,7 @@ def by_evidence(evidence: Evidence, c: Calibration) -> Verdict:
         return Verdict("not_trustworthy", (), best.probability, found, "run", run)
     if not is_explained(best.evidence, c):
         if (near := nearly_explaining(evidence, found, c)) is not None:
-            effects = by_weight(evidence, near.effects)
+            effects = by_weight(evidence, irreplaceable(evidence, near, c))
             return Verdict("indicated", effects, near.probability, found, "remnant", fit=near.evidence)
         reason = "sensor" if evidence.sensor_faults else "misfit"
         return Verdict("something_else", (), best.probability, found, reason)
@@ -131,6 +132,19 @@ def nearly_explaining(evidence: Evidence, found: tuple[Alternative, ...], c: Cal
         return None
     near = [a for a in found if a.effects and leaves_little(a.evidence, null, c)]
     return min(near, key=lambda a: (len(a.effects), a.evidence.objective), default=None)
+
+
+def irreplaceable(evidence: Evidence, near: Alternative, c: Calibration) -> tuple[str, ...]:
+    """Return the effects of a set without which every other leaves clearly more of the baseline's misfit; all, where
+    none is.
+
+    Beside an effect of another law, some stand for what that law does differently, one nearly as well as another.
+    """
+    null = evidence.of(evidence.carried)
+    assert null is not None  # as in `nearly_explaining`, which found the set
+    much = near.evidence.loss_above + c.remnant * (null.loss_above - WHITE)
+    replaced = {e for h in evidence.hypotheses if h.loss_above <= much for e in near.effects if e not in h.effects}
+    return tuple(e for e in near.effects if e not in replaced) or near.effects
 
 
 def without_a_form(evidence: Evidence, best: Alternative, c: Calibration) -> HypothesisEvidence | None:

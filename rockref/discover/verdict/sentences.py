@@ -71,9 +71,11 @@ def indication(verdict: Verdict, evidence: Evidence) -> str:
         null = evidence.of(evidence.carried)
         assert null is not None  # what is left is a share of its misfit
         share = (null.loss - verdict.best.loss) / (null.loss - WHITE)
+        others = [e for e in verdict.best.effects if e not in (*verdict.effects, *evidence.carried)]
+        with_others = f", with {joined(others)} beside it, which others could replace," if others else ""
         return (
-            f"{joined(verdict.effects)} explains {100 * share:.0f} % of what the baseline leaves; the rest is "
-            "above the noise: another law of this kind, or something small beside it."
+            f"{joined(verdict.effects)}{with_others} explains {100 * share:.0f} % of what the baseline leaves; the "
+            "rest is above the noise: another law of this kind, or something small beside it."
         )
     said = f"{joined(verdict.effects)} is indicated by the fit runs"
     if verdict.reason == "or_nothing":

@@ -104,6 +104,21 @@ def test_another_law_behind_the_same_name_is_indicated():
     assert decide(evidence(null, hypothesis(("quadratic_drag",), loss=too_much))).word == "something_else"
 
 
+def test_what_others_could_replace_is_not_named_beside_another_law():
+    """Without the first, all is left; without the second, another one does nearly as well."""
+    null = hypothesis(objective=190000.0, loss=11.0, held=11.0)
+    rival = hypothesis(("cable_restraint", "gyro_drift"), 20000.0, loss=2.3)
+    found = evidence(null, hypothesis(("cable_restraint", "plate_tilt"), loss=2.0), rival)
+    v = decide(found)
+    assert (v.word, v.effects, v.reason) == ("indicated", ("cable_restraint",), "remnant")
+    assert "with plate_tilt beside it" in sentence(v, found)
+    # Where each could be replaced, or none, all of them are told.
+    other = hypothesis(("plate_tilt", "gyro_scale"), 20000.0, loss=2.3)
+    for rivals in ((), (rival, other)):
+        v = decide(replace(found, hypotheses=(null, found.hypotheses[1], *rivals)))
+        assert set(v.effects) == {"cable_restraint", "plate_tilt"}
+
+
 def test_an_effect_that_explains_a_part_of_what_another_form_leaves_is_not_named():
     null = hypothesis(objective=60000.0, loss=3.0, held=3.0)
     first = hypothesis(("cable_restraint",), 20000.0, loss=WHITE + 0.1)
