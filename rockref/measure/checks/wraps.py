@@ -24,7 +24,7 @@ def check_wraps(signal: Signal) -> None:
         rows = np.flatnonzero(np.abs(leaps) > LEAP * signal.rate)
         if not len(rows):
             continue
-        span = float(np.median(np.abs(leaps[rows])))
+        span = float(np.median(np.abs(leaps[rows] - _going_on(leaps, rows))))
         alike = np.abs(np.abs(leaps[rows]) / span - 1.0) < ALIKE
         if not alike.all() or not _between_ends(x, rows, span) or not _goes_on(x, rows, leaps, span):
             continue
@@ -32,8 +32,20 @@ def check_wraps(signal: Signal) -> None:
         what = f"leaps from {x[row] / DEGREE:.4g} to {x[row + 1] / DEGREE:.4g} deg/s at {signal.t[row + 1]:.4g} s"
         if len(rows) > 1:
             what += f", and {len(rows)} times in all"
-        cure = f"The numbers wrap around: add {span / DEGREE:.4g} deg/s where they do, or record with a larger range."
+        cure = f"The numbers wrap around: where they do, add the whole range of the sensor, about {span / DEGREE:.4g} deg/s"
+        cure += "; or record with a larger range."
         raise InputError("E-WRAP", signal.column(axis), what, cure)
+
+
+def _going_on(steps: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Return what the motion itself adds to the leaps after `rows`: the mean of the steps beside each that do not leap.
+
+    steps : from each sample to the next (N - 1,)
+    """
+    quiet = np.ones(len(steps) + 2)  # of the steps, and of what is before and behind them
+    quiet[[0, -1]] = quiet[rows + 1] = 0.0
+    beside = np.concatenate(([0.0], steps, [0.0])) * quiet
+    return (beside[rows] + beside[rows + 2]) / np.maximum(quiet[rows] + quiet[rows + 2], 1.0)
 
 
 def _between_ends(x: np.ndarray, rows: np.ndarray, span: float) -> bool:

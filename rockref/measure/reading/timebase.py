@@ -95,7 +95,7 @@ def check_forward(table: Table) -> None:
     t = table.columns["t"]
     back = np.flatnonzero(np.diff(t) <= 0)
     if len(back):
-        raise _backwards(table, int(back[0]), _advice(t, int(back[0])))
+        raise _backwards(table, int(back[0]), _again(table, int(back[0])) or _advice(t, int(back[0])))
 
 
 def check_order(table: Table, rate: float) -> None:
@@ -106,7 +106,7 @@ def check_order(table: Table, rate: float) -> None:
     t = table.columns["t"]
     back = np.flatnonzero(np.diff(t) < 0)
     if len(back) and (_set_back(t, back, rate) or not _overtake(t, rate)):
-        raise _backwards(table, int(back[0]), _advice(t, int(back[0])))
+        raise _backwards(table, int(back[0]), _again(table, int(back[0])) or _advice(t, int(back[0])))
     equal = np.flatnonzero(np.diff(t) == 0)
     _check_equal(table, equal, rate)
 
@@ -152,6 +152,17 @@ def _backwards(table: Table, row: int, cure: str) -> InputError:
     t, name = table.columns["t"], table.names["t"]
     what = f"time goes from {t[row]:g} to {t[row + 1]:g} s"
     return InputError("E-TIME", f"{table.path}, line {row + 1 + table.first_line}, column {name}", what, cure)
+
+
+def _again(table: Table, row: int) -> str:
+    """Say which lines to remove where the rows after `row` are those before it once more; nothing where they are not."""
+    t, first = table.columns["t"], row + 1
+    count = int(np.argmax(t[row::-1] == t[first])) + 1
+    columns = table.columns.values()
+    if first + count > len(t) or any((x[first - count : first] != x[first : first + count]).any() for x in columns):
+        return ""
+    begin = first + table.first_line
+    return f"Lines {begin} to {begin + count - 1} are the {count} before them again: remove them."
 
 
 def _advice(t: np.ndarray, row: int) -> str:

@@ -128,8 +128,16 @@ def test_numbers_that_wrap_are_refused(tmp_path, motions, seed, wrap, share):
     """With a sign, and without."""
     made, _ = good(motions, seed)
     spoiled = made.degrees.copy()
-    spoiled[:, 0] = wrap(spoiled[:, 0], share * np.abs(spoiled[:, 0]).max())
-    assert codes_of(written(tmp_path, made, degrees=spoiled)) == {"E-WRAP"}
+    limit = share * np.abs(spoiled[:, 0]).max()
+    spoiled[:, 0] = wrap(spoiled[:, 0], limit)
+    folder = written(tmp_path, made, degrees=spoiled)
+    assert codes_of(folder) == {"E-WRAP"}
+    with pytest.raises(InputError) as refused:
+        load_experiment(folder)
+    told = float(refused.value.cure.split("about ")[1].split(" deg/s")[0])
+    # Near its cusp the rate of the smallest block changes by as much from one sample to the next.
+    span = limit if wrap is np.mod else 2.0 * limit
+    assert told == pytest.approx(span, rel=0.04)
 
 
 @pytest.mark.parametrize("resolution", [0.25, 0.5, 1.0, 2.0])

@@ -160,6 +160,23 @@ def test_times_without_a_stated_rate_only_have_to_run_forward(case):
     assert check_forward(recorded(stamps[: row + 1], stamps[: row + 1])) is None
 
 
+@pytest.mark.parametrize("count", [2, 24])
+def test_a_block_of_rows_that_was_written_twice_is_told_by_its_lines(count):
+    """Whether a rate is stated or not; rows of the same times with other values are no copy."""
+    rows = np.r_[0:700, 700 - count : 3000]
+    table = recorded(TRUE[rows], TRUE[rows], noise=0.0)
+    for check in (check_forward, lambda table: regular_samples(table, 1000)):
+        error = refused(check, table)
+        assert error.code == "E-TIME" and f"are the {count} before them again" in error.cure
+        begin, end = int(error.cure.split()[1]), int(error.cure.split()[3])
+        assert (begin, end) == (700 + table.first_line, 700 + count - 1 + table.first_line)
+    other = refused(check_forward, recorded(TRUE[rows], np.arange(len(rows))))
+    assert "again" not in other.cure
+    part = TRUE[rows[: 700 + count - 1]]
+    cut = refused(check_forward, recorded(part, part, noise=0.0))
+    assert "again" not in cut.cure
+
+
 @pytest.mark.parametrize("case", BACK)
 def test_each_way_back_has_its_own_advice(case):
     stamps, advice = BACK[case]
