@@ -86,12 +86,13 @@ def new(
     """
     from rockref.commands._results import in_json, say_remarks, say_written
     from rockref.commands._terminal import console
-    from rockref.measure.importing import write_campaign
+    from rockref.measure.importing import check_vacant, write_campaign
     from rockref.model.storage import write_bytes
     from rockref.report.charts.first_swing import first_swing_png
     from rockref.report.terminal.next_command import after_import
     from rockref.report.terminal.text import say_command
 
+    check_vacant(folder)
     asking = not yes and not as_json and sys.stdin.isatty()
     paths = _files(logs)
     sides = _sides(mass, width, height, asking)

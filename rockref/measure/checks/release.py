@@ -10,7 +10,7 @@ from rockref.measure.reading.columns import DEGREE
 from rockref.measure.records.notice import Notice
 from rockref.measure.signals.noise import LEAST_WINDOWS, window_samples
 from rockref.measure.signals.running import half_width, running_mean
-from rockref.measure.signals.signal import Signal
+from rockref.measure.signals.signal import Signal, rocking_rate
 from rockref.model.errors import InputError
 
 # decided: a gyroscope that saturates early shows a tenth of the rate, nothing thrice of it; a unit is off by 57.
@@ -144,7 +144,7 @@ def check_first_swing(signal: Signal) -> list[Notice]:
     turned = crv[before].sum(axis=0) * signal.step
     main = int(np.argmax(np.abs(turned)))
     column = signal.column(main)
-    _check_unit(float(peaks[main]), signal.rate, column, signal.names[main])
+    _check_unit(signal, float(peaks[main]), column, signal.names[main])
     if main != 0:
         cure = f"Name that column {signal.names[0]}: X is the rocking axis, Y the other horizontal one, Z the long one."
         what = f"the block rocks about this axis (it turns by {turned[main]:.3g} rad), not about X"
@@ -156,12 +156,16 @@ def check_first_swing(signal: Signal) -> list[Notice]:
     return []
 
 
-def _check_unit(peak: float, expected: float, where: str, name: str) -> None:
-    ratio = peak / expected
+def _check_unit(signal: Signal, peak: float, where: str, name: str) -> None:
+    ratio = peak / signal.rate
     low, high = RATE_MARGIN
     if low < ratio < high:
         return
-    what = f"the first swing reaches {peak / DEGREE:.3g} deg/s, where {expected / DEGREE:.3g} deg/s are expected"
+    what = f"the first swing reaches {peak / DEGREE:.3g} deg/s, where {signal.rate / DEGREE:.3g} deg/s are expected"
+    if signal.width > signal.height and signal.tilt < math.atan2(signal.height, signal.width):
+        if low < peak / rocking_rate(signal.tilt, signal.height, signal.width) < high:
+            cure = "A block that is as high as this one is wide reaches that: exchange width_m and height_m."
+            raise InputError("E-RATE-SIZE", where, what, cure)
     # A name that says deg_s over values in rad/s makes the rates 57 times too small, and the other way round.
     other = "If not, check release tilt, width and height."
     if low < ratio / DEGREE < high and name.endswith("_deg_s"):

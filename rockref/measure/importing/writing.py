@@ -31,8 +31,7 @@ def write_campaign(
     A run that the reader refuses is left out, with a remark that says why. `more` may write files beside. Raises
     InputError: E-FOLDER where the folder holds files; the refusal itself, where no run is left.
     """
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise InputError("E-FOLDER", str(folder), "is there and not empty", "Name a new folder.")
+    check_vacant(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)
     place = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
     try:
@@ -47,6 +46,12 @@ def write_campaign(
         shutil.rmtree(place, ignore_errors=True)
         raise
     return load_experiment(folder), campaign, left_out
+
+
+def check_vacant(folder: Path) -> None:
+    """Refuse a folder that holds files (E-FOLDER)."""
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise InputError("E-FOLDER", str(folder), "is there and not empty", "Name a new folder.")
 
 
 def _umask() -> int:

@@ -133,8 +133,11 @@ def test_a_rate_of_another_size_need_not_be_its_unit(folder):
     assert sizes in path.read_text()
     path.write_text(path.read_text().replace(sizes, "width_m = 0.688\nheight_m = 0.100"))
     error = refused(load_experiment, folder)
-    assert error.code == "E-RADIANS"
-    assert error.cure.startswith("If the values are in rad/s") and "check release tilt, width" in error.cure
+    assert error.code == "E-RATE-SIZE" and "exchange width_m and height_m" in error.cure
+    # Sides that would not do exchanged, either.
+    path.write_text(path.read_text().replace("width_m = 0.688\nheight_m = 0.100", "width_m = 0.2\nheight_m = 0.100"))
+    error = refused(load_experiment, folder)
+    assert "exchange" not in error.cure and "check" in error.cure.lower()
 
 
 @pytest.mark.parametrize("case", BAD)
