@@ -211,15 +211,19 @@ def _envelope_words(width: float, period: float | None) -> str:
     wrong = abs(width - 1.0) > LEAST_ENVELOPE
     if width < MISSING:
         return "is missing"
-    words = "agrees in width"
-    if not 1.0 / MANY_TIMES <= width <= MANY_TIMES:
-        words = f"is {width:.2g} times as wide as measured"
-    elif wrong:
-        words = f"is {100 * abs(width - 1.0):.0f} % too {'wide' if width > 1.0 else 'narrow'}"
+    words = f"is {_off(width, 'wide', 'too wide', 'too narrow')}" if wrong else "agrees in width"
     if period is not None and abs(period - 1.0) > LEAST_ENVELOPE:
-        pace = f"its teeth come {100 * abs(period - 1.0):.0f} % too {'slowly' if period > 1.0 else 'fast'}"
-        words += f"{' and' if wrong else ', but'} {pace}"
+        words += (
+            f"{' and' if wrong else ', but'} its teeth are {_off(period, 'far apart', 'too far apart', 'too close')}"
+        )
     return words
+
+
+def _off(ratio: float, size: str, more: str, less: str) -> str:
+    """Return how far a ratio is from one, in words: "12 % too wide", "4 times as wide as measured"."""
+    if not 1.0 / MANY_TIMES <= ratio <= MANY_TIMES:
+        return f"{ratio:.2g} times as {size} as measured"
+    return f"{100 * abs(ratio - 1.0):.0f} % {more if ratio > 1.0 else less}"
 
 
 def error_size(c: Comparison, model: int) -> list[Finding]:

@@ -32,8 +32,8 @@ def check_wraps(signal: Signal) -> None:
         what = f"leaps from {x[row] / DEGREE:.4g} to {x[row + 1] / DEGREE:.4g} deg/s at {signal.t[row + 1]:.4g} s"
         if len(rows) > 1:
             what += f", and {len(rows)} times in all"
-        cure = f"The numbers wrap around: where they do, add the whole range of the sensor, about {span / DEGREE:.4g} deg/s"
-        cure += "; or record with a larger range."
+        size = f"about {span / DEGREE:.4g} deg/s"
+        cure = f"The numbers wrap around: where they do, add the whole range of the sensor, {size}."
         raise InputError("E-WRAP", signal.column(axis), what, cure)
 
 

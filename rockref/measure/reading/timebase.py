@@ -155,7 +155,7 @@ def _backwards(table: Table, row: int, cure: str) -> InputError:
 
 
 def _again(table: Table, row: int) -> str:
-    """Say which lines to remove where the rows after `row` are those before it once more; nothing where they are not."""
+    """Say which lines to remove where the rows after `row` are those before it again; nothing where they are not."""
     t, first = table.columns["t"], row + 1
     count = int(np.argmax(t[row::-1] == t[first])) + 1
     columns = table.columns.values()

@@ -52,9 +52,10 @@ def test_amounts_in_words(model, measured, words):
     [
         (1.0, 1.0, "agrees in width"),
         (1.12, None, "is 12 % too wide"),
-        (0.9, 0.9, "is 10 % too narrow and its teeth come 10 % too fast"),
-        (1.01, 1.13, "agrees in width, but its teeth come 13 % too slowly"),
+        (0.9, 0.9, "is 10 % too narrow and its teeth are 10 % too close"),
+        (1.01, 1.13, "agrees in width, but its teeth are 13 % too far apart"),
         (4.0, None, "is 4 times as wide as measured"),
+        (1.01, 5.3, "agrees in width, but its teeth are 5.3 times as far apart as measured"),
         (0.001, None, "is missing"),
     ],
 )
