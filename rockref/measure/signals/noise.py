@@ -17,6 +17,9 @@ _DEGREE_OF_FIT = 3
 LEAST_WINDOWS = 4
 # decided: the calmest tenth is free of impacts in every run seen; windows up to half as strong again differ by chance.
 CALM_SHARE, CALM_MARGIN = 10.0, 1.5
+# decided: so many equal samples at an end of what a channel shows, of a fifth of its largest number at least, are a top
+# that was cut, which holds no noise.
+LEAST_FLAT, LARGE = 5, 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,8 +40,8 @@ class NoiseFloor:
 def noise_floor(t: np.ndarray, crv: np.ndarray, *, window: float = WINDOW) -> NoiseFloor:
     """Return the noise floor of a run with times t (N,) s and body rates crv (N, 3) rad/s.
 
-    Half-overlapping windows of `window` s are fitted with a cubic; the residuals of the calm ones are the noise. A
-    block that is smaller than that of Table 3.1 needs shorter windows.
+    Half-overlapping windows of `window` s are fitted with a cubic; the residuals of the calm ones are the noise, but of
+    those that reach into a top that was cut. A block that is smaller than that of Table 3.1 needs shorter windows.
     Raises InputError E-SIGNAL if the run is shorter than four windows or the shapes are wrong.
     """
     t, crv = checked_signal(t, crv)
@@ -48,7 +51,8 @@ def noise_floor(t: np.ndarray, crv: np.ndarray, *, window: float = WINDOW) -> No
         raise InputError("E-SIGNAL", "arguments t, crv", what, "Give a longer run.")
     residuals = _window_residuals(crv, size)
     rms = np.sqrt((residuals**2).sum(axis=1) / (size - _DEGREE_OF_FIT - 1))
-    calm = rms <= CALM_MARGIN * np.percentile(rms, CALM_SHARE, axis=0)
+    told = _told(crv, size)
+    calm = np.stack([_calm(rms[:, axis], told[:, axis]) for axis in range(3)], axis=1)
     sigma = np.array([np.median(rms[calm[:, axis], axis]) for axis in range(3)])
     whiteness = np.array([_neighbours(residuals[calm[:, axis], :, axis]) for axis in range(3)])
     length = calm.sum(axis=0) * (size // 2) * sample_step(t)
@@ -66,6 +70,34 @@ def _window_residuals(crv: np.ndarray, size: int) -> np.ndarray:
     windows = crv[starts[:, np.newaxis] + np.arange(size)]
     basis, _ = np.linalg.qr(np.vander(np.linspace(-1.0, 1.0, size), _DEGREE_OF_FIT + 1))
     return windows - np.einsum("sk,uk,wua->wsa", basis, basis, windows, optimize=True)
+
+
+def _told(crv: np.ndarray, size: int) -> np.ndarray:
+    """Return (windows, 3): which windows hold no top that was cut; all of an axis where too few would be left."""
+    cut = np.zeros(crv.shape, bool)
+    for axis in range(3):
+        x = crv[:, axis]
+        large = LARGE * np.abs(x).max()
+        for end in (x.max(), x.min()):
+            if abs(end) > large:
+                cut[:, axis] |= _stretches(x == end, LEAST_FLAT)
+    told = ~cut[np.arange(0, len(crv) - size + 1, size // 2)[:, np.newaxis] + np.arange(size)].any(axis=1)
+    return told | (told.sum(axis=0) < LEAST_WINDOWS)
+
+
+def _stretches(marked: np.ndarray, least: int) -> np.ndarray:
+    """Return (N,) which of the marked samples stand in stretches of `least` of them at least."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], marked, [False])).astype(np.int8)))
+    kept = np.zeros(len(marked), bool)
+    for first, last in zip(edges[::2], edges[1::2], strict=True):
+        kept[first:last] = last - first >= least
+    return kept
+
+
+def _calm(rms: np.ndarray, told: np.ndarray) -> np.ndarray:
+    """Return (windows,) which of those that tell are calm, by what a cubic leaves in each (windows,) rad/s."""
+    calm: np.ndarray = told & (rms <= CALM_MARGIN * np.percentile(rms[told], CALM_SHARE))
+    return calm
 
 
 def _neighbours(residuals: np.ndarray) -> float:

@@ -23,6 +23,22 @@ def test_known_noise_is_found_again(rocking, sensed, noise):
     assert np.abs(found.whiteness).max() < 0.2
 
 
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.9])
+@pytest.mark.parametrize("side", [-1, 1, 0])
+def test_tops_that_were_cut_hold_no_noise(rocking, sensed, share, side):
+    """On both sides, or on one; the other axes are what they were, and where all is flat, nothing is calm but that."""
+    t, crv = sensed(rocking(), noise=8.7e-4)
+    limit = share * np.abs(crv[:, 0]).max()
+    low, high = (-np.inf if side > 0 else -limit), (np.inf if side < 0 else limit)
+    cut = np.column_stack([np.clip(crv[:, 0], low, high), crv[:, 1:]])
+    found, whole = noise_floor(t, cut), noise_floor(t, crv)
+    assert np.array_equal(found.sigma[1:], whole.sigma[1:])
+    # Fewer windows are left: a quarter of thirty gives 6 %.
+    assert found.sigma[0] == pytest.approx(whole.sigma[0], rel=0.15)
+    held = np.column_stack([np.full(len(t), limit), crv[:, 1:]])
+    assert noise_floor(t, held).sigma[0] < 1e-12
+
+
 def test_slow_disturbance_is_told_from_white_noise(rocking, sensed):
     t, crv = sensed(rocking(), noise=2e-4)
     hum = 2e-3 * np.sin(2.0 * np.pi * 100.0 * t)
