@@ -15,9 +15,9 @@ import numpy as np
 from golden.generator.bounds.bars import Case
 from golden.generator.questions.drawing import Draw, diagonal, rotation, table_3_1
 from golden.generator.questions.scenes import EVEN, PER_POINT
-from golden.generator.short_runs.alone import DRIFT, TIP, UNLOADED, fly
+from golden.generator.short_runs.alone import DRIFT, SHARES, TIP, UNLOADED, fly
 from golden.generator.short_runs.askew import C_T
-from golden.generator.short_runs.basic import GLUE, ICE, IN, UP, WEIGHTLESS, Z, ask, held, placed, standing
+from golden.generator.short_runs.basic import ASIDE, GLUE, ICE, IN, UP, WEIGHTLESS, Z, ask, held, placed, standing
 
 #: So slow that engines take a body for one at rest [m/s, rad/s]; the way of a step still has all its digits.
 SLOW = 2.0**-22
@@ -188,9 +188,48 @@ def at_once() -> Iterator[tuple[float, Case]]:
         yield place, ask({"F_T@0": "T6"}, flag, 1, standing(), made={"mu": 0.25, "mu_0": 0.5}, **some)
 
 
+def pushed_for_long() -> Iterator[tuple[float, Case]]:
+    """Yield N1 of numbers that have all their bits, for who shows no forces: a long step shows more digits of them."""
+    d = Draw(89, 53)
+    # No two feet are alike: they turn the block, too.
+    made = ICE | {"K_N": d.between(5e7, 6e7) * SHARES, "C_N": d.between(1e4, 2e4) * SHARES}
+    long: Any = {"made": made, "step": 2.0**-14}
+    for place, flag, v in ((22.71, "standing", 0.0), (22.72, "compressing", d.between(0.1, 0.2))):
+        deep = standing(d.between(1e-3, 2e-3))
+        yield place, ask({"F_N@0": "N1"}, f"{flag}, all bits, a long step", 1, deep, v=-v * Z, **long)
+
+
+def eight_feet() -> Iterator[tuple[float, Case]]:
+    """Yield N1, T1, T6, T3 of all eight feet, no two alike: the outer ones have constants of their own, too."""
+    made = ICE | {"K_N": 6e7 * SHARES, "C_N": 16384.0 * SHARES}
+    yield 22.61, ask({"F_N@0": "N1"}, "eight feet, each of its own make", 1, DEEP, made=made, v=-0.125 * Z)
+    made = GLUE | {"K_T": 5e7 * SHARES, "C_T": 16384.0 * SHARES}
+    way = np.array([2.0**-18, -(2.0**-17)]) * np.ones((8, 1))
+    pulled: Any = {"v": [0.0625, -0.03125, 0.0], **held(way), "anchored": ALL}
+    yield 49.51, ask({"F_T@0": "T1"}, "eight feet, each of its own make", 1, DEEP, made=made, **pulled)
+    each = {"mu": SHARES, "mu_0": SHARES}
+    # A long step for those that slide: after sixteen steps they show more than their sliding forces.
+    for place, rule, share, flag, h in (
+        (62.21, "T6", 1.2, "", 2.0**-17),
+        (62.41, "T3", 16.0, ", far outside", 2.0**-14),
+    ):
+        some, says = held(TIP * 32 * share) | {"anchored": ALL}, f"eight feet, each with its own coefficient{flag}"
+        yield place, ask({"F_T@0": rule}, says, 1, DEEP, made=each, step=h, **some)
+
+
+def in_later_rows() -> Iterator[tuple[float, Case]]:
+    """Yield S1 of a third evaluation: its velocities are not those of the second; T5 of feet that touched anew: they
+    are tied to where they did, and not to an anchor of before."""
+    yield 33.1, ask({"F_N@2": "S1"}, "the third evaluation", 3, standing(), made=ICE, v=-0.125 * Z)
+    anew: Any = {"s": ASIDE + np.full((8, 2), 2.0**-10), "v": [0.0625, -0.03125, 0.0], "made": GLUE}
+    flag = "touch-down far from the old anchor, a step later"
+    yield 64.405, ask({"F_T@1": "T5"}, flag, 2, standing(), **anew)
+
+
 def habits() -> Iterator[Case]:
     """Yield all of them."""
     return placed(
         slowly, small_turns, other_numbers, flags, tied, one_after_another, turned_and_tied, let_go, turned_twice,
-        rising, pulled_back, loads, thrown_up, in_flight, sliding_on, at_once,
+        rising, pulled_back, loads, thrown_up, in_flight, sliding_on, at_once, pushed_for_long,
+        eight_feet, in_later_rows,
     )  # fmt: skip

@@ -1,5 +1,5 @@
-"""Whether runs that show no forces are those of the law with other inputs: feet that never slide, or whose anchors
-are kept.
+"""Whether runs are those of the law with other inputs: feet that never slide, whose anchors are kept, or that nobody
+has tied.
 
 Such an input stands for a decision of the law. A run that is wrong, and equals what the law makes of another
 input, tells that decision, whichever rule the run is to show.
@@ -28,6 +28,13 @@ INPUTS: tuple[tuple[str, str, dict[str, float | bool]], ...] = (
     ("T2", "feet never slide", HELD),
     ("T5", "feet that touch anew keep an old anchor", {"anchored": True}),
 )
+#: No foot is tied at the start, and feet are tied where they touch from there on; no spring of friction, of which the
+#: first step is the same.
+UNTIED: tuple[str, dict[str, float | bool]] = ("no foot was tied before the start", {"anchored": False})
+NO_SPRING = {"K_T": 2.0**-60}
+#: Feet that push by nothing, wherever they are.
+NO_PUSH = {"K_N": 2.0**-60, "C_N": 2.0**-60}
+NOWHERE = "No foot pushes in any run: they are not where they should be."
 #: A run is explained where this share at most is left of what it is off by. Decided: integrators lose a hundred
 #: thousandth of what sixteen steps show.
 LEFT = 1e-2
@@ -50,6 +57,32 @@ def rule_as_if(answers: Answers, checks: Sequence[Check], check: Check) -> tuple
         if count >= SOME and count >= MOST * len(wrong):
             return rule, SAYS.format(words)
     return check.rule, ""
+
+
+def rule_of_untied_feet(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
+    """Return T5, and a sentence, where the runs that are wrong are those of the law whose feet are not tied at the
+    start, and some of them not those without springs of friction; its own rule and "" elsewhere."""
+    words, inputs = UNTIED
+    failed = {c.vector for c in checks if c.failed and c.weighed and not c.follows and c.layer == check.layer}
+    wrong = [(v, out) for v, out in answers if v.id in failed]
+    told = [(v, out) for v, out in wrong if v.id == check.vector]
+    if check.rule not in ("T1", "T5") or not all(is_explained(v, out, inputs) for v, out in told):
+        return check.rule, ""
+    untied = [(v, out) for v, out in wrong if is_explained(v, out, inputs)]
+    sprung = sum(not is_explained(v, out, NO_SPRING) for v, out in untied)
+    sure = sprung >= SOME and len(untied) >= MOST * len(wrong)
+    return ("T5", SAYS.format(words)) if sure else (check.rule, "")
+
+
+def rule_of_feet_that_never_push(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
+    """Return K1, and a sentence, where every run whose normal forces are asked is that of a block on which no foot
+    pushes; its own rule and "" elsewhere. A wrong force law leaves some force."""
+    asked = [(v, out) for v, out in answers if v.layer == check.layer and v.rule == "N1" and "x@1" in v.expect]
+    if check.rule != "N1" or not all(is_explained(v, out, NO_PUSH) for v, out in asked if v.id == check.vector):
+        return check.rule, ""
+    pushed = [(v, out) for v, out in asked if np.max(np.abs(law(v)["x"] - law(v, NO_PUSH)["x"])) > SAME]
+    sure = len(pushed) >= SOME and all(is_explained(v, out, NO_PUSH) for v, out in pushed)
+    return ("K1", NOWHERE) if sure else (check.rule, "")
 
 
 def is_explained(vector: Vector, out: dict[str, Any], inputs: dict[str, Any]) -> bool:

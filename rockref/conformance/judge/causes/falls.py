@@ -29,6 +29,9 @@ FAR = 4.0
 TOO_FAR = "Falls from rest are right, others off by more in a step than a weight makes: it is the velocity."
 A_STEP_LATE = "The first step of every fall is right, and the second of some is not: the velocity is wrong."
 ADD_UP = "Falls gain more in each step, by the same whatever their velocity: loads add up from step to step."
+WHOLE_STEP = (
+    "Blocks drift by another step than that by which their velocity changes: it is the place, and not the clock."
+)
 ON_TIME = "Turns are right at the same instants: the place is wrong, and not the clock."
 
 Answers = Sequence[tuple[Vector, dict[str, Any]]]
@@ -40,7 +43,9 @@ def rule_of_a_fall(answers: Answers, rule: str) -> tuple[str, str]:
     I1 or S2 where they lose the same way in every step; I4 where nothing is lost in the first one.
     """
     if rule == "S2":
-        return ("I1", ON_TIME) if on_time(answers) else (rule, "")
+        if on_time(answers):
+            return "I1", ON_TIME
+        return ("I1", WHOLE_STEP) if velocity_is_on_time(answers) else (rule, "")
     if rule == "I4" and loads_add_up(answers):
         return "A1", ADD_UP
     if rule != "A1":
@@ -95,6 +100,30 @@ def on_time(answers: Answers) -> bool:
     turned = [same(out, "Lambda", 1, row.Lambda) for v, out, row in runs if np.any(v.inputs["W"])]
     moved = [same(out, "x", 1, row.x) for v, out, row in runs if np.any(v.inputs["v"]) and not np.any(v.inputs["W"])]
     return len(turned) >= SOME and all(turned) and len(moved) >= SOME and not all(moved)
+
+
+def velocity_is_on_time(answers: Answers) -> bool:
+    """Return whether blocks drift by another share of the step than one, and falling ones gain the velocity of a whole
+    step in a step: a wrong clock loses the same share of both."""
+    shares, gains = [], []
+    for vector, out in answers:
+        q = vector.inputs
+        drifts = is_clear(vector) and q.get("a") is None and bool(np.any(q["v"][:2]))
+        if vector.layer != "L5s" or not free(vector) or not drifts:
+            continue
+        rows = rows_of_the_law(vector.id)
+        try:
+            x = np.asarray(out["x"], float)[: len(rows)]
+            way, right = x[1] - x[0], rows[1].x - rows[0].x
+        except (KeyError, TypeError, ValueError, IndexError):
+            return False
+        shares.append(float(way[:2] @ right[:2] / (right[:2] @ right[:2])))
+        if len(rows) > 2 and way_of_the_weight(q) > SAME / NEAR:
+            gains.append(float(np.diff(x, 2, axis=0)[0, 2] / np.diff([row.x[2] for row in rows], 2)[0]))
+    drift = shares[0] if shares else 1.0
+    alike = len(shares) >= SOME and max(abs(s - drift) for s in shares) <= NEAR * abs(drift)
+    off = abs(drift - 1) > NEAR
+    return alike and off and len(gains) > 1 and all(abs(g - drift) <= NEAR * abs(drift) for g in gains)
 
 
 def loads_add_up(answers: Answers) -> bool:

@@ -30,11 +30,18 @@ def without_late_flags(checks: list[Check]) -> list[Check]:
 
 
 def without_lost_numbers(checks: list[Check]) -> list[Check]:
-    """Return the checks without those of sixteen steps (LS) that are no numbers, where others are wrong numbers: a
-    division by zero on the way may be of any rule, and a wrong number tells more."""
-    lost = [c.failed and c.layer == "LS" and c.weighed and c.got is not None and not np.isfinite(c.got) for c in checks]
-    wrong = any(c.failed and c.layer == "LS" and not is_lost for c, is_lost in zip(checks, lost, strict=True))
-    return [c for c, is_lost in zip(checks, lost, strict=True) if not is_lost] if wrong else checks
+    """Return the checks without those of places, attitudes and rates that are no numbers, where others are wrong
+    numbers: a division by zero on the way may be of any rule, and a wrong number tells more."""
+    lost = [is_lost(c) for c in checks]
+    kept = [c for c, gone in zip(checks, lost, strict=True) if not gone]
+    short = {c.layer for c, gone in zip(checks, lost, strict=True) if gone}
+    return kept if any(c.failed and c.weighed and not c.follows and c.layer in short for c in kept) else checks
+
+
+def is_lost(check: Check) -> bool:
+    """Return whether what a short run was moved to is no number."""
+    moved = check.layer == "LS" or (check.layer == "L5s" and not check.name.startswith(FORCES))
+    return moved and check.failed and check.weighed and check.got is not None and not np.isfinite(check.got)
 
 
 def later(check: Check) -> bool:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.judge.causes.as_if import rule_as_if
+from rockref.conformance.judge.causes.as_if import rule_as_if, rule_of_feet_that_never_push, rule_of_untied_feet
 from rockref.conformance.judge.causes.circumstances import rule_in_common, rule_of_normal_forces
 from rockref.conformance.judge.causes.constants import rule_of_a_constant
 from rockref.conformance.judge.causes.data_flow import is_clear
@@ -39,9 +39,10 @@ def cause_of(
     wrong, then how a fall or a turn goes on.
     """
     if profile != "float32" and check.weighed and check.layer in ("L5s", "LS"):
-        other, says = rule_of_a_constant(answers, checks, check)
-        if says:
-            return other, says
+        for told in (rule_of_a_constant, rule_of_untied_feet):
+            other, says = told(answers, checks, check)
+            if says:
+                return other, says
     hidden = profile != "float32" and check.weighed and stands_for_forces(answers, check)
     of_moments = profile != "float32" and check.rule in ("A2", "A3")
     if (of_moments or (hidden and check.rule in PUSHES)) and pushed_sideways(answers, check.layer):
@@ -49,7 +50,7 @@ def cause_of(
     if of_moments:
         return rule_of_a_moment(answers, checks, check)
     if hidden:
-        for told in (rule_of_a_turn_alone, rule_as_if):
+        for told in (rule_of_feet_that_never_push, rule_of_a_turn_alone, rule_as_if):
             other, says = told(answers, checks, check)
             if says:
                 return other, says
@@ -79,11 +80,13 @@ def cause_of(
 
 
 def pushed_sideways(answers: Sequence[tuple[Vector, dict[str, Any]]], layer: str) -> bool:
-    """Return whether a block that stands still on ice goes sideways, of which no normal force and no turn is the
-    cause."""
+    """Return whether a block that stands still on ice, on feet that nothing stretches, goes sideways: no normal force,
+    no turn and no friction is the cause."""
     for vector, out in answers:
         q = vector.inputs
         if vector.layer != layer or "x@1" not in vector.expect or any(np.any(q[k]) for k in ("mu", "mu_0", "v", "W")):
+            continue
+        if np.any(stretched(q)):
             continue
         try:
             off = np.asarray(out["x"], float)[1] - q["x"]
@@ -93,6 +96,12 @@ def pushed_sideways(answers: Sequence[tuple[Vector, dict[str, Any]]], layer: str
         if q.get("a") is None and not is_clear(vector) and np.max(np.abs(off[:2])) > SHARE * way + SAME:
             return True
     return False
+
+
+def stretched(q: dict[str, Any]) -> np.ndarray:
+    """Return which feet (n,) of a start are tied to another place than theirs: on ice they pull where they are held."""
+    places = q["x"] + q["P"] @ q["Lambda"].T
+    return q["anchored"] & np.any(np.abs(places[:, :2] - q["s"]) > SAME, axis=-1)
 
 
 def stands_for_forces(answers: Sequence[tuple[Vector, dict[str, Any]]], check: Check) -> bool:

@@ -18,9 +18,21 @@ def never_slides_slowly(size, threshold):
     return law().sticks(size, 10 * threshold)
 
 
+def upside_down(x, Lambda, v, W, P):
+    """Feet where the top of the block is."""
+    return law().kinematics(x, Lambda, v, W, P * [1.0, 1.0, -1.0])
+
+
+def never_deep(xi, F_N):
+    """Feet deeper than 30 micrometres push by nothing."""
+    return law().gap(xi, F_N) * (xi < 3e-5)
+
+
 @pytest.mark.parametrize(
     ("planted", "rule", "words"),
     [
+        ({"kinematics": upside_down}, "K1", "No foot pushes"),
+        ({"gap": never_deep}, "N1", ""),
         ({"touch": kept_nearby}, "T5", "keep an old anchor"),
         ({"sticks": never_slides_slowly}, "T2", "never slide"),
         ({"threshold": lambda F_N, slid, mu_0, mu: law().threshold(F_N, slid & False, mu_0, mu)}, "T6", "no foot slid"),

@@ -7,7 +7,12 @@ import numpy as np
 from rockref.conformance import vectors
 from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine
-from rockref.conformance.judge.causes.flags import one_foot, without_flags_in_company, without_late_flags
+from rockref.conformance.judge.causes.flags import (
+    one_foot,
+    without_flags_in_company,
+    without_late_flags,
+    without_lost_numbers,
+)
 from rockref.conformance.judge.compare_answer import Check, compare
 
 
@@ -17,6 +22,17 @@ def test_flags_that_follow_from_wrong_forces_name_no_rule():
     force = Check("L5s-S1-0031", "L5s", "S1", "F_N@1", "outside")
     assert without_late_flags([flag]) == [flag] and without_late_flags([flag, force]) == [force]
     assert without_late_flags([flag, replace(force, name="F_N@0")])[0] == flag
+
+
+def test_places_that_are_no_numbers_leave_the_word_to_wrong_numbers():
+    """A division by zero may be of any rule; what is no number by itself, or is a force, keeps its word."""
+    lost = Check("L5s-N1-0019", "L5s", "N1", "x@1", "outside", got=np.nan)
+    wrong = Check("L5s-T1-0046", "L5s", "T1", "x@1", "outside", got=0.5)
+    assert without_lost_numbers([lost]) == [lost]
+    assert without_lost_numbers([lost, wrong]) == [wrong]
+    assert without_lost_numbers([lost, replace(wrong, follows=True)])[0] == lost
+    assert without_lost_numbers([replace(lost, name="F_N@0"), wrong])[1] == wrong
+    assert len(without_lost_numbers([replace(lost, name="F_N@0"), wrong])) == 2
 
 
 def failed_with(change):

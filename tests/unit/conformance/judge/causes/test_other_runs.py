@@ -8,7 +8,7 @@ from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine, RulesBackend
 from rockref.conformance.backends.rule_set import law
 from rockref.conformance.faults.run import BlackBox
-from rockref.conformance.judge.causes.other_runs import cause_of
+from rockref.conformance.judge.causes.other_runs import cause_of, pushed_sideways
 from rockref.conformance.judge.compare_answer import compare
 from rockref.conformance.judge.findings import judge
 from rockref.conformance.judge.verdict import verdict
@@ -68,3 +68,13 @@ class Limited(Hidden):
 def test_where_falls_are_right_what_pushes_after_a_step_is_no_velocity():
     found = verdict(judge(Limited(), ["L5s"]))
     assert found.rule == "S1" and "Falls of two steps" in found.says, (found.rule, found.says, found.check)
+
+
+@pytest.mark.parametrize(("id_", "is_told"), [("L5s-N1-0019", True), ("L5s-T2-0129", False)])
+def test_stretched_feet_that_go_sideways_on_ice_may_be_held(id_, is_told):
+    """Friction that ice should not have is no wrong sum."""
+    vector = next(v for v in vectors.layer("L5s") if v.id == id_)
+    out = {"x": np.array(ask(NumpyEngine(), vector)["x"])}
+    assert not pushed_sideways([(vector, out)], "L5s")
+    out["x"][1, 0] += 1e-7
+    assert pushed_sideways([(vector, out)], "L5s") is is_told
