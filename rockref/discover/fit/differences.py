@@ -67,13 +67,16 @@ def jacobian(
 ) -> np.ndarray:
     """Return d r / d z, (G, R, n, 3), at z (G,), where the innovations are r (R, n, 3).
 
-    The last `absent` numbers are those of effects that the model does not have; such as only shape one have no row.
+    The last `absent` numbers are those of effects that the model does not have. Such as only shape one have no row, nor
+    have the forms of laws at a stage that holds them.
 
     Numbers of one kind that belong to one run each are moved at once: each moves its own run alone. One-sided numbers
     at the value at which they are absent are moved to their own side.
     """
     kinds: dict[str, list[int]] = {}
     for k, p in enumerate(parameters):
+        if p.form and residuals.stage.holds_forms:
+            continue
         if k < len(parameters) - absent or p.typical > 0 or p.run is not None:
             kinds.setdefault(p.kind if p.run is not None else p.name, []).append(k)
     found = np.zeros((len(parameters), *r.shape))

@@ -117,8 +117,13 @@ class Fitter:
         absent : numbers of effects that h does not have, which follow its own.
         """
         assert h.r is not None
-        z = np.concatenate([h.z, np.zeros(len(absent))])
+        z = np.concatenate([self.pulled(h, stage), np.zeros(len(absent))])
         return normal_equations(self.slopes(h, stage, absent), h.r, z)
+
+    def pulled(self, h: FittedModel, stage: Stage) -> np.ndarray:
+        """Return z (G,) of h as its prior pulls it at a stage: not where a number is held."""
+        held = [p.form and stage.holds_forms for p in self.parameters(h)]
+        return np.where(held, 0.0, h.z)
 
     def slopes(self, h: FittedModel, stage: Stage, absent: Sequence[Parameter] = ()) -> np.ndarray:
         """Return the change of the innovations with each number of h, and of `absent` ones, (G, samples)."""
@@ -136,7 +141,7 @@ class Fitter:
         for left in range(FOLLOWING, -1, -1):
             assert h.r is not None
             r, z = h.r, h.z
-            H, g = normal_equations(J, r, z, moves)
+            H, g = normal_equations(J, r, self.pulled(h, stage), moves)
             gain = self.step(h, stage, H, g, moves)
             gained += max(gain, 0.0)
             if gain <= 0 or left == 0:

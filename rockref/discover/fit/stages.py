@@ -36,6 +36,12 @@ class Stage:
     horizon: float | None = None
     rate: float | None = None
 
+    @property
+    def holds_forms(self) -> bool:
+        """Return whether a fit leaves the forms of laws as they are: over a part of the runs, at the shortest memory,
+        feet that are not right yet bend them far."""
+        return self.name == "S1" and self.horizon is not None
+
     def memory(self, time_scale: float, fineness: float) -> Memory:
         """Return the memory for a block whose motion is slower by `time_scale`, with finer steps."""
         return Memory(self.rates * time_scale, self.attitude * time_scale, math.ceil(self.steps * fineness))

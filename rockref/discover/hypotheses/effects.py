@@ -34,13 +34,14 @@ def effect_parameters(
 def counted_in_priors(p: Counted, units: NaturalUnits = SOURCE) -> Parameter:
     """Return a number counted in typical sizes as one that is counted in prior deviations."""
     kind, key = candidates.kind_and_key(p.name)
-    shapes = kind is not None and prior_of(kind, key).role in ("shape", "form")
+    role = "" if kind is None else prior_of(kind, key).role
     return Parameter(
         p.name, p.set, p.centre, p.spread * p.prior, "log" if p.log else "linear", p.run, p.low, p.high,
-        typical=0.0 if shapes else 1 / p.prior, one_sided=not p.log and p.low >= p.centre, unit=p.unit,
+        typical=0.0 if role in ("shape", "form") else 1 / p.prior,
+        one_sided=not p.log and p.low >= p.centre, unit=p.unit,
         moves_target=kind is not None and kind.changes_target(), by_ratio=kind is not None and key in kind.by_ratio,
         drawn=between(kind, key, units) if kind is not None and key in kind.anywhere else None,
-        reach=max(1.0, REACH / p.prior),
+        reach=max(1.0, REACH / p.prior), form=role == "form",
     )  # fmt: skip
 
 

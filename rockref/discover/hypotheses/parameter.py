@@ -26,7 +26,7 @@ class Parameter:
     low, high : hard limits.  moves_target : whether the number changes what the run listens to.  by_ratio : whether it
     is one of an effect's factors that only act by their ratios.  drawn : values between which starts over the whole
     prior draw a number of an effect, if they do.  reach : by how much farther than others a step may take it: of a
-    number that is typically none the prior is narrow.
+    number that is typically none the prior is narrow.  form : whether it turns one form of a law into another one.
     """
 
     name: str
@@ -44,6 +44,7 @@ class Parameter:
     by_ratio: bool = False
     drawn: tuple[float, float] | None = None
     reach: float = 1.0
+    form: bool = False
 
     @property
     def effect(self) -> str:
