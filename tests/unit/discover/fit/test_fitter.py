@@ -77,6 +77,21 @@ def test_a_fit_finds_what_was_put_in():
     assert model.parameters.mu_ext == pytest.approx(0.22, abs=0.03)  # half of the way from nominal, 0.25
 
 
+def test_the_form_of_a_law_is_held_over_a_part_of_the_runs_at_the_shortest_memory():
+    """Neither the records nor the prior move it there, also from where it is not none; over whole runs it moves."""
+    p = problem()
+    fitter, effects = Fitter(p), ("clock_error",)
+    parameters = p.parameters(effects)
+    assert [q.name for q in parameters if q.form] == ["clock_error.growth"]
+    k = [q.form for q in parameters].index(True)
+    start = p.nominal(effects)
+    start[[k - 1, k]] = 0.3, 1.0
+    for stage, held in ((S1.upto(0.7), True), (S1, False), (S3.upto(0.7), False)):
+        h = fitter.tempered(FittedModel(effects, start.copy()), stage, 2)
+        assert bool(h.z[k] == start[k]) is held, stage.name
+        assert h.z[k - 1] != start[k - 1]
+
+
 def test_steps_stay_inside_the_limits():
     p = problem()
     parameters = p.parameters(("rolling_resistance",))
