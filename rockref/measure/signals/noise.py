@@ -87,10 +87,8 @@ def _told(crv: np.ndarray, size: int) -> np.ndarray:
 
 def _stretches(marked: np.ndarray, least: int) -> np.ndarray:
     """Return (N,) which of the marked samples stand in stretches of `least` of them at least."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], marked, [False])).astype(np.int8)))
-    kept = np.zeros(len(marked), bool)
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
-        kept[first:last] = last - first >= least
+    number = np.cumsum(np.diff(marked, prepend=False))  # of the stretch of alike samples that each stands in
+    kept: np.ndarray = marked & (np.bincount(number)[number] >= least)
     return kept
 
 

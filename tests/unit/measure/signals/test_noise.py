@@ -117,6 +117,21 @@ def test_only_calm_windows_count_each_axis_its_own():
     assert found.whiteness[1] == pytest.approx(plain.whiteness[1], rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("first", "last", "left"),
+    # Windows of 40 begin at 0, 20, ...: four samples are no top, five are; where four windows are left, they tell.
+    [(109, 113, 19), (109, 114, 17), (119, 124, 16), (100, 140, 16), (380, 400, 18), (0, 300, 4)],
+)
+def test_windows_that_reach_into_a_cut_top_do_not_count(first, last, left):
+    """As many samples as told stand at the largest number of X; what they leave untouched is as loud as it was."""
+    crv = np.tile(PATTERN, (20, 1))
+    plain = noise_floor(np.arange(400) / 1000.0, crv)
+    crv[first:last, 0] = PATTERN[:, 0].min()
+    found = noise_floor(np.arange(400) / 1000.0, crv)
+    assert np.allclose(found.calm, [left * 0.020, 19 * 0.020, 19 * 0.020], rtol=1e-9)
+    assert np.allclose(found.sigma, plain.sigma, rtol=1e-9)
+
+
 def test_silence_has_no_noise_and_no_colour():
     found = noise_floor(np.arange(400) / 1000.0, np.zeros((400, 3)))
     for values in (found.sigma, found.whiteness, found.resolution):
