@@ -11,7 +11,7 @@ from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.signal import rocking_rate
 from rockref.model.errors import InputError
 from tests import records
-from tests.records import DEGREE, Gyro, sensed, some_block, some_gyro, written
+from tests.records import DEGREE, Gyro, Sensed, sensed, some_block, some_gyro, written
 
 
 @pytest.fixture(scope="module")
@@ -156,6 +156,17 @@ def test_exchanged_columns_of_a_slender_block_are_told_at_any_rate(tmp_path, mot
         made = sensed(block, gyro, rng, motion)
         assert codes_of(written(tmp_path, made)) == set()
         assert codes_of(written(tmp_path, made, degrees=made.degrees[:, [0, 2, 1]])) == {"W-AXES"}
+
+
+@pytest.mark.parametrize("share", [0.5, 0.8])
+def test_exchanged_sides_of_a_slender_block_are_told_at_any_tilt(tmp_path, share):
+    """The nearer to its tipping angle it is let go, the longer it takes than the flat block that is stated."""
+    block = some_block(np.random.default_rng(3), 0.1).replace(height=0.9, theta_0=float(share * np.arctan2(0.1, 0.9)))
+    gyro = Gyro(1000.0, 0.05 * DEGREE, 300.0, 0.01 * DEGREE)
+    made = sensed(block, gyro, np.random.default_rng(3), records.motion_of(block, swings=4.0))
+    folder = written(tmp_path, Sensed(block.replace(width=0.9, height=0.1), made.gyro, made.t, made.crv))
+    with pytest.raises(InputError, match="exchange width_m and height_m"):
+        load_experiment(folder)
 
 
 @pytest.mark.parametrize("axis", range(3))

@@ -133,7 +133,9 @@ def test_a_rate_of_another_size_need_not_be_its_unit(folder):
     assert sizes in path.read_text()
     path.write_text(path.read_text().replace(sizes, "width_m = 0.688\nheight_m = 0.100"))
     error = refused(load_experiment, folder)
-    assert error.code == "E-RATE-SIZE" and "exchange width_m and height_m" in error.cure
+    assert (error.code, error.where) == ("E-RATE-SIZE", f"{folder / 'run01.csv'}, column wx_deg_s")
+    assert error.what.startswith("the first swing reaches 36.6 deg/s, where")
+    assert error.cure == "A block that is as high as this one is wide reaches that: exchange width_m and height_m."
     # Sides that would not do exchanged, either.
     path.write_text(path.read_text().replace("width_m = 0.688\nheight_m = 0.100", "width_m = 0.2\nheight_m = 0.100"))
     error = refused(load_experiment, folder)
@@ -147,6 +149,45 @@ def test_signal_that_cannot_be(folder, as_table, good_signal, case):
     assert error.code == code
     assert str(folder / "run01.csv") in error.where and where in error.where
     assert words in str(error)
+
+
+UNIT = "If the values are in {0}, name the column wx_{1}. If not, check release tilt, width and height."
+SIGN = "Turn the sign of X (and of Y), or correct block_turned_deg."
+FIRST_SWING = {
+    # From 0.117 rad it turns by (alpha - tilt)(cosh(0.9 p T) - 1) in nine tenths of the first swing.
+    "X and Y swapped": (
+        "the block rocks about this axis (it turns by 0.0872 rad), not about X",
+        "Name that column wx_deg_s: X is the rocking axis, Y the other horizontal one, Z the long one.",
+    ),
+    "X of wrong sign": ("the first swing is negative, and must be positive in this posture", SIGN),
+    # 36.6 deg/s, over and times 57.3, and times 17.45.
+    "radians called degrees": (
+        "the first swing reaches 0.64 deg/s, where 37.3 deg/s are expected",
+        UNIT.format("rad/s", "rad_s"),
+    ),
+    "degrees called radians": (
+        "the first swing reaches 2.1e+03 deg/s, where 37.3 deg/s are expected",
+        UNIT.format("deg/s", "deg_s"),
+    ),
+    "millirad called degrees": (
+        "the first swing reaches 639 deg/s, where 37.3 deg/s are expected",
+        "Check the unit of the column, the release tilt, width and height, and that time starts at the release.",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", FIRST_SWING)
+def test_a_refused_first_swing_says_what_it_is_and_what_to_do(folder, as_table, good_signal, case):
+    change, header, *_ = BAD[case]
+    error = refused(load_experiment, edited(folder, as_table, good_signal, change, header))
+    assert (error.what, error.cure) == FIRST_SWING[case]
+
+
+def test_a_block_that_is_turned_must_swing_the_other_way(folder, as_table, good_signal):
+    (folder / "run02.csv").write_text(as_table(*good_signal()))
+    error = refused(load_experiment, folder)
+    assert error.where == f"{folder / 'run02.csv'}, column wx_deg_s"
+    assert error.what == "the first swing is positive, and must be negative in this posture"
 
 
 def test_turned_block_swings_the_other_way(folder):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from rockref.measure.checks.uprights import kept_shifts, zero_of
+from rockref.measure.checks.uprights import kept_shifts, odd_arc, zero_of
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.arcs import turned_angle
 from rockref.measure.signals.impacts import main_impacts
@@ -101,3 +103,38 @@ def test_what_is_lost_stays_lost():
     assert list(kept_shifts(np.array([0.0, 0.0, 2.0, 0.0, 0.0]))) == [0.0] * 4
     assert list(kept_shifts(np.array([0.0, 2.0, 0.0, 2.0]))) == [0.0] * 3
     assert list(kept_shifts(np.array([0.0, -2.0]))) == [2.0]
+
+
+def uprights_of(shifts, *, zero=0.0, peaks=None, grain=0.0, scale=1.0):
+    """A record whose arcs of half a second add up to `shifts` rad, and to `zero` rad/s; a first swing of 1 rad/s."""
+    t = np.arange(0.0, 0.5 * len(shifts) + 1.0, 0.001)
+    times = 0.5 * np.arange(1, len(shifts) + 2)
+    turned = np.interp(t, times, np.cumsum([0.0, *shifts])) + zero * t
+    impacts = SimpleNamespace(times=times, peaks=np.ones(len(times)) if peaks is None else np.array(peaks))
+    return SimpleNamespace(impacts=impacts, t=t, turned=turned, rate=1.0, step=0.001, grain=grain, scale=scale)
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+@pytest.mark.parametrize(
+    # 0.027 of a rate of 1 rad/s over half a second and two samples; and what the values' width adds.
+    ("limit", "given"),
+    [(0.0155, {}), (0.0155, {"zero": 0.1}), (0.0355, {"grain": 0.01, "scale": 2.0})],
+)
+def test_an_arc_is_odd_beyond_the_limit_whatever_the_zero(sign, limit, given):
+    arc, angle = odd_arc(uprights_of([0.0, 0.0, sign * 1.02 * limit, 0.0, 0.0, 0.0], **given))
+    assert arc == 2 and angle == pytest.approx(sign * 1.02 * limit + 0.5 * given.get("zero", 0.0))
+    assert odd_arc(uprights_of([0.0, 0.0, sign * 0.98 * limit, 0.0, 0.0, 0.0], **given)) is None
+
+
+def test_a_third_of_the_arcs_may_be_odd_and_the_largest_is_told():
+    arc, angle = odd_arc(uprights_of([0.0, 0.1, 0.0, 0.0, -0.2, 0.0, 0.0]))
+    assert arc == 4 and angle == pytest.approx(-0.2)
+    assert odd_arc(uprights_of([0.0, 0.1, 0.0, 0.0, 0.2])) is None
+
+
+def test_only_arcs_between_large_impacts_are_judged():
+    """Two of them at least: one has no other to be odd beside."""
+    shifts = [0.0, 0.1, 0.0, 0.0, 0.0]
+    assert odd_arc(uprights_of(shifts, peaks=[1.0, 1.0, 1.0, 0.2, 0.2, 0.2]))[0] == 1
+    assert odd_arc(uprights_of(shifts, peaks=[0.2, 1.0, 1.0, 0.2, 0.2, 0.2])) is None
+    assert odd_arc(uprights_of(shifts, peaks=[1.0, 0.2, 1.0, 1.0, 1.0, 1.0])) is None
