@@ -7,10 +7,10 @@ import pytest
 
 from rockref import InputError
 from rockref.measure import load_experiment
-from rockref.measure.importing import Choices, import_logs, write_campaign
+from rockref.measure.importing import Choices, check_vacant, import_logs, write_campaign
 from rockref.measure.importing.campaign import ImportedRun, hold_out, round_rate
 from tests import foreign
-from tests.refusal import refused
+from tests.refusal import refusal, refused
 from tests.shipped import ROOT
 
 SIDES = (54.0, 0.100, 0.688)
@@ -146,3 +146,14 @@ def test_one_run_in_four_is_held_out():
 )
 def test_a_rate_is_said_as_a_data_sheet_says_it(rate, nice):
     assert round_rate(rate) == pytest.approx(nice)
+
+
+def test_only_a_folder_without_files_is_vacant(tmp_path):
+    place = tmp_path / "block"
+    check_vacant(place)
+    place.mkdir()
+    check_vacant(place)
+    (place / "run01.csv").touch()
+    for taken in (place, place / "run01.csv"):
+        said = ("E-FOLDER", str(taken), "is there and not empty", "Name a new folder.")
+        assert refusal(check_vacant, taken) == said
