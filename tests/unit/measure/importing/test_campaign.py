@@ -148,6 +148,25 @@ def test_a_rate_is_said_as_a_data_sheet_says_it(rate, nice):
     assert round_rate(rate) == pytest.approx(nice)
 
 
+def test_a_folder_is_written_beside_its_place_and_put_there_as_a_whole(imported, tmp_path):
+    """Folders above it are made; who may read it is what the process says of any folder."""
+    place, written = tmp_path / "campaigns" / "may" / "block", []
+    write_campaign(imported["semicolons"], place, lambda experiment, beside: written.append((experiment.runs, beside)))
+    ((runs, beside),) = written
+    assert len(runs) == 3 and beside.parent == place.parent and beside.name.startswith(".block.")
+    assert list(place.parent.iterdir()) == [place]
+    assert place.stat().st_mode == place.parent.stat().st_mode
+
+
+def test_of_a_folder_that_cannot_be_written_nothing_is_left(imported, tmp_path):
+    def stop(experiment, beside):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_campaign(imported["semicolons"], tmp_path / "block", stop)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_only_a_folder_without_files_is_vacant(tmp_path):
     place = tmp_path / "block"
     check_vacant(place)
