@@ -1,10 +1,12 @@
 """Signals that cannot be those of the release are refused; odd ones are said."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from rockref.measure.checks.release import check_first_swing
 from rockref.measure.experiment import load_experiment
 from rockref.measure.signals.signal import rocking_rate, rocking_time
 from rockref.model.errors import InputError
@@ -181,6 +183,24 @@ def test_a_refused_first_swing_says_what_it_is_and_what_to_do(folder, as_table, 
     change, header, *_ = BAD[case]
     error = refused(load_experiment, edited(folder, as_table, good_signal, change, header))
     assert (error.what, error.cure) == FIRST_SWING[case]
+
+
+def shaken_about_z(width, height):
+    """The rates of a block of 0.1 m by 0.688 m let go at 0.117 rad; from 0.2 s on Z shakes by 200 deg/s."""
+    t = np.arange(0.0, 1.2, 0.001)
+    x = np.minimum(rocking_rate(0.117, 0.1, 0.688) * np.sinh(4.6 * t) / np.sinh(4.6 * 0.51), 0.65)
+    crv = np.column_stack((x, 0.0 * t, np.radians(200.0) * np.cos(2.0 * np.pi * 20.0 * t) * (t > 0.2)))
+    return SimpleNamespace(
+        t=t, crv=crv, step=0.001, sign=1, scale=1.0, tilt=0.117, width=width, height=height,
+        rate=rocking_rate(0.117, width, height), duration=rocking_time(0.117, width, height),
+        names=("wx_deg_s", "wy_deg_s", "wz_deg_s"), column=lambda axis: f"column {axis}",
+    )  # fmt: skip
+
+
+def test_the_first_swing_is_judged_about_the_axis_that_the_block_turns_about():
+    assert check_first_swing(shaken_about_z(0.1, 0.688)) == []
+    error = refused(check_first_swing, shaken_about_z(0.688, 0.1))
+    assert "reaches 37.2 deg/s" in error.what and "exchange width_m and height_m" in error.cure
 
 
 def test_a_block_that_is_turned_must_swing_the_other_way(folder, as_table, good_signal):
