@@ -40,8 +40,8 @@ class NoiseFloor:
 def noise_floor(t: np.ndarray, crv: np.ndarray, *, window: float = WINDOW) -> NoiseFloor:
     """Return the noise floor of a run with times t (N,) s and body rates crv (N, 3) rad/s.
 
-    Half-overlapping windows of `window` s are fitted with a cubic; the residuals of the calm ones are the noise, but of
-    those that reach into a top that was cut. A block that is smaller than that of Table 3.1 needs shorter windows.
+    Half-overlapping windows of `window` s are fitted with a cubic; the residuals of the calm ones are the noise. Those
+    that reach into a top that was cut are left out. A block that is smaller than that of Table 3.1 needs shorter ones.
     Raises InputError E-SIGNAL if the run is shorter than four windows or the shapes are wrong.
     """
     t, crv = checked_signal(t, crv)
