@@ -6,11 +6,11 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | seventeenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | eighteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth`, `fourteenth`,
-                                `fifteenth`, `sixteenth` or `seventeenth` of theirs)
+                                `fifteenth`, `sixteenth`, `seventeenth` or `eighteenth` of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -30,6 +30,7 @@ from typing import Any
 import numpy as np
 import strangers_controls
 import strangers_controls_c
+import strangers_eighteenth
 import strangers_eighth
 import strangers_eleventh
 import strangers_fifteenth
@@ -77,6 +78,7 @@ LISTS = {
     "fifteenth": strangers_fifteenth.MISTAKES,
     "sixteenth": strangers_sixteenth.MISTAKES,
     "seventeenth": strangers_seventeenth.MISTAKES,
+    "eighteenth": strangers_eighteenth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 #: Other integrators, as lines of the function that makes a step.
@@ -87,6 +89,7 @@ STEPS = {
     **strangers_fifteenth.SCHEMES,
     **strangers_sixteenth.SCHEMES,
     **strangers_seventeenth.SCHEMES,
+    **strangers_eighteenth.SCHEMES,
 }
 
 
@@ -234,6 +237,13 @@ def of_seventeenth_schemes() -> Iterator[tuple[Mistake, str]]:
     yield from in_turn(strangers_seventeenth.MISTAKES, list(strangers_seventeenth.SCHEMES))
 
 
+def of_eighteenth_schemes() -> Iterator[tuple[Mistake, str]]:
+    """The same of the eighteenth list and its integrators, without what dwindles with the step."""
+    yield from strangers_eighteenth.OF_STEPS
+    lasting = tuple(m for m in strangers_eighteenth.MISTAKES if m.says not in strangers_eighteenth.OF_THE_STEP)
+    yield from in_turn(lasting, list(strangers_eighteenth.SCHEMES))
+
+
 def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
     """The mistakes that runs show and that lie outside the law's step, each in the next integrator."""
     source = SOURCE.read_text()
@@ -255,6 +265,7 @@ OF_SCHEMES = {
     "fifteenth scheme": of_fifteenth_schemes,
     "sixteenth scheme": of_sixteenth_schemes,
     "seventeenth scheme": of_seventeenth_schemes,
+    "eighteenth scheme": of_eighteenth_schemes,
 }
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
@@ -274,8 +285,10 @@ IN_PYTHON = (
     *strangers_fifteenth.IN_PYTHON,
     *strangers_sixteenth.IN_PYTHON,
     *strangers_seventeenth.IN_PYTHON,
+    *strangers_eighteenth.IN_PYTHON,
 )
-IN_C = (*strangers_controls_c.IN_C, *strangers_fourth.IN_C, *strangers_fifth.IN_C, *strangers_seventeenth.IN_C)
+OF_C = (strangers_controls_c, strangers_fourth, strangers_fifth, strangers_seventeenth, strangers_eighteenth)
+IN_C = tuple(v for each in OF_C for v in each.IN_C)
 
 
 def variants() -> Iterator[tuple[str, Any, list[str], str]]:
