@@ -77,7 +77,8 @@ def odd_arc(signal: Signal) -> tuple[int, float] | None:
         return None
     zero = zero_of((np.diff(turned) / spans)[judged])
     off = kept_shifts(turned - zero * impacts.times)
-    slack = IMPACT_SAMPLES * signal.step * signal.rate + signal.grain * signal.scale
+    # Where noise and resolution are all that is known of a rate, it may be off by them all along an arc.
+    slack = IMPACT_SAMPLES * signal.step * signal.rate + signal.grain * spans
     odd = judged & (off > ODD_ARC * signal.rate * spans + slack)
     if not odd.any() or odd.sum() > max(1, len(spans) // 3):
         return None
