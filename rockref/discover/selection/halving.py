@@ -12,7 +12,7 @@ from rockref.discover.fit.objective import inflation_for
 from rockref.discover.fit.stages import S1, S2, Stage
 from rockref.discover.fit.starts import first_swing
 from rockref.discover.hypotheses.effects import seeds_of
-from rockref.discover.selection.score_test import best_of_each, proposals
+from rockref.discover.selection.score_test import best_of_each, proposals, score_test
 
 #: Additions that are tried at the first stage, refined at it, and taken to the second, at most.
 ENTRANTS, FIRST, SECOND = 9, 5, 3
@@ -58,13 +58,19 @@ def entrants(fitter: Fitter, base: FittedModel) -> list[FittedModel]:
     return proposed(fitter, base, S1, ENTRANTS) + sized_at_release(fitter, base)
 
 
-def proposed(fitter: Fitter, base: FittedModel, stage: Stage, most: int) -> list[FittedModel]:
-    """Return a model with each of the best effects that it lacks, by a step with the noise inflated to what is left."""
+def proposed(
+    fitter: Fitter, base: FittedModel, stage: Stage, most: int, among: Sequence[str] | None = None
+) -> list[FittedModel]:
+    """Return a model with each of the best effects that it lacks, by a step with the noise inflated to what is left.
+
+    among : the effects that are tried; all if None
+    """
     fitter.evaluate(base, stage)
     assert base.r is not None
     warm = stage.inflated(inflation_for(base.r, fitter.residuals(stage).count, WARM))
     fitter.widen()
-    return proposals(fitter, fitter.evaluate(base, warm), warm, most)
+    test = score_test(fitter, fitter.evaluate(base, warm), warm, among)
+    return proposals(fitter, base, warm, most, test)
 
 
 def sized_at_release(fitter: Fitter, base: FittedModel) -> list[FittedModel]:

@@ -60,13 +60,15 @@ def predicted_gain(H: np.ndarray, g: np.ndarray) -> float:
     return float(-(g @ d + 0.5 * d @ H @ d))
 
 
-def score_test(fitter: Fitter, h: FittedModel, stage: Stage) -> ScoreTest:
-    """Linearise h, evaluated at a stage, and every candidate that it lacks. A number that only shapes an absent effect
-    shows nothing."""
+def score_test(fitter: Fitter, h: FittedModel, stage: Stage, among: Sequence[str] | None = None) -> ScoreTest:
+    """Linearise h, evaluated at a stage, and every candidate that it lacks, or those of them that are `among` some.
+
+    A number that only shapes an absent effect shows nothing.
+    """
     base = len(fitter.problem.parameters())
     absent: list[Parameter] = []
     places = {}
-    for e in fitter.problem.candidates:
+    for e in fitter.problem.candidates if among is None else among:
         if e in h.effects:
             continue
         numbers = fitter.problem.parameters((e,))[base:]

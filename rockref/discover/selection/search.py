@@ -7,7 +7,8 @@
 3. Lengthen the memory. At the longest, fits step side by side until they end; the score test proposes more effects, by
    what a step gains at S3 and by what it promises at F, and those that gain enough join.
 4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
-5. At the longest memory take each effect of the best model out, and try to replace it, from the same point.
+5. At the longest memory take each effect of the best model out, and try to replace it, from the same point; by what it
+   is mistaken for, from the shortest memory. Of all that explains the runs as well, parts are tried, too.
 
 On the way steps of the law are made as fine as the records ask for (`rockref.discover.fit.steps`).
 """
@@ -25,6 +26,7 @@ from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
 from rockref.discover.fit.steps import fine_enough
 from rockref.discover.selection.finalists import converged, follow, penalised
 from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, sized_at_release, within
+from rockref.discover.selection.rivals import rivals
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.together import from_anywhere, from_statement, leads
 from rockref.discover.selection.tone import tone
@@ -97,7 +99,7 @@ class Search:
         (end,) = self.followed([moved.copy()])
         self.problem.say(f"{end.name}, the law moved: mean loss {end.loss:.2f}")
         better = end.objective <= best.objective - WORTH
-        added = set(best.effects) - set(self.problem.carried)
+        added = self.added(best)
         if not better and len(added) < 2:
             return beam
         base = moved if better else best
@@ -210,7 +212,7 @@ class Search:
 
     def may_add(self, best: FittedModel, left: float) -> bool:
         """Return whether one more effect is looked for: `left` is the mean loss that the last one was to explain."""
-        added = len(set(best.effects) - set(self.problem.carried))
+        added = len(self.added(best))
         return 0 < added < MOST and best.loss - WHITE <= LEAVES[added - 1] * (left - WHITE)
 
     def moved(self, h: FittedModel) -> float:
@@ -221,7 +223,7 @@ class Search:
 
     def compared(self, best: FittedModel) -> str:
         """Return what the forward step compares, in words."""
-        beside = [e for e in best.effects if e not in self.problem.carried]
+        beside = self.added(best)
         more = f" beside {' and '.join(beside)}" if beside else ""
         return f"{len(set(self.problem.candidates) - set(best.effects))} effects{more}"
 
@@ -321,22 +323,42 @@ class Search:
         best = min(beam, key=penalised)
         self.problem.progress.begin("without", "leaving out each effect in turn", best.name)
         found: list[FittedModel] = []
-        for e in best.effects:
-            if e in self.problem.carried:
-                continue
-            less = self.fitter.without(best, e)
-            follow(self.fitter, [less], [*beam, *found], LESS)
-            found += [less, *(self.fitter.polish(h, F, 2) for h in self.replacements(less, [*beam, *found]))]
+        for e in self.added(best):
+            found.append(self.less(best, e, [*beam, *found]))
+            found += [self.fitter.polish(h, F, 2) for h in self.replacements(found[-1], [*beam, *found])]
+            found += self.rivals(best, e, [*beam, *found])
+        for h in self.as_good([*beam, *found]):
+            found += [self.less(h, e, [*beam, *found]) for e in self.parts(h, [*beam, *found])]
         if not any(h.effects == self.problem.carried for h in [*beam, *found]):
             found.append(self.fitter.polish(self.nothing(best), F, 3))
         self.remember([*beam, *found])
         self.problem.progress.begin("without", "comparing the finalists", best.name)
         return converged(self.fitter, best_of_each([*beam, *found, *self.seen.values()]))
 
+    def added(self, h: FittedModel) -> list[str]:
+        """Return the effects of a model beyond those that the user's model carries."""
+        return [e for e in h.effects if e not in self.problem.carried]
+
+    def as_good(self, field: Sequence[FittedModel]) -> list[FittedModel]:
+        """Return the best of a field at F, and what explains the runs as well."""
+        limit = min(map(penalised, field)) + WORTH
+        return [h for h in best_of_each(field) if penalised(h) <= limit]
+
+    def parts(self, h: FittedModel, known: Sequence[FittedModel]) -> list[str]:
+        """Return the effects of a model without which it is not known yet."""
+        there = {frozenset(k.effects) for k in [*known, *self.seen.values()]}
+        return [e for e in self.added(h) if frozenset(h.effects) - {e} not in there]
+
+    def less(self, h: FittedModel, effect: str, known: Sequence[FittedModel]) -> FittedModel:
+        """Return a model without one of its effects, at F."""
+        less = self.fitter.without(h, effect)
+        follow(self.fitter, [less], known, LESS)
+        return less
+
     def nothing(self, best: FittedModel) -> FittedModel:
         """Return the baseline at F with its own law, or with that of the best model, whichever is lower."""
         bare = best
-        for e in set(best.effects) - set(self.problem.carried):
+        for e in self.added(best):
             bare = self.fitter.without(bare, e)
         field = [self.baseline.copy(), bare]
         self.fitter.evaluate_all(field, F)
@@ -355,6 +377,12 @@ class Search:
         best = self.best(known)
         bar = best.objective + LEAVES[0] * max(start.objective - best.objective, 0.0)
         return [h for h in field if frozenset(h.effects) not in there and h.objective <= bar][:2]
+
+    def rivals(self, best: FittedModel, effect: str, known: Sequence[FittedModel]) -> list[FittedModel]:
+        """Return the rivals of an effect that are not known yet, at F."""
+        found = rivals(self.fitter, best, effect, {frozenset(h.effects) for h in [*known, *self.seen.values()]})
+        follow(self.fitter, found, [*known, *found])
+        return found
 
     def remember(self, field: Sequence[FittedModel]) -> None:
         """Keep the best fit of each set of effects at the longest memory."""
