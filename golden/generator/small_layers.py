@@ -20,7 +20,7 @@ from rockref.conformance.vectors import SCHEMA, vector_of
 #: The questions of each layer, in order. The seed of a question is its place.
 QUESTIONS = {
     "L0": (derived.derived, derived.release, derived.inner_pivots, derived.elsewhere),
-    "L1": (point.all_points, full.points, point.whatever_else),
+    "L1": (point.all_points, full.points, point.whatever_else, full.eight_places),
     "L2": (body.assembly, full.assembly),
     "L3": (body.exponentials, body.steps, body.no_rotation, full.steps, body.hardly_turned),
     "L4": (step.steps, step.elsewhere),

@@ -64,6 +64,14 @@ def points() -> Iterator[Case]:
     yield from hardly_loaded()
 
 
+def eight_places() -> Iterator[Case]:
+    """Yield K1 of eight points, no two alike: a slip of one of them, or of its neighbour, shows."""
+    d = Draw(92, 53)
+    fields = {k: ("K1", "K1") for k in ("r", "u", "xi", "xi_rate", "v_slide")}
+    q = {"x": d.vector(0.5), "Lambda": d.rotation(1.0), "v": d.vector(1), "W": d.vector(3)}
+    yield Case("K1", "L1", "kinematics", q | {"P": d.vectors(0.4, 8)}, fields, ("eight points", "all at once", *ALL))
+
+
 def hardly_loaded() -> Iterator[Case]:
     """Yield N1 of feet that carry from a newton down to a tenth of a micronewton: a tolerance of a code's own shows
     there."""

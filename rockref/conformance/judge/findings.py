@@ -148,8 +148,9 @@ def judge(
         if profile == "scheme":
             others = by_finer_steps(backend, findings, others, stand_ins)
         findings.checks += with_consequences_marked(others, findings.answers)
-    if profile == "float64":
+    if profile != "float32":
         findings.checks += left_behind(backend, findings)
+    if profile == "float64":
         findings.step_is_wrong = wrong_in_a_run(backend, findings)
     findings.remarks += getattr(backend, "remarks", [])
     findings.seconds = time.perf_counter() - begin
@@ -233,13 +234,15 @@ def by_finer_steps(
 
 def left_behind(backend: Any, findings: Findings) -> list[Check]:
     """Return a failure of S2 where the first short run that is outside has another answer after itself."""
-    failed = next((c for c in findings.failures if c.layer == "L5s" and c.weighed and c.bar is not None), None)
+    short = [c for c in findings.failures if c.layer in ("L5s", "LS") and c.weighed and c.bar is not None]
+    failed = next(iter(short), None)
     known = {v.id: (v, out) for v, out in findings.answers}
     if failed is None or failed.vector not in known:
         return []
     vector, before = known[failed.vector]
+    asked = richardson.ask if vector.layer == "LS" else call.ask
     try:
-        again = [call.ask(backend, vector) for _ in range(2)][-1]
+        again = [asked(backend, vector) for _ in range(2)][-1]
         old, new = (np.asarray(result(failed.name, out, vector.branch), float) for out in (before, again))
         same = (old == new) | (np.isnan(old) & np.isnan(new))
         changed = bool(np.any(~same & (in_bars(new, old, np.asarray(vector.expect[failed.name].bar)) > LOOK)))

@@ -61,16 +61,15 @@ def rule_as_if(answers: Answers, checks: Sequence[Check], check: Check) -> tuple
 
 def rule_of_untied_feet(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
     """Return T5, and a sentence, where the runs that are wrong are those of the law whose feet are not tied at the
-    start, and some of them not those without springs of friction; its own rule and "" elsewhere."""
+    start, and fewer those without springs of friction; its own rule and "" elsewhere."""
     words, inputs = UNTIED
     failed = {c.vector for c in checks if c.failed and c.weighed and not c.follows and c.layer == check.layer}
     wrong = [(v, out) for v, out in answers if v.id in failed]
     told = [(v, out) for v, out in wrong if v.id == check.vector]
     if check.rule not in ("T1", "T5") or not all(is_explained(v, out, inputs) for v, out in told):
         return check.rule, ""
-    untied = [(v, out) for v, out in wrong if is_explained(v, out, inputs)]
-    sprung = sum(not is_explained(v, out, NO_SPRING) for v, out in untied)
-    sure = sprung >= SOME and len(untied) >= MOST * len(wrong)
+    untied, unsprung = (sum(is_explained(v, out, made) for v, out in wrong) for made in (inputs, NO_SPRING))
+    sure = untied - unsprung >= SOME and untied >= MOST * len(wrong)
     return ("T5", SAYS.format(words)) if sure else (check.rule, "")
 
 

@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from rockref.conformance.judge.causes.rows_of_the_law import feet_at_the_start
 from rockref.conformance.judge.compare_answer import Check
 from rockref.conformance.vectors import Vector
 
 #: So many runs of one foot have to show right forces for its penetration to be right. Decided.
 SOME = 3
 FORCES = ("F_N@", "F_T@")
+NOTHING_PULLS = "After feet without friction, and there alone, places are no numbers: who is not pulled sticks."
 
 
 def telling(checks: list[Check], answers: Sequence[tuple[Vector, dict[str, Any]]]) -> list[Check]:
@@ -42,6 +44,38 @@ def is_lost(check: Check) -> bool:
     """Return whether what a short run was moved to is no number."""
     moved = check.layer == "LS" or (check.layer == "L5s" and not check.name.startswith(FORCES))
     return moved and check.failed and check.weighed and check.got is not None and not np.isfinite(check.got)
+
+
+def rule_of_lost_numbers(
+    answers: Sequence[tuple[Vector, dict[str, Any]]], checks: Sequence[Check], check: Check
+) -> tuple[str, str]:
+    """Return T2, and a sentence, where places are no numbers after feet without friction, and nowhere else, and some
+    of dragged feet are right; its own rule and "" elsewhere.
+
+    Who divides by the length of a trial force has asked before whether the foot sticks.
+    """
+    if not is_lost(check):
+        return check.rule, ""
+    wrong = {c.vector for c in checks if c.failed}
+    idle: list[bool] = []
+    dragged = 0
+    for vector, out in answers:
+        feet = feet_at_the_start(vector.id) if vector.layer == check.layer else None
+        if feet is None or not np.any(feet["touching"]):
+            continue
+        if is_nowhere(out):
+            idle.append(bool(np.any(feet["touching"] & ~feet["dragged"])))
+        elif np.any(feet["dragged"]) and vector.id not in wrong:
+            dragged += 1
+    return ("T2", NOTHING_PULLS) if idle and all(idle) and dragged >= SOME else (check.rule, "")
+
+
+def is_nowhere(out: dict[str, Any]) -> bool:
+    """Return whether the place in the second row of a run is no number."""
+    try:
+        return not np.all(np.isfinite(np.asarray(out["x"], float)[1]))
+    except (KeyError, TypeError, ValueError, IndexError):
+        return False
 
 
 def later(check: Check) -> bool:

@@ -199,7 +199,7 @@ def drifts(vector: Vector, rows: Sequence[Any]) -> bool:
 
 def growth(rows: Sequence[Any], out: dict[str, Any]) -> list[float]:
     """Return how many times as much the place of a drifting block loses in the last step as in the step before it;
-    nothing where it is right, or fewer rows are shown."""
+    nothing where it is right, or fewer rows are shown, or the second step is right: a velocity that changes shows."""
     way = rows[1].x - rows[0].x
     try:
         off = [float((np.asarray(out["x"], float)[i] - rows[i].x) @ way) for i in range(len(rows))]
@@ -207,6 +207,6 @@ def growth(rows: Sequence[Any], out: dict[str, Any]) -> list[float]:
         return []
     before, last = np.diff(off)[-2:]
     least = 1e-12 * float(way @ way)
-    if not abs(off[-1]) > least:
+    if not min(abs(off[-1]), abs(off[2])) > least:
         return []
     return [abs(float(last)) / max(abs(float(before)), least)]

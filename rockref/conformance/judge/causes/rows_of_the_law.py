@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -62,6 +62,19 @@ def rows_of_the_law(id_: str) -> tuple[Row, ...]:
     return tuple(found)
 
 
+@lru_cache
+def feet_at_the_start(id_: str) -> Feet | None:
+    """Return what the feet do in the first evaluation of a short run, of another integrator, too; None where the start
+    brings its forces."""
+    vector = next(v for v in layer(id_.partition("-")[0]) if v.id == id_)
+    if vector.inputs.get("F") is not None:
+        return None
+    problem = problem_of(vector.inputs)
+    problem = replace(problem, duration=problem.step, output_rate=1 / problem.step)
+    r = run(problem, engine="numpy")
+    return what_feet_do(problem, r, 0, problem.start, r.v[0], r.W[0])
+
+
 def predicted(problem: Any, r: Any, i: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the velocities with which the forces of the row after the i-th are evaluated (S1)."""
     block, J = problem.block, problem.block.inertia
@@ -92,7 +105,8 @@ def what_feet_do(problem: Any, r: Any, i: int, before: Any, v: np.ndarray, W: np
         "beside": touching & new & ~np.all(new),
         "spring": spring > SHARE * size, "damper": damper > SHARE * size, "slides": r.sliding[i], "slid": slid & ~new,
         "moved": slid & ~new & (i > 0), "between": (p.mu * F_N < size) & (size <= p.mu_0 * F_N),
-        "later": np.full(len(F_N), i > 0), "push": np.abs(p.C_N * k.xi_rate) > SHARE * np.abs(p.K_N * k.xi),
+        "dragged": norm(r.F[i][:, :2]) > 0, "later": np.full(len(F_N), i > 0),
+        "push": np.abs(p.C_N * k.xi_rate) > SHARE * np.abs(p.K_N * k.xi),
     }  # fmt: skip
     turn = point_kinematics(*here, 0 * v, W, p.P)
     parts = {

@@ -23,6 +23,21 @@ MISTAKES = (
     Mistake("velocity in axes that lean where it moves the place", ("I1",), "x_next = x + h * v",
             "x_next = x + h * Lambda.T @ v"),
 )  # fmt: skip
+#: What one point of eight shows, a first step by a moment, and a length of zero.
+BY_PIECES = (
+    Mistake("z of the seventh lever with the other sign", ("K1",), "    r = P @ Lambda.T\n",
+            "    r = P @ Lambda.T\n    r[6:7, 2] *= -1\n"),
+    Mistake("moment of the start taken for one in plate axes", ("A3",), "        state |= memory\n    return state\n",
+            '        state |= memory\n    return state | {"T": state["Lambda"].T @ state["T"]}\n'),
+)  # fmt: skip
+BY_RUNS = (
+    Mistake("no turn by rates", ("I2",), "Theta = h * W + h * h / 2 * A", "Theta = h * h / 2 * A"),
+    Mistake("more than half of a turn by rates", ("I2",), "Theta = h * W + h * h / 2 * A",
+            "Theta = h * W * (1 - 0.3 * (W @ W > 0)) + h * h / 2 * A"),
+    Mistake("a foot at which nothing pulls slides", ("T2", "T3"), "np.hypot(*F_trial) <= limit",
+            "0 < np.hypot(*F_trial) <= limit"),
+    Mistake("no spring of friction", ("T1",), "-K_T * (u_t - s) - C_T", "0 * s - C_T"),
+)  # fmt: skip
 FOUND = "    found = [\n"
 ONE_STEP = "    a, T, F, memory = evaluate(problem, state, x, Lambda, v_p, W_p)\n"
 #: What one foot of eight, a later row, or the last digits alone show.
@@ -48,16 +63,26 @@ HARDLY_SHOWN = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda m: m.says)
+@pytest.mark.parametrize("mistake", MISTAKES + BY_PIECES, ids=lambda m: m.says)
 def test_pieces_name_it(mistake):
     found = seen(planted(mistake), mistake)
     assert found["named"], found
 
 
-@pytest.mark.parametrize("mistake", MISTAKES[:1] + MISTAKES[2:] + HARDLY_SHOWN, ids=lambda m: m.says)
+@pytest.mark.parametrize("mistake", MISTAKES[:1] + MISTAKES[2:] + HARDLY_SHOWN + BY_RUNS, ids=lambda m: m.says)
 @pytest.mark.parametrize("hidden", [(), ("F", "anchored")], ids=["forces", "no forces"])
 def test_runs_name_it(mistake, hidden):
     found = seen(Runs(planted(mistake), {}, hidden), mistake)
+    assert found["named"], found
+
+
+def test_what_a_run_leaves_behind_is_told_of_another_integrator():
+    begun = "        state, kept = started(problem), []\n"
+    left = Mistake("velocity that the run before left", ("S2",), begun, begun + """\
+        if getattr(self, "left", None) is not None:
+            state = state | {"v": self.left}
+""", True, (("        shown = (", '        self.left = state["v"]\n        shown = ('),))  # fmt: skip
+    found = seen(Runs(planted(left, "symplectic Euler"), {}), left, "scheme")
     assert found["named"], found
 
 

@@ -3,16 +3,20 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from rockref.conformance import vectors
+from rockref.conformance.backends import call, richardson
 from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine
 from rockref.conformance.judge.causes.flags import (
     one_foot,
+    rule_of_lost_numbers,
     without_flags_in_company,
     without_late_flags,
     without_lost_numbers,
 )
+from rockref.conformance.judge.causes.rows_of_the_law import feet_at_the_start
 from rockref.conformance.judge.compare_answer import Check, compare
 
 
@@ -33,6 +37,24 @@ def test_places_that_are_no_numbers_leave_the_word_to_wrong_numbers():
     assert without_lost_numbers([lost, replace(wrong, follows=True)])[0] == lost
     assert without_lost_numbers([replace(lost, name="F_N@0"), wrong])[1] == wrong
     assert len(without_lost_numbers([replace(lost, name="F_N@0"), wrong])) == 2
+
+
+@pytest.mark.parametrize(
+    ("lost", "rule"),
+    [(lambda f: not np.any(f["dragged"]), "T2"), (lambda f: True, "N1"), (lambda f: np.all(f["dragged"]), "N1")],
+)
+@pytest.mark.parametrize(("name", "engine"), [("L5s", call), ("LS", richardson)])
+def test_feet_without_friction_of_which_places_are_lost_are_held_to_slide(name, engine, lost, rule):
+    """Places that are lost after feet that are dragged may be of any rule."""
+    answers = []
+    for v in vectors.layer(name)[:70]:
+        out, feet = dict(engine.ask(NumpyEngine(), v)), feet_at_the_start(v.id)
+        if feet is not None and np.any(feet["touching"]) and lost({k: a[feet["touching"]] for k, a in feet.items()}):
+            out["x"] = out["x"] * np.nan
+        answers.append((v, out))
+    check = Check(f"{name}-N1-0019", name, "N1", "x@1", "outside", got=np.nan)
+    assert rule_of_lost_numbers(answers, [], check)[0] == rule
+    assert rule_of_lost_numbers(answers, [], replace(check, got=0.5)) == ("N1", "")
 
 
 def failed_with(change):

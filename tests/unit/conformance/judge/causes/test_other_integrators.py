@@ -82,7 +82,8 @@ def test_a_velocity_that_is_lost_is_no_clock():
 
 
 @pytest.mark.parametrize(
-    ("off", "changes"), [((0, 0, 1, 2), False), ((0, 1, 2, 3), False), ((0, 1, 3, 6), True), ((0, 1, 4, 9), True)]
+    ("off", "changes"),
+    [((0, 0, 0, 4), False), ((0, 0, 1, 2), False), ((0, 1, 2, 3), False), ((0, 1, 3, 6), True), ((0, 1, 4, 9), True)],
 )
 def test_a_place_that_loses_the_same_in_each_step_has_its_velocity(off, changes):
     """A place that is lost from the second step on does as well."""

@@ -10,8 +10,10 @@ from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine
 from rockref.conformance.backends.rule_set import law
 from rockref.conformance.judge.causes.falls import TOO_FAR, free, rule_of_a_fall
-from rockref.conformance.judge.causes.slips import exponential
-from rockref.conformance.judge.causes.turns import angular_acceleration, rule_of_a_turn
+from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
+from rockref.conformance.judge.causes.slips import exponential, rotation_vector
+from rockref.conformance.judge.causes.turns import angular_acceleration, rule_of_a_turn, rule_of_no_rotation
+from rockref.conformance.judge.compare_answer import Check
 from tests.unit.conformance.judge.causes.hidden_runs import Hidden, verdict_on_hidden
 
 
@@ -38,6 +40,50 @@ def turned(off):
 )
 def test_what_points_along_the_angular_acceleration_speaks_of_the_increment(off, rule):
     assert rule_of_a_turn(turned(off), "I3")[0] == rule
+
+
+def after_a_step(resting, turning):
+    """Answers to all short runs of two rows, turned in the first step by shares of the law's turn."""
+    found = []
+    for v in [v for v in vectors.layer("L5s") if len(rows_of_the_law(v.id)) > 1]:
+        out, rows = dict(ask(NumpyEngine(), v)), rows_of_the_law(v.id)
+        share = turning(v) if np.any(v.inputs["W"]) else resting(v)
+        if share != 1 and np.any(rows[1].Lambda != rows[0].Lambda):
+            out["Lambda"] = np.array(out["Lambda"])
+            Theta = rotation_vector(rows[0].Lambda.T @ rows[1].Lambda)
+            out["Lambda"][1] = rows[0].Lambda @ exponential(share * Theta) if share else rows[0].Lambda
+        found.append((v, out))
+    return found
+
+
+def leans(v):
+    """Whether the block of a run leans at the start."""
+    return bool(np.any(v.inputs["Lambda"] != np.eye(3)))
+
+
+@pytest.mark.parametrize(
+    ("resting", "turning", "rule"),
+    [
+        (lambda v: 1.0, lambda v: 0.7, "I2"),
+        (lambda v: 1.0, lambda v: 0.0, "I2"),
+        (lambda v: 0.7, lambda v: 0.7, "I3"),
+        (lambda v: 1.0, lambda v: 0.7 if leans(v) else 1.0, "I3"),
+        (lambda v: 0.7 if leans(v) else 1.0, lambda v: 0.7, "I3"),
+    ],
+)
+def test_turns_from_rest_that_are_right_speak_of_the_increment(resting, turning, rule):
+    assert rule_of_a_turn(after_a_step(resting, turning), "I3")[0] == rule
+
+
+@pytest.mark.parametrize(
+    ("name", "off", "rule"), [("L5s", 1e-4, "I3"), ("L5s", 1e-6, "T1"), ("LS", 1e-4, "T1"), ("LS", 100.0, "I3")]
+)
+def test_an_attitude_that_is_no_rotation_speaks_of_no_other_rule(name, off, rule):
+    vector = vectors.layer(name)[0]
+    Lambda = np.stack([np.eye(3), (1 + off) * np.eye(3)])
+    check = Check(vector.id, name, "T1", "x@1", "outside", got=1.0)
+    assert rule_of_no_rotation([(vector, {"Lambda": Lambda})], [], check)[0] == rule
+    assert rule_of_no_rotation([(vector, {"Lambda": Lambda[::-1]})], [], check)[0] == "T1", "as the start is"
 
 
 def test_other_rules_are_left():

@@ -7,7 +7,7 @@ import pytest
 
 from rockref.conformance import vectors
 from rockref.conformance.backends.law import NumpyEngine
-from rockref.conformance.judge.causes.whole_steps import off_by_the_acceleration
+from rockref.conformance.judge.causes.whole_steps import by_a_moment_that_is_turned, off_by_the_acceleration
 from rockref.conformance.judge.findings import judge
 from rockref.conformance.judge.verdict import verdict
 from rockref.model.rotation import exponential
@@ -24,6 +24,16 @@ class Sorted(NumpyEngine):
 def test_other_moments_in_the_step_speak_of_the_increment():
     v = verdict(judge(Sorted(), ["L0", "L1", "L2", "L3", "L4", "L7"]))
     assert v.rule == "I2" and v.check.name == "Lambda"
+
+
+@pytest.mark.parametrize(("angle", "size", "is_turned"), [(0.1, 1.0, True), (0.1, 1.01, False), (0.0, 1.0, False)])
+def test_a_moment_as_large_that_points_another_way_is_turned(angle, size, is_turned):
+    vector = vectors.layer("L4")[0]
+    q = vector.inputs
+    h, J, W = q["step"], q["inertia"], q["W"]
+    T = size * exponential(np.array([0.0, 0.0, angle])) @ q["T"]
+    Theta = h * W + h * h / 2 * np.linalg.solve(J, T - np.cross(W, J @ W))
+    assert by_a_moment_that_is_turned(vector, q["Lambda"] @ exponential(Theta)) == is_turned
 
 
 @pytest.mark.parametrize(("size", "by_acceleration"), [(0.5, True), (100.0, False)])
