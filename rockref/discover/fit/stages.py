@@ -24,6 +24,7 @@ class Stage:
     inflation : of the noise.  horizon [s] : how far runs are followed, None for all of it.
     rate [Hz] : faster records are thinned as long as so many samples a second are left, None where all are heard
     (decided for S1: eight samples in its smoothing).
+    shortest : whether no memory is shorter: its objective is smooth enough for steps from far.
     """
 
     name: str
@@ -35,12 +36,13 @@ class Stage:
     inflation: float = 1.0
     horizon: float | None = None
     rate: float | None = None
+    shortest: bool = False
 
     @property
     def holds_forms(self) -> bool:
         """Return whether a fit leaves the forms of laws as they are: over a part of the runs, at the shortest memory,
         feet that are not right yet bend them far."""
-        return self.name == "S1" and self.horizon is not None
+        return self.shortest and self.horizon is not None
 
     def memory(self, time_scale: float, fineness: float) -> Memory:
         """Return the memory for a block whose motion is slower by `time_scale`, with finer steps."""
@@ -60,7 +62,7 @@ class Stage:
 #: amplified, and up to 320 at 40 ms; half-size effects gain 30 to 200 at 20 ms, at 40 ms as much to five times that.
 #: The attitude is remembered for half a second at least: its target is the integral of a noisy rate, which wanders by
 #: 50 urad in three seconds; pulled after it at 0.5 s, a drift that is not there gains 114 nats at 20 ms, 31 at 2 s.
-S1 = Stage("S1", 0.005, 0.5, smoothing=8e-3, steps=6, rate=1000.0)
+S1 = Stage("S1", 0.005, 0.5, smoothing=8e-3, steps=6, rate=1000.0, shortest=True)
 S2 = Stage("S2", 0.010, 0.5, smoothing=2e-3, steps=12)
 S3 = Stage("S3", 0.014, 0.5, jitter=0.05e-3)
 F = Stage("F", 0.020, 2.0, jitter=0.05e-3)

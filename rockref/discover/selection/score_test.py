@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
-from rockref.discover.fit.stages import S1, Stage
+from rockref.discover.fit.stages import Stage
 from rockref.discover.hypotheses.effects import seeds_of
 from rockref.discover.hypotheses.parameter import Parameter
 
@@ -95,7 +95,7 @@ def proposals(
         fitter.step(k, stage, k.H, gradient)
         found.append(k)
     best = sorted(best_of_each(found), key=lambda k: k.objective)[:most]
-    return best + [k for k in far if stage.name == S1.name and not any(k is b for b in best)]
+    return best + [k for k in far if stage.shortest and not any(k is b for b in best)]
 
 
 def finite_starts(fitter: Fitter, h: FittedModel, stage: Stage, effects: Sequence[str]) -> list[FittedModel]:
@@ -112,7 +112,7 @@ def finite_starts(fitter: Fitter, h: FittedModel, stage: Stage, effects: Sequenc
         return []
     fitter.evaluate_all(seeds, stage)
     found = best_of_each(seeds)
-    for k in found if stage.name == S1.name else ():
+    for k in found if stage.shortest else ():
         k.H, gradient = fitter.linearise(k, stage)
         fitter.step(k, stage, k.H, gradient)
     return found
