@@ -9,8 +9,8 @@ from rockref.discover.fit.stages import S1, S2, S3
 from rockref.discover.selection.halving import MARGIN, proposed, say, within
 from rockref.effects import catalogue
 
-#: Rivals that go on to S2 and to the longest memory, and steps of each there (decided: from the law beside the effect
-#: they come near at once, or never).
+#: Rivals that go on to S2 and to longer memories, and steps of each at S3, after one at S1 and one at S2 (decided: from
+#: the law beside the effect they come near at once, or never).
 WENT_ON, LAST, STEPS = 3, 2, 3
 
 
@@ -43,7 +43,7 @@ def rivals(fitter: Fitter, best: FittedModel, effect: str, known: Collection[fro
     if not there:
         return []
     field = proposed(fitter, less, S1, WENT_ON, there)
-    for stage, most, steps in ((S1, WENT_ON, 1), (S2, LAST, STEPS), (S3, LAST, STEPS)):
+    for stage, most, steps in ((S1, WENT_ON, 1), (S2, LAST, 1), (S3, LAST, STEPS)):
         fitter.widen()
         for h in field:
             (fitter.tempered if stage is S1 else fitter.refine)(h, stage, steps)
