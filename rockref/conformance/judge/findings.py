@@ -242,7 +242,9 @@ def left_behind(backend: Any, findings: Findings) -> list[Check]:
     vector, before = known[failed.vector]
     asked = richardson.ask if vector.layer == "LS" else call.ask
     try:
-        again = [asked(backend, vector) for _ in range(2)][-1]
+        first, again = (asked(backend, vector) for _ in range(2))
+        # The answer of another integrator may be one with finer steps.
+        before = first if vector.layer == "LS" else before
         old, new = (np.asarray(result(failed.name, out, vector.branch), float) for out in (before, again))
         same = (old == new) | (np.isnan(old) & np.isnan(new))
         changed = bool(np.any(~same & (in_bars(new, old, np.asarray(vector.expect[failed.name].bar)) > LOOK)))
