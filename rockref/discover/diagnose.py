@@ -26,6 +26,7 @@ from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened, own_effects
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.provenance import versions
+from rockref.discover.selection.chance import gained_by_chance
 from rockref.discover.selection.search import Search
 from rockref.discover.separating import separating_run
 from rockref.discover.threads import one_blas_thread
@@ -233,6 +234,9 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
         sensor_faults=tuple(f"{n.where} {n.what}" for n in experiment.notices if n.code in SENSOR_CODES),
         cost={"block_steps": float(listener.simulated)},
     )
+    ranked = alternatives(evidence, calibration())
+    problem.progress.begin("evidence", "asking what chance would gain")
+    evidence.chance = gained_by_chance(fitter, fits, next(h for h in kept if h.effects == ranked[0].evidence.effects))
     ranked = alternatives(evidence, calibration())
     if held is not None:
         problem.progress.begin("evidence", "checking on held-out runs")

@@ -84,6 +84,7 @@ class Evidence:
     samples : innovations of the fit runs;  held_out_samples : of each held-out run
     remarks : codes of the remarks on the records;  sensor_faults : those that are faults of the sensor, in words
     limits : least detectable amplitudes [typical sizes]
+    chance : what the weakest effect of the best set gains in records of the set without it [nat]
     confusions : cosines between effects that these runs hardly tell apart;  separating : the run that would, in words
     """
 
@@ -99,6 +100,7 @@ class Evidence:
     limits: dict[str, dict[str, Any]] = field(default_factory=dict)
     confusions: dict[str, dict[str, float]] = field(default_factory=dict)
     separating: str = ""
+    chance: float = 0.0
     cost: dict[str, float] = field(default_factory=dict)
 
     def of(self, effects) -> HypothesisEvidence | None:

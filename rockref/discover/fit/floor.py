@@ -28,13 +28,13 @@ def floor(fitter: Fitter, h: FittedModel, stage: Stage) -> tuple[float, np.ndarr
 
     The model moves freely, the gyroscope adds its noise, and the model listens to that with the numbers that made it.
     """
-    found = [_in_own_record(fitter, h, stage, seed) for seed in range(RECORDS)]
+    found = [in_own_record(fitter, h, stage, seed) for seed in range(RECORDS)]
     losses = np.median([fitter_.losses(k) for fitter_, k in found], axis=0)
     return max(WHITE, float(np.median([k.loss for _, k in found]))), np.maximum(WHITE, losses)
 
 
-def _in_own_record(fitter: Fitter, h: FittedModel, stage: Stage, seed: int) -> tuple[Fitter, FittedModel]:
-    """Return a fitter of records of h, and h evaluated there."""
+def in_own_record(fitter: Fitter, h: FittedModel, stage: Stage, seed: int) -> tuple[Fitter, FittedModel]:
+    """Return a fitter of records that h makes with its present numbers, and h evaluated there at a stage."""
     problem, listener = fitter.problem, fitter.problem.listener
     rng = np.random.default_rng((problem.seed, seed))
     parameters = fitter.parameters(h)

@@ -42,6 +42,18 @@ def test_an_effect_that_leads_is_named():
     assert (v.word, v.effects) == ("named", ("quadratic_drag",)) and v.probability > C.trust * C.certain
 
 
+def test_what_chance_gains_counts_for_nothing():
+    weak = hypothesis(objective=17300.0, loss=0.96, held=0.97)
+    named = evidence(weak, DRAG)
+    assert decide(named).word == "named"
+    # Of 300 nats an effect that is not there gains 290: with odds and what a number costs, nothing is left.
+    assert decide(replace(named, chance=290.0)).word == "none"
+    # What gains by thousands stands, and the second of a pair has to gain more than chance.
+    assert decide(replace(evidence(NULL, DRAG), chance=290.0)).word == "named"
+    both = hypothesis(("quadratic_drag", "gyro_scale"), 16750.0)
+    assert decide(replace(evidence(NULL, DRAG, both), chance=290.0)).effects == ("quadratic_drag",)
+
+
 def test_two_effects_are_a_pair():
     v = decide(evidence(NULL, DRAG, hypothesis(("quadratic_drag", "gyro_scale"), 16000.0)))
     assert (v.word, set(v.effects)) == ("pair", {"gyro_scale", "quadratic_drag"})
