@@ -235,9 +235,11 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
         cost={"block_steps": float(listener.simulated)},
     )
     ranked = alternatives(evidence, calibration())
-    problem.progress.begin("evidence", "asking what chance would gain")
-    evidence.chance = gained_by_chance(fitter, fits, next(h for h in kept if h.effects == ranked[0].evidence.effects))
-    ranked = alternatives(evidence, calibration())
+    if ranked[0].effects:
+        problem.progress.begin("evidence", "asking what chance would gain")
+        found = next(h for h in kept if h.effects == ranked[0].evidence.effects)
+        evidence.chance = gained_by_chance(fitter, fits, found)
+        ranked = alternatives(evidence, calibration())
     if held is not None:
         problem.progress.begin("evidence", "checking on held-out runs")
         stands = decide(evidence).best.effects

@@ -84,7 +84,7 @@ class Evidence:
     samples : innovations of the fit runs;  held_out_samples : of each held-out run
     remarks : codes of the remarks on the records;  sensor_faults : those that are faults of the sensor, in words
     limits : least detectable amplitudes [typical sizes]
-    chance : what the weakest effect of the best set gains in records of the set without it [nat]
+    chance : what the weakest effect of the best set gains at most in records of the set without it [nat]
     confusions : cosines between effects that these runs hardly tell apart;  separating : the run that would, in words
     """
 
