@@ -105,20 +105,20 @@ def test_what_is_lost_stays_lost():
     assert list(kept_shifts(np.array([0.0, -2.0]))) == [2.0]
 
 
-def uprights_of(shifts, *, zero=0.0, peaks=None, grain=0.0, scale=1.0):
+def uprights_of(shifts, *, zero=0.0, peaks=None, grain=0.0):
     """A record whose arcs of half a second add up to `shifts` rad, and to `zero` rad/s; a first swing of 2 rad/s."""
     t = np.arange(0.0, 0.5 * len(shifts) + 1.0, 0.001)
     times = 0.5 * np.arange(1, len(shifts) + 2)
     turned = np.interp(t, times, np.cumsum([0.0, *shifts])) + zero * t
     impacts = SimpleNamespace(times=times, peaks=np.ones(len(times)) if peaks is None else np.array(peaks))
-    return SimpleNamespace(impacts=impacts, t=t, turned=turned, rate=2.0, step=0.001, grain=grain, scale=scale)
+    return SimpleNamespace(impacts=impacts, t=t, turned=turned, rate=2.0, step=0.001, grain=grain)
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
 @pytest.mark.parametrize(
-    # 0.027 of a rate of 2 rad/s over half a second and two samples; and what the values' width adds.
+    # 0.027 of a rate of 2 rad/s over half a second and two samples; and the values' width all along it.
     ("limit", "given"),
-    [(0.031, {}), (0.031, {"zero": 0.1}), (0.051, {"grain": 0.01, "scale": 2.0})],
+    [(0.031, {}), (0.031, {"zero": 0.1}), (0.036, {"grain": 0.01})],
 )
 def test_an_arc_is_odd_beyond_the_limit_whatever_the_zero(sign, limit, given):
     arc, angle = odd_arc(uprights_of([0.0, 0.0, sign * 1.02 * limit, 0.0, 0.0, 0.0], **given))
