@@ -237,7 +237,9 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     ranked = alternatives(evidence, calibration())
     if ranked[0].effects:
         problem.progress.begin("evidence", "asking what chance would gain")
-        found = next(h for h in kept if h.effects == ranked[0].evidence.effects)
+        # What is too small to matter is asked for only where the rest was not fitted alone.
+        alone = next((h for h in fits if set(h.effects) == {*problem.carried, *ranked[0].effects}), None)
+        found = next(h for h in kept if h.effects == ranked[0].evidence.effects) if alone is None else alone
         evidence.chance = gained_by_chance(fitter, fits, found)
         ranked = alternatives(evidence, calibration())
     if held is not None:
