@@ -346,7 +346,7 @@ class Search:
 
     def parts(self, h: FittedModel, known: Sequence[FittedModel]) -> list[str]:
         """Return the effects of a model without which it is not known yet."""
-        there = {frozenset(k.effects) for k in [*known, *self.seen.values()]}
+        there = self.known_sets(known)
         return [e for e in self.added(h) if frozenset(h.effects) - {e} not in there]
 
     def less(self, h: FittedModel, effect: str, known: Sequence[FittedModel]) -> FittedModel:
@@ -372,7 +372,7 @@ class Search:
         start = self.fitter.evaluate(less.copy(), F)
         sized = sized_at_release(self.fitter, start)
         self.fitter.evaluate_all(sized, F)
-        there = {frozenset(h.effects) for h in [*known, *self.seen.values()]}
+        there = self.known_sets(known)
         field = best_of_each([*proposals(self.fitter, start, F, REPLACING), *sized])
         best = self.best(known)
         bar = best.objective + LEAVES[0] * max(start.objective - best.objective, 0.0)
@@ -380,9 +380,13 @@ class Search:
 
     def rivals(self, best: FittedModel, effect: str, known: Sequence[FittedModel]) -> list[FittedModel]:
         """Return the rivals of an effect that are not known yet, at F."""
-        found = rivals(self.fitter, best, effect, {frozenset(h.effects) for h in [*known, *self.seen.values()]})
+        found = rivals(self.fitter, best, effect, self.known_sets(known))
         follow(self.fitter, found, [*known, *found])
         return found
+
+    def known_sets(self, known: Sequence[FittedModel]) -> set[frozenset[str]]:
+        """Return the sets of effects of some models and of all that were fitted at the longest memory."""
+        return {frozenset(h.effects) for h in [*known, *self.seen.values()]}
 
     def remember(self, field: Sequence[FittedModel]) -> None:
         """Keep the best fit of each set of effects at the longest memory."""
