@@ -6,11 +6,11 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | eighteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | nineteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth`, `fourteenth`,
-                                `fifteenth`, `sixteenth`, `seventeenth` or `eighteenth` of theirs)
+                                `fifteenth` to `nineteenth` of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -24,6 +24,7 @@ import sys
 import tempfile
 import warnings
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +39,7 @@ import strangers_fifth
 import strangers_fourteenth
 import strangers_fourth
 import strangers_list
+import strangers_nineteenth
 import strangers_ninth
 import strangers_schemes
 import strangers_second
@@ -79,6 +81,7 @@ LISTS = {
     "sixteenth": strangers_sixteenth.MISTAKES,
     "seventeenth": strangers_seventeenth.MISTAKES,
     "eighteenth": strangers_eighteenth.MISTAKES,
+    "nineteenth": strangers_nineteenth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 #: Other integrators, as lines of the function that makes a step.
@@ -90,6 +93,7 @@ STEPS = {
     **strangers_sixteenth.SCHEMES,
     **strangers_seventeenth.SCHEMES,
     **strangers_eighteenth.SCHEMES,
+    **strangers_nineteenth.SCHEMES,
 }
 
 
@@ -194,54 +198,17 @@ def of_schemes() -> Iterator[tuple[Mistake, str]]:
     yield from in_turn((*strangers_list.MISTAKES, *strangers_second.MISTAKES), list(strangers_schemes.SCHEMES))
 
 
-def of_fourth_schemes() -> Iterator[tuple[Mistake, str]]:
-    """The same of the fourth list and its integrators."""
-    yield from strangers_fourth.OF_STEPS
-    yield from in_turn(strangers_fourth.MISTAKES, list(strangers_fourth.SCHEMES))
-
-
-def of_fifth_schemes() -> Iterator[tuple[Mistake, str]]:
-    """The same of the fifth list and its integrators."""
-    yield from strangers_fifth.OF_STEPS
-    yield from in_turn(strangers_fifth.MISTAKES, list(strangers_fifth.SCHEMES))
+def of_list_schemes(lists: Any) -> Iterator[tuple[Mistake, str]]:
+    """The same of a list and its own integrators, without what dwindles with the step."""
+    yield from lists.OF_STEPS
+    dwindle = getattr(lists, "OF_THE_STEP", ())
+    yield from in_turn(tuple(m for m in lists.MISTAKES if m.says not in dwindle), list(lists.SCHEMES))
 
 
 def of_thirteenth_schemes() -> Iterator[tuple[Mistake, str]]:
     """The thirteenth list in all integrators."""
     schemes = (*strangers_schemes.SCHEMES, *strangers_fourth.SCHEMES, *strangers_fifth.SCHEMES)
     yield from in_turn(strangers_thirteenth.MISTAKES, list(schemes))
-
-
-def of_fourteenth_schemes() -> Iterator[tuple[Mistake, str]]:
-    """The same of the fourteenth list and its integrators."""
-    yield from strangers_fourteenth.OF_STEPS
-    yield from in_turn(strangers_fourteenth.MISTAKES, list(strangers_fourteenth.SCHEMES))
-
-
-def of_fifteenth_schemes() -> Iterator[tuple[Mistake, str]]:
-    """The same of the fifteenth list and its integrators."""
-    yield from strangers_fifteenth.OF_STEPS
-    yield from in_turn(strangers_fifteenth.MISTAKES, list(strangers_fifteenth.SCHEMES))
-
-
-def of_sixteenth_schemes() -> Iterator[tuple[Mistake, str]]:
-    """The same of the sixteenth list and its integrators, without what dwindles with the step."""
-    yield from strangers_sixteenth.OF_STEPS
-    lasting = tuple(m for m in strangers_sixteenth.MISTAKES if m.says not in strangers_sixteenth.OF_THE_STEP)
-    yield from in_turn(lasting, list(strangers_sixteenth.SCHEMES))
-
-
-def of_seventeenth_schemes() -> Iterator[tuple[Mistake, str]]:
-    """The same of the seventeenth list and its integrators."""
-    yield from strangers_seventeenth.OF_STEPS
-    yield from in_turn(strangers_seventeenth.MISTAKES, list(strangers_seventeenth.SCHEMES))
-
-
-def of_eighteenth_schemes() -> Iterator[tuple[Mistake, str]]:
-    """The same of the eighteenth list and its integrators, without what dwindles with the step."""
-    yield from strangers_eighteenth.OF_STEPS
-    lasting = tuple(m for m in strangers_eighteenth.MISTAKES if m.says not in strangers_eighteenth.OF_THE_STEP)
-    yield from in_turn(lasting, list(strangers_eighteenth.SCHEMES))
 
 
 def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple[Mistake, str]]:
@@ -258,14 +225,15 @@ def in_turn(mistakes: tuple[Mistake, ...], schemes: list[str]) -> Iterator[tuple
 #: Lists whose mistakes are planted in backends with another integrator.
 OF_SCHEMES = {
     "scheme": of_schemes,
-    "fourth scheme": of_fourth_schemes,
-    "fifth scheme": of_fifth_schemes,
+    "fourth scheme": partial(of_list_schemes, strangers_fourth),
+    "fifth scheme": partial(of_list_schemes, strangers_fifth),
     "thirteenth scheme": of_thirteenth_schemes,
-    "fourteenth scheme": of_fourteenth_schemes,
-    "fifteenth scheme": of_fifteenth_schemes,
-    "sixteenth scheme": of_sixteenth_schemes,
-    "seventeenth scheme": of_seventeenth_schemes,
-    "eighteenth scheme": of_eighteenth_schemes,
+    "fourteenth scheme": partial(of_list_schemes, strangers_fourteenth),
+    "fifteenth scheme": partial(of_list_schemes, strangers_fifteenth),
+    "sixteenth scheme": partial(of_list_schemes, strangers_sixteenth),
+    "seventeenth scheme": partial(of_list_schemes, strangers_seventeenth),
+    "eighteenth scheme": partial(of_list_schemes, strangers_eighteenth),
+    "nineteenth scheme": partial(of_list_schemes, strangers_nineteenth),
 }
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
@@ -286,8 +254,16 @@ IN_PYTHON = (
     *strangers_sixteenth.IN_PYTHON,
     *strangers_seventeenth.IN_PYTHON,
     *strangers_eighteenth.IN_PYTHON,
+    *strangers_nineteenth.IN_PYTHON,
 )
-OF_C = (strangers_controls_c, strangers_fourth, strangers_fifth, strangers_seventeenth, strangers_eighteenth)
+OF_C = (
+    strangers_controls_c,
+    strangers_fourth,
+    strangers_fifth,
+    strangers_seventeenth,
+    strangers_eighteenth,
+    strangers_nineteenth,
+)
 IN_C = tuple(v for each in OF_C for v in each.IN_C)
 
 

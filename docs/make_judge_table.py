@@ -15,7 +15,7 @@ NAMES = {
     "ninth": "ninth list", "tenth": "tenth list", "eleventh": "eleventh list",
     "twelfth": "twelfth list", "thirteenth": "thirteenth list",
     "fourteenth": "fourteenth list", "fifteenth": "fifteenth list", "sixteenth": "sixteenth list",
-    "seventeenth": "seventeenth list", "eighteenth": "eighteenth list",
+    "seventeenth": "seventeenth list", "eighteenth": "eighteenth list", "nineteenth": "nineteenth list",
     "scheme": "mistakes in other integrators", "fourth scheme": "fourth list, in further integrators",
     "fifth scheme": "fifth list, in further integrators",
     "thirteenth scheme": "thirteenth list, in all of them",
@@ -24,6 +24,7 @@ NAMES = {
     "sixteenth scheme": "sixteenth list, in four further integrators",
     "seventeenth scheme": "seventeenth list, in four further integrators",
     "eighteenth scheme": "eighteenth list, in four further integrators",
+    "nineteenth scheme": "nineteenth list, in four further integrators",
     "variants": "correct variants", "zoo": "zoo",
 }  # fmt: skip
 
