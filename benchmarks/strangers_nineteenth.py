@@ -255,7 +255,7 @@ CONJUGATE_GRADIENTS = '''def solved(J, b):
     q, left = np.zeros(3), np.array(b, float)
     way = left
     for _ in range(9):
-        if not left.any():
+        if not left @ left > 0:
             break
         share = left @ left / (way @ J @ way)
         q, rest = q + share * way, left - share * (J @ way)
@@ -264,8 +264,9 @@ CONJUGATE_GRADIENTS = '''def solved(J, b):
 
 
 def first_half('''
-BY_CAYLEY = """S = np.tan(angle / 2) / angle * H
-    return np.linalg.solve(np.eye(3) - S, 2 * S)"""
+BY_CAYLEY = """S = np.tan(angle / 4) / angle * H
+    half = np.linalg.solve(np.eye(3) - S, 2 * S)
+    return 2 * half + half @ half"""
 BY_OUTER_PRODUCT = """u = np.asarray(Theta) / angle
     return np.sin(angle) / angle * H - 2 * np.sin(angle / 2) ** 2 * (np.eye(3) - np.outer(u, u))"""
 OF_SIX = """masses = np.block([[np.eye(3), np.zeros((3, 3))], [np.zeros((3, 3)), J]])
@@ -277,7 +278,7 @@ IN_PYTHON = (
     Variant("levers by a rotation class of a library",
             ((LEVERS, "    from scipy.spatial.transform import Rotation\n\n"
               "    r = Rotation.from_matrix(Lambda).apply(P)\n"),)),
-    Variant("exponential by Cayley's transform of a stretched turn", ((E, BY_CAYLEY),)),
+    Variant("exponential by Cayley's transform of half the turn, stretched", ((E, BY_CAYLEY),)),
     Variant("exponential by the outer product of the axis", ((E, BY_OUTER_PRODUCT),)),
     Variant("place by the powers of the step",
             ((PLACE, "x_next = np.array([1, h, h * h / 2]) @ np.array([x, v, a])"),)),
