@@ -43,21 +43,24 @@ def small_turns() -> Iterator[tuple[float, Case]]:
         yield place, fly({"Lambda@1": "I3"}, "spinning ball, a small turn", step=h, **ball)
 
 
-def on_feet(P: np.ndarray, flag: str) -> Case:
-    """Return a block that sinks on other feet: their forces, or the next row."""
-    case = ask({"F_N@0": "N1"}, flag, 1, standing(), made=ICE, v=-0.125 * Z)
+#: Four feet of their own, and these behind the eight.
+MORE = np.array([[0.03125, 0, 0], [-0.0625, 0.0078125, 0], [0, 0.046875, 0], [0.015625, -0.03125, 0]]) - UP * Z
+TWELVE = np.concatenate([table_3_1(delta_long=EVEN)["P"], MORE])
+
+
+def on_other_feet(case: Case, P: np.ndarray, **memory: np.ndarray) -> Case:
+    """Return the same question of a block on other feet; `memory`: what they remember, nothing by default."""
     n = len(P)
     feet = {k: np.full(n, case.inputs[k][0]) for k in PER_POINT if k != "P"}
-    memory = {"s": np.zeros((n, 2)), "anchored": np.zeros(n, bool), "sliding": np.zeros(n, bool)}
-    return replace(case, inputs=case.inputs | feet | memory | {"P": P, "names": [f"foot {i}" for i in range(n)]})
+    feet |= {"s": np.zeros((n, 2)), "anchored": np.zeros(n, bool), "sliding": np.zeros(n, bool)} | memory
+    return replace(case, inputs=case.inputs | feet | {"P": P, "names": [f"foot {i}" for i in range(n)]})
 
 
 def other_numbers() -> Iterator[tuple[float, Case]]:
-    """Yield N1 of a block on twelve feet, and on three."""
-    corners = table_3_1(delta_long=EVEN)["P"]
-    more = np.array([[0.03125, 0, 0], [-0.0625, 0.0078125, 0], [0, 0.046875, 0], [0.015625, -0.03125, 0]])
-    yield 22.91, on_feet(np.concatenate([corners, more - UP * Z]), "twelve feet, compressing")
-    yield 22.92, on_feet(more[:3] - UP * Z, "three feet, compressing")
+    """Yield N1 of a block that sinks on twelve feet, and on three: their forces, or the next row."""
+    for place, P, flag in ((22.91, TWELVE, "twelve"), (22.92, MORE[:3], "three")):
+        sinking = ask({"F_N@0": "N1"}, f"{flag} feet, compressing", 1, standing(), made=ICE, v=-0.125 * Z)
+        yield place, on_other_feet(sinking, P)
 
 
 def flags() -> Iterator[tuple[float, Case]]:

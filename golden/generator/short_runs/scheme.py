@@ -16,7 +16,7 @@ import numpy as np
 
 from golden.generator.bounds import programs, ways
 from golden.generator.bounds.bars import FACTOR, Case
-from golden.generator.short_runs import alone, apart, askew, basic, habits, memory, resolved
+from golden.generator.short_runs import alone, apart, askew, basic, habits, memory, resolved, several
 from golden.generator.short_runs.askew import STURDY
 from rockref.conformance.backends.richardson import PARTS as OF_AN_ANSWER
 from rockref.conformance.backends.richardson import SHOWN, WEIGHTS, extrapolated, refined
@@ -26,7 +26,7 @@ from rockref.engines import run
 from rockref.model.problem import Problem
 
 #: The questions of L5s, in order.
-SHORT_RUNS = (basic.all_short, alone.alone, memory.memory, apart.apart, askew.askew, habits.habits)
+SHORT_RUNS = (basic.all_short, alone.alone, memory.memory, apart.apart, askew.askew, habits.habits, several.several)
 #: Steps of a run, and the parts of a step of the converged solution: decided, a contact swings once in 200 steps.
 STEPS, PARTS = 16, 256
 #: By how many radians a block on its feet may swing in a step: decided, integrators that resolve a contact stay below.

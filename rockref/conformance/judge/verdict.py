@@ -1,5 +1,4 @@
-"""From findings to a verdict: pass, or the first rule that is wrong, with equation, vector, numbers, and what follows
-from it."""
+"""From findings to a verdict: pass, or the first rule that is wrong, with its vector, and what follows from it."""
 
 from __future__ import annotations
 
@@ -9,7 +8,8 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
-from rockref.conformance.judge.causes.flags import FORCES, later, telling
+from rockref.conformance.judge.causes.flags import FORCES, first_steps_are_right, later, telling
+from rockref.conformance.judge.causes.friction import one_step_a_row
 from rockref.conformance.judge.causes.other_runs import cause_of
 from rockref.conformance.judge.causes.whole_steps import rule_of_a_step
 from rockref.conformance.judge.compare_answer import ELSEWHERE, OTHERWISE, Check
@@ -33,9 +33,9 @@ SHORT = ("L5s", "LS")
 #: Of another integrator `rotate` shows the exponential, and not what is multiplied with it, and on which side;
 #: `assemble` shows the force, and not the mass by which it is divided.
 NOT_BY_PIECES = {"I3", "A1"}
-#: Places in L5s behind the runs that show moments of normal forces alone, behind those that show a second step of
-#: normal forces, behind the first that shows friction, and behind those that show moments of friction.
-AFTER_PUSHING, AFTER_STEPPING, AFTER_DRAGGING, AFTER_TURNING = 35.9, 42.45, 45.6, 64.55
+#: Places in L5s behind the runs that show moments of normal forces alone, a second step of normal forces, the first
+#: friction, moments of friction, and what a second step remembers.
+AFTER_PUSHING, AFTER_STEPPING, AFTER_DRAGGING, AFTER_TURNING, AFTER_REMEMBERING = 35.9, 42.45, 45.6, 64.55, 64.49
 
 
 @dataclass
@@ -130,7 +130,8 @@ def stand_ins() -> dict[tuple[str, str], float]:
     for v in layer("L5s"):
         for name, e in v.expect.items():
             if e.instead_of.startswith("F_T"):
-                found[v.id, name] = AFTER_TURNING if name.startswith("Lambda") else AFTER_DRAGGING
+                moved = AFTER_DRAGGING if one_step_a_row(v.inputs) else AFTER_REMEMBERING
+                found[v.id, name] = AFTER_TURNING if name.startswith("Lambda") else moved
             elif e.instead_of == "F_N@1" and e.rule != "S1":
                 found[v.id, name] = AFTER_STEPPING
             elif e.instead_of and name.startswith("Lambda"):
@@ -141,8 +142,7 @@ def stand_ins() -> dict[tuple[str, str], float]:
 def stages(pieces: Sequence[str]) -> tuple[tuple[str, ...], ...]:
     """Return the layers in the order in which a failure in them is believed: small before long.
 
-    Who shows a step but not the contact law is first asked by short runs, which tell the contact rules apart.
-    """
+    Who shows a step but not the contact law is first asked by short runs, which tell the contact rules apart."""
     shown = {"kinematics", "contact_law"} <= set(pieces)
     return (SMALL, ("L4",), SHORT) if shown else (SMALL, SHORT, ("L4",))
 
@@ -188,7 +188,8 @@ def suspect(findings: Findings) -> tuple[str | None, Check | None, str]:
             return unproved.rule, unproved, ""
         if findings.step_is_wrong:
             return check.rule, check, STEP_OF_THE_RUN
-        if check.name.startswith(FORCES) and later(check) and all_asked(findings):
+        handed_on = check.name.startswith(FORCES) or first_steps_are_right(checks, findings.answers)
+        if handed_on and later(check) and all_asked(findings):
             return check.rule, check, HANDED_ON
         return ("S2", check, LOOP) if all_asked(findings) else (None, check, UNASKED)
     return None, None, ""
@@ -238,9 +239,8 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
         check = next(c for c in findings.checks if c.failed and not c.weighed)
     bad_run = next((r for r in findings.runs if r.failed), None)
     bad_properties = [p for p in findings.properties if not p.holds] + [e for e in findings.effects if e.failed]
-    status = (
-        "FAIL" if check or bad_run or bad_properties else "PASS" if something_judged(findings) else "NOTHING JUDGED"
-    )
+    good = "PASS" if something_judged(findings) else "NOTHING JUDGED"
+    status = "FAIL" if check or bad_run or bad_properties else good
     found = Verdict(status, findings, rule, check, bad_run, says, rules)
     if status != "FAIL":
         return found

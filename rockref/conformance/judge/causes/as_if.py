@@ -61,7 +61,8 @@ def rule_as_if(answers: Answers, checks: Sequence[Check], check: Check) -> tuple
 
 def rule_of_untied_feet(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
     """Return T5, and a sentence, where the runs that are wrong are those of the law whose feet are not tied at the
-    start, and fewer those without springs of friction; its own rule and "" elsewhere."""
+    start, and fewer those without springs of friction, or stretched springs are right in others; its own rule and ""
+    elsewhere."""
     words, inputs = UNTIED
     failed = {c.vector for c in checks if c.failed and c.weighed and not c.follows and c.layer == check.layer}
     wrong = [(v, out) for v, out in answers if v.id in failed]
@@ -69,8 +70,20 @@ def rule_of_untied_feet(answers: Answers, checks: Sequence[Check], check: Check)
     if check.rule not in ("T1", "T5") or not all(is_explained(v, out, inputs) for v, out in told):
         return check.rule, ""
     untied, unsprung = (sum(is_explained(v, out, made) for v, out in wrong) for made in (inputs, NO_SPRING))
-    sure = untied - unsprung >= SOME and untied >= MOST * len(wrong)
-    return ("T5", SAYS.format(words)) if sure else (check.rule, "")
+    # In a single step nothing but the start decides: no such run may be another one.
+    single = [(v, out) for v, out in wrong if v.layer == "L5s" and len(rows_of_the_law(v.id)) == 2]
+    if untied < max(SOME, MOST * len(wrong)) or not all(is_explained(v, out, inputs) for v, out in single):
+        return check.rule, ""
+    if untied - unsprung >= SOME:
+        return "T5", SAYS.format(words)
+    right = [v for v, _ in answers if v.layer == check.layer and v.id not in failed]
+    return ("T5", GIVEN_UP) if sum(is_stretched(v) for v in right) >= FEET else (check.rule, "")
+
+
+def is_stretched(vector: Vector) -> bool:
+    """Return whether springs that are tied at the start move the block of a run, or turn it."""
+    tied, untied = law(vector), law(vector, UNTIED[1])
+    return any(float(np.max(np.abs(tied[key] - untied[key]))) > SAME for key in ("x", "Lambda"))
 
 
 def rule_of_feet_that_never_push(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:

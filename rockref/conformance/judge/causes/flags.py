@@ -83,6 +83,13 @@ def later(check: Check) -> bool:
     return not check.name.endswith("@0")
 
 
+def first_steps_are_right(checks: Sequence[Check], answers: Sequence[tuple[Vector, dict[str, Any]]]) -> bool:
+    """Return whether no short run is wrong before its second step: what a step hands to the next is wrong then."""
+    near = {v.id for v, _ in answers if v.layer == "L5s" and v.inputs["step"] * v.inputs["output_rate"] > 1 - 1e-9}
+    first = ("@0", "@1")
+    return not any(c.failed and c.layer == "L5s" and c.name.endswith(first[: 1 + (c.vector in near)]) for c in checks)
+
+
 def without_flags_in_company(checks: list[Check], answers: Sequence[tuple[Vector, dict[str, Any]]]) -> list[Check]:
     """Return the checks without flags of feet (K1) where runs of one foot show that its penetration is right.
 

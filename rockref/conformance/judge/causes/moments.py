@@ -84,7 +84,19 @@ def rule_of_a_turn_alone(answers: Answers, checks: Sequence[Check], check: Check
     if not check.name.startswith("Lambda@") or names.count("Lambda@1") < SOME or moved:
         return check.rule, ""
     of_moments = [c for c in wrong if c.rule == "A2" and c.name == "Lambda@1"]
+    if check.rule == "K1" and undamped_moments_are_right(answers, checks, check.layer):
+        return check.rule, ""
     return rule_of_a_moment(answers, checks, of_moments[0])[0] if of_moments else "A2", ALONE
+
+
+def undamped_moments_are_right(answers: Answers, checks: Sequence[Check], layer: str) -> bool:
+    """Return whether feet without dampers of friction turn the block as they should, by friction, too: a wrong sliding
+    velocity works in dampers alone, a wrong moment everywhere."""
+    failed = {c.vector for c in checks if c.failed}
+    runs = [v for v, _ in answers if v.layer == layer and v.rule in ("A2", "A3") and "Lambda@1" in v.expect]
+    undamped = [v for v in runs if not np.any(v.inputs["C_T"])]
+    dragged = any(np.any(v.inputs["mu_0"]) for v in undamped)
+    return len(undamped) >= SOME and dragged and not failed & {v.id for v in undamped}
 
 
 def hardly_moved(vector: Vector, out: dict[str, Any]) -> bool:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.judge.causes.data_flow import is_clear, law_extrapolated
-from rockref.conformance.judge.causes.falls import TOO_FAR, too_far
+from rockref.conformance.judge.causes.falls import NEAR, ON_TIME, SOME, TOO_FAR, too_far
 from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
 from rockref.conformance.judge.compare_answer import Check, compare_one
 from rockref.conformance.vectors import Vector
@@ -38,6 +38,7 @@ RATE = "Springs alone push as they should; dampers turn the block as they should
 STICKING = "Where feet stick, friction moves the block as it should; where they slide on, it does not."
 AFTER_THE_START = "Forces of the start and all that springs alone make are right: after a step dampers are wrong."
 SLOWED = "The rates of a ball that nothing turns change."
+DRAGGED = "Friction turns the block as it should, and moves it otherwise: the sum is wrong."
 PULLED = "What the place of a drifting block is off by grows faster than the steps: its velocity changes."
 
 
@@ -58,6 +59,10 @@ def rule_of_sixteen_steps(answers: Answers, checks: Sequence[Check], check: Chec
     """Return the rule that a failure of LS speaks of, and a sentence where that is another than its own."""
     if check.rule == "S2" and gains_speed(answers):
         return "A1", PULLED
+    if check.rule == "S2" and turns_are_on_time(answers):
+        return "I1", ON_TIME
+    if check.rule == "T1" and dragged_alone(answers):
+        return "A1", DRAGGED
     if check.rule == "A1" and is_clear(next(v for v, _ in answers if v.id == check.vector)) and too_far(answers, "LS"):
         return "I1", TOO_FAR
     if check.rule in ("A1", "N1") and dampers_alone(answers, checks, check):
@@ -71,6 +76,29 @@ def rule_of_sixteen_steps(answers: Answers, checks: Sequence[Check], check: Chec
     if check.rule == "A1" and sticking_is_right(answers, checks, check):
         return "T4", STICKING
     return check.rule, ""
+
+
+def turns_are_on_time(answers: Answers) -> bool:
+    """Return whether all blocks that spin steadily above the plate are right after sixteen steps, and those that drift
+    have made the same share of their way: the place is wrong, and neither the clock nor the start."""
+    clear = [(v, out) for v, out in answers if v.layer == "LS" and is_clear(v)]
+    turned = [(v, out) for v, out in clear if v.rule == "I3" and "Lambda@1" in v.expect]
+    drift = [(v, out) for v, out in clear if v.rule == "S2" and "x_T@1" in v.expect and np.any(v.inputs["v"])]
+    right = all(compare_one("Lambda@1", v, out, "scheme").grade != "outside" for v, out in turned)
+    wrong = all(compare_one("x_T@1", v, out, "scheme").grade == "outside" for v, out in drift)
+    if len(turned) < SOME or not right or len(drift) < 2 or not wrong:
+        return False
+    ways = [(np.asarray(out["x"], float)[1] - v.inputs["x"])[:2] for v, out in drift]
+    made = [v.expect["x_T@1"].value - v.inputs["x"][:2] for v, _ in drift]
+    share = float(ways[0] @ made[0] / (made[0] @ made[0]))
+    apart = [np.linalg.norm(way - share * of) / np.linalg.norm(of) for way, of in zip(ways, made, strict=True)]
+    return bool(max(apart) <= NEAR * abs(share - 1))
+
+
+def dragged_alone(answers: Answers) -> bool:
+    """Return whether friction that turns a leaning block as it should moves it otherwise."""
+    dragged = [(v, out) for v, out in answers if v.layer == "LS" and v.rule == "A3" and np.any(v.inputs["mu_0"])]
+    return bool(dragged) and all(moved_alone(*shares_off(v, out)) for v, out in dragged)
 
 
 def dampers_alone(answers: Answers, checks: Sequence[Check], check: Check) -> bool:

@@ -14,6 +14,7 @@ from rockref.conformance.judge.causes.data_flow import is_clear
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
 from rockref.conformance.judge.causes.flags import rule_of_lost_numbers
 from rockref.conformance.judge.causes.friction import DAMPER, moves_alone, rule_of_friction
+from rockref.conformance.judge.causes.handed_out import rule_of_what_is_shown
 from rockref.conformance.judge.causes.moments import rule_of_a_moment, rule_of_a_turn_alone
 from rockref.conformance.judge.causes.other_integrators import first_rows, rule_of_sixteen_steps
 from rockref.conformance.judge.causes.rows_of_the_law import SAME
@@ -40,7 +41,13 @@ def cause_of(
     wrong, then how a fall or a turn goes on.
     """
     if profile != "float32" and check.weighed and check.layer in ("L5s", "LS"):
-        for told in (rule_of_a_constant, rule_of_untied_feet, rule_of_lost_numbers, rule_of_no_rotation):
+        for told in (
+            rule_of_what_is_shown,
+            rule_of_a_constant,
+            rule_of_untied_feet,
+            rule_of_lost_numbers,
+            rule_of_no_rotation,
+        ):
             other, says = told(answers, checks, check)
             if says:
                 return other, says

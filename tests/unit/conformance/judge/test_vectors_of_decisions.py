@@ -61,6 +61,22 @@ HARDLY_SHOWN = (
             ((ONE_STEP, '    v_p, W_p = state["v"] + h * state["a"], state["W"] + (W_p - state["W"]) / 0.75\n'
               + ONE_STEP),)),
 )  # fmt: skip
+#: What more feet than eight, loads that differ, rows at a rate that is not whole, and a pull up and down show.
+SEVERAL = (
+    Mistake("no springs of friction beyond the tenth foot", ("T1", "T5"), FOUND, "    made[2, 10:] = 0\n" + FOUND),
+    Mistake("threshold by the largest normal force", ("T6", "T2"), CONE, CONE.replace("F_N", "F_most"), True,
+            (("C_T, mu_0, mu):\n", "C_T, mu_0, mu, F_most):\n"),
+             (FOUND, "    most = max(normal_force(xi[i], xi_rate[i], *made[:2, i]) for i in range(len(r)))\n" + FOUND),
+             ("*made[:, i],", "*made[:, i], most,"))),
+    Mistake("rows a second rounded to whole ones", ("S2",), "np.arange(rows) / (problem.output_rate *",
+            "np.arange(rows) / (np.rint(problem.output_rate) *"),
+    Mistake("upwards by the new acceleration alone", ("I4",), "v_next = v + h / 2 * (a + a_next)  # I4",
+            "v_next = v + h / 2 * (np.array([a[0], a[1], a_next[2]]) + a_next)"),
+    Mistake("the force of what slides less its cone", ("T3",), "sliding_force(F_T, F_N, mu)\n        s",
+            "F_T - mu * F_N * F_T / np.hypot(*F_T)\n        s"),
+    Mistake("a drag along the rate in place of a spring", ("T1",), "return -K_T * (u_t - s) - C_T * v_slide",
+            "return -(K_T * 1e-4 * np.hypot(*(u_t - s)) / 1e-5 + C_T) * np.asarray(v_slide)"),
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("mistake", MISTAKES + BY_PIECES, ids=lambda m: m.says)
@@ -69,11 +85,26 @@ def test_pieces_name_it(mistake):
     assert found["named"], found
 
 
-@pytest.mark.parametrize("mistake", MISTAKES[:1] + MISTAKES[2:] + HARDLY_SHOWN + BY_RUNS, ids=lambda m: m.says)
+@pytest.mark.parametrize(
+    "mistake", MISTAKES[:1] + MISTAKES[2:] + HARDLY_SHOWN + BY_RUNS + SEVERAL[:4], ids=lambda m: m.says
+)
 @pytest.mark.parametrize("hidden", [(), ("F", "anchored")], ids=["forces", "no forces"])
 def test_runs_name_it(mistake, hidden):
     found = seen(Runs(planted(mistake), {}, hidden), mistake)
     assert found["named"], found
+
+
+@pytest.mark.parametrize("mistake", SEVERAL[4:], ids=lambda m: m.says)
+def test_runs_that_show_forces_name_it(mistake):
+    found = seen(Runs(planted(mistake), {}), mistake)
+    assert found["named"], found
+
+
+def test_a_moment_that_is_right_before_it_is_turned_is_turned_wrongly():
+    """Also of an upright block, where the moment of the forces is shown."""
+    left = Mistake("moment left turned by a quarter", ("A3",), "return force, moment, Lambda.T @ moment",
+                   "return force, moment, (Lambda.T @ moment)[[1, 2, 0]]")  # fmt: skip
+    assert seen(planted(left), left)["named"]
 
 
 def test_what_a_run_leaves_behind_is_told_of_another_integrator():

@@ -10,6 +10,7 @@ from rockref.conformance.backends import call, richardson
 from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine
 from rockref.conformance.judge.causes.flags import (
+    first_steps_are_right,
     one_foot,
     rule_of_lost_numbers,
     without_flags_in_company,
@@ -26,6 +27,18 @@ def test_flags_that_follow_from_wrong_forces_name_no_rule():
     force = Check("L5s-S1-0031", "L5s", "S1", "F_N@1", "outside")
     assert without_late_flags([flag]) == [flag] and without_late_flags([flag, force]) == [force]
     assert without_late_flags([flag, replace(force, name="F_N@0")])[0] == flag
+
+
+def test_what_is_right_in_first_steps_is_handed_on_wrongly():
+    """Rows that lie sixteen steps apart show more than a first step."""
+    answers = [(v, {}) for v in vectors.layer("L5s")]
+    second, far = (
+        Check(v, "L5s", "I4", name, "outside") for v, name in (("L5s-I4-0006", "x@2"), ("L5s-I5-0164", "W@1"))
+    )
+    assert first_steps_are_right([second, far], answers)
+    for name in ("x@1", "F_T@0"):
+        assert not first_steps_are_right([second, replace(second, name=name)], answers)
+    assert first_steps_are_right([second, replace(second, name="x@1", layer="L4")], answers)
 
 
 def test_places_that_are_no_numbers_leave_the_word_to_wrong_numbers():

@@ -225,3 +225,31 @@ def without_friction_of_sliding_feet():
 def test_what_turns_otherwise_and_moves_rightly_is_the_moment_in_other_integrators_too(shown):
     rule, found = named(Other(shown, **without_friction_of_sliding_feet()))
     assert rule == "A2" and "what they turn is not" in found.says, (rule, found.says, found.check)
+
+
+def test_a_place_that_makes_a_share_of_every_way_is_not_the_clock():
+    """Turns are right at the same instants; where the start has another velocity, no two ways lose the same."""
+
+    def late(rules, problem, state, inertia):
+        after = kick_and_drift(rules, problem, state, inertia)
+        return replace(after, x=state.x + 0.75 * (after.x - state.x))
+
+    rule, found = named(Other(step=late))
+    assert rule == "I1" and "not the clock" in found.says, (rule, found.check)
+
+
+def test_where_forces_are_hidden_friction_that_turns_rightly_and_moves_otherwise_speaks_of_the_sum():
+    def force(F, mass, g):
+        return law().force(F * [2.0, 2.0, 1.0], mass, g)
+
+    rule, found = named(Other(HIDDEN, force=force))
+    assert rule == "A1", (rule, found.check, found.says)
+
+
+def test_where_forces_are_hidden_a_slide_without_the_spin_speaks_of_the_velocity():
+    def without_the_spin(x, Lambda, v, W, P):
+        k, still = point_kinematics(x, Lambda, v, W, P), point_kinematics(x, Lambda, v, W * [1.0, 1.0, 0.0], P)
+        return k._replace(v_slide=still.v_slide)
+
+    rule, found = named(Other(HIDDEN, kinematics=without_the_spin))
+    assert rule == "K1", (rule, found.check, found.says)
