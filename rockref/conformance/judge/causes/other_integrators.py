@@ -96,9 +96,15 @@ def turns_are_on_time(answers: Answers) -> bool:
 
 
 def dragged_alone(answers: Answers) -> bool:
-    """Return whether friction that turns a leaning block as it should moves it otherwise."""
-    dragged = [(v, out) for v, out in answers if v.layer == "LS" and v.rule == "A3" and np.any(v.inputs["mu_0"])]
-    return bool(dragged) and all(moved_alone(*shares_off(v, out)) for v, out in dragged)
+    """Return whether friction that turns a leaning block as it should moves it otherwise, and springs of friction alone
+    are off by no more in the turn than in the place: levers make more of a wrong force, and less of a wrong sum."""
+    dragged = [
+        (v, out) for v, out in answers if v.layer == "LS" and np.any(v.inputs["mu_0"]) and v.rule in ("A2", "A3")
+    ]
+    leaning = [shares_off(v, out) for v, out in dragged if v.rule == "A3"]
+    springs = [shares_off(v, out) for v, out in dragged if not np.any(v.inputs["C_T"])]
+    alone = bool(leaning) and all(moved_alone(*s) for s in leaning)
+    return alone and bool(springs) and all(turned <= moved for moved, turned in springs)
 
 
 def dampers_alone(answers: Answers, checks: Sequence[Check], check: Check) -> bool:

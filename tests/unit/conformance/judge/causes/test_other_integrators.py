@@ -253,3 +253,15 @@ def test_where_forces_are_hidden_a_slide_without_the_spin_speaks_of_the_velocity
 
     rule, found = named(Other(HIDDEN, kinematics=without_the_spin))
     assert rule == "K1", (rule, found.check, found.says)
+
+
+class AnchorsOfOthers(Other):
+    """Anchors of the start go to other feet."""
+
+    def simulate(self, problem):
+        start = replace(problem.start, s=np.roll(problem.start.s, 3, axis=0))
+        return super().simulate(replace(problem, start=start))
+
+
+def test_where_forces_are_hidden_anchors_of_other_feet_are_no_sum():
+    assert named(AnchorsOfOthers(HIDDEN))[0] in ("T1", "T5")
