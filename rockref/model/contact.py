@@ -196,6 +196,20 @@ def move_anchor(
     return np.where(stick[..., None], s, slid)
 
 
+def share_of_first(xi: np.ndarray, xi_rate: np.ndarray, h: float) -> np.ndarray:
+    """Return the factor (..., n) on the first force of a contact, in the step of h [s] in which it begins; else 1.
+
+    A damped foot that touches is pushed with C_N xi_rate at once. The step gives such a force the weight h/2 there, and
+    h/2 in the next one, whenever in the step it began: the speed after an impact then depends on where the steps fall,
+    by a part of the order h. The point came down the way h xi_rate in this step, and xi of it in contact: with the
+    weight h xi / (h xi_rate) there, what is left is of the order h^2.
+    """
+    way = h * xi_rate
+    begins = (xi >= ZERO[xi.dtype]) & (xi < way)
+    one = np.ones_like(xi)
+    return np.where(begins, 0.5 + xi / np.where(begins, way, one), one)
+
+
 def roll_anchor(s: np.ndarray, radius: np.ndarray, turn: np.ndarray) -> np.ndarray:
     """Round feet only: the anchor rolls along, so that u - s follows the material velocity at the contact.
 

@@ -160,6 +160,9 @@ def evaluate_contact(problem: Problem, state: State, x, Lambda, v, W, turn, t, m
     F = np.empty_like(k.u)
     F[..., :2] = F_T
     F[..., 2] = F_N
+    if problem.first_by_share:
+        F = contact.share_of_first(k.xi, k.xi_rate, problem.step)[..., None] * F
+        F_N = F[..., 2]
     return Contact(t, k, touching, touching & ~stick, s, F_N, F, turn)
 
 

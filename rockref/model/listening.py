@@ -1,7 +1,9 @@
 """A run that listens: the law, pulled at every tick a little towards rates and attitudes that were observed.
 
 Between two ticks the law moves the block. At a tick the run gives its rates, which are a prediction from all that was
-observed before, and is then corrected. What was observed less what was predicted is the innovation.
+observed before, and is then corrected. What was observed less what was predicted is the innovation. The first force of
+a contact counts by the share of its step in contact (`rockref.model.contact.share_of_first`): so innovations hardly
+depend on where the steps fall.
 
 Sources: D. G. Luenberger (1971), An introduction to observers, IEEE Trans. Autom. Control 16:596-602,
 doi:10.1109/TAC.1971.1099826; L. Ljung (1999), System Identification: Theory for the User, 2nd ed., Prentice Hall,
@@ -106,7 +108,7 @@ def listen(problem: Problem, target: Target) -> np.ndarray:
     InputError
         E-ANGLE, where a step turns the block too far.
     """
-    problem = as_arrays(problem)
+    problem = replace(as_arrays(problem), first_by_share=True)
     inertia = prepared_inertia(problem.block)
     rates = np.full_like(target.rates, np.nan)
     with np.errstate(all="ignore"):

@@ -161,7 +161,8 @@ class Problem(Shown):
     """One run, or a batch of runs side by side (leading axes): what `simulate` of every engine takes.
 
     step, duration [s]; output_rate [Hz]; effects in the order in which they act (empty: the law alone); base: how the
-    plate moves, the same for the runs of a batch (None: it stands still).
+    plate moves, the same for the runs of a batch (None: it stands still); first_by_share: whether the first force of a
+    contact counts by the share of its step in which the points touch, as runs that listen have it; the law does not.
     """
 
     block: Block
@@ -173,6 +174,7 @@ class Problem(Shown):
     effects: tuple[Any, ...] = ()
     labels: dict[str, Any] = field(default_factory=dict)
     base: BaseMotion | None = None
+    first_by_share: bool = False
 
     def replace(self, **changes: Any) -> Problem:
         """Return a copy with some fields changed."""

@@ -13,11 +13,14 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import loss
 from rockref.discover.fit.stages import Stage
 
-#: By the stage: mean loss of what twice as many steps change from which steps are halved, and the largest factor on
-#: their number (decided: short memories only lead to a valley, and a twentieth of the noise hides none; what the long
-#: ones find is told, and a hundredth is a bias beside intervals, but on simulated blocks a second halving takes off
-#: nothing).
-COARSE = {"S1": (0.05, 4.0), "S2": (0.05, 4.0), "S3": (0.01, 2.0), "F": (0.01, 2.0)}
+#: By the stage: mean loss of what twice as many steps change from which steps are halved; decided: short memories only
+#: lead to a valley, and a twentieth of the noise hides none.
+COARSE = {"S1": 0.05, "S2": 0.05, "S3": 0.01}
+#: The same at the longest memory, in all [nat]. There models are compared by nats: on simulated blocks halving takes
+#: off nine tenths of it, so that one is left.
+COARSE_IN_ALL = 10.0
+#: The largest factor on the number of steps (decided: a fit then takes twice to three times as long).
+FINEST = 4.0
 
 
 def fine_enough(fitter: Fitter, field: Sequence[FittedModel], stages: Sequence[Stage]) -> bool:
@@ -27,19 +30,23 @@ def fine_enough(fitter: Fitter, field: Sequence[FittedModel], stages: Sequence[S
     """
     fine, finer = True, fitter.problem.finer
     for stage in stages:
-        coarse, finest = COARSE[stage.name]
-        while finer.get(stage.name, 1.0) < finest and changed(fitter, field, stage) > coarse:
+        while finer.get(stage.name, 1.0) < FINEST and changed(fitter, field, stage) > coarse(fitter, stage):
             finer[stage.name] = 2.0 * finer.get(stage.name, 1.0)
             fine = False
             fitter.problem.say(f"{stage.name}: steps halved")
     return fine
 
 
+def coarse(fitter: Fitter, stage: Stage) -> float:
+    """Return the loss [nat] of what twice as many steps change from which those of a stage are halved."""
+    share = COARSE.get(stage.name)
+    return COARSE_IN_ALL if share is None else 0.5 * share * fitter.residuals(stage).count
+
+
 def changed(fitter: Fitter, field: Sequence[FittedModel], stage: Stage) -> float:
-    """Return the mean loss of what twice as many steps change of innovations at a stage, the largest of a field."""
+    """Return the loss [nat] of what twice as many steps change of innovations at a stage, the largest of a field."""
     once, twice = [h.copy() for h in field], [h.copy() for h in field]
     fitter.evaluate_all(once, stage)
     fitter.evaluate_all(twice, replace(stage, steps=2 * stage.steps))
-    count = fitter.residuals(stage).count
     pairs = [(a.r, b.r) for a, b in zip(once, twice, strict=True) if a.r is not None and b.r is not None]
-    return max((float(loss(a - b).sum()) / count for a, b in pairs), default=0.0)
+    return max((0.5 * float(loss(a - b).sum()) for a, b in pairs), default=0.0)

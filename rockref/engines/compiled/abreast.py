@@ -154,6 +154,7 @@ def _make_loop(groups: int, lanes: int, source: int):
             for lane in range(LANES):
                 b = runs[lane]
                 fill_lane(lane, bodies[b], body_)
+                body_[col.ONSET, lane] = h if every > 0 else 0.0
                 fill_lane(lane, effects[b], effects_)
                 fill_lane(lane, states[b], state_)
                 fill_lane(lane, states[b, col.L : col.L + 9], released_)

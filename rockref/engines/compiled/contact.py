@@ -116,6 +116,13 @@ def trial(ux, uy, vx, vy, props, memory, i, turn0, turn1):
 
 
 @inlined
+def by_share(begins, xi, way, fx, fy, fz):
+    """Return the force on a point, in lanes where its contact begins by the share of the step in contact."""
+    share = choose(begins, 0.5 + xi / choose(begins, way, 1.0), 1.0)
+    return share * fx, share * fy, share * fz
+
+
+@inlined
 def returned(ux, uy, vx, vy, sx, sy, tx, ty, size, F_N, mu_0, mu, props, memory, i, above):
     """Rules T2 to T4 and T6: the friction force; moves the anchor and notes whether the point slides."""
     limit = choose(memory[i, col.SLIDING] != 0.0, mu, mu_0) * F_N  # T6

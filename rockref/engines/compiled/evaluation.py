@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rockref.engines.compiled import columns as col
 from rockref.engines.compiled import slots
-from rockref.engines.compiled.contact import altered, altered_friction, oriented, returned, surely_held, trial
+from rockref.engines.compiled.contact import altered, altered_friction, by_share, oriented, returned, surely_held, trial
 from rockref.engines.compiled.jit import inlined, marked
 from rockref.engines.compiled.lanes import anyof, both, choose, negated
 from rockref.engines.compiled.loads import add_loads, resistance
@@ -91,6 +91,11 @@ def make_evaluation(groups: int, bearing: int):
                     mu_0, mu = choose(loose, other_0, mu_0), choose(loose, other, mu)
             fx, fy = returned(ux, uy, vx, vy, sx, sy, tx, ty, size, fz, mu_0, mu, props, memory, i, above)
             fx, fy, fz = choose(above, 0.0, fx), choose(above, 0.0, fy), choose(above, 0.0, fz)  # N2
+            if bearing:
+                way = body[col.ONSET] * -vz
+                begins = both(-height < way, negated(above))
+                if anyof(begins):
+                    fx, fy, fz = by_share(begins, -height, way, fx, fy, fz)
             forces[i, 0], forces[i, 1], forces[i, 2] = fx, fy, fz
             Fx += fx
             Fy += fy
