@@ -64,6 +64,19 @@ def test_bits_are_those_of_the_text(runs):
     assert not np.array_equal(plain[:, 2:], own[:, 2:]), "the correction must show"
 
 
+@pytest.mark.parametrize("ids", [(), EXACT], ids=["law", "all effects"])
+def test_contacts_that_begin_have_the_bits_of_the_text(ids):
+    """Blocks that fall on their feet, one after the other touching in other parts of a step."""
+    p = kicked(TABLE, *ids)
+    falling = replace(p.start, W=np.array([0.3, 0.4, 0.1]))
+    runs = [p.replace(start=replace(falling, x=p.start.x + [0, 0, 2e-5 + 3e-7 * k])) for k in range(6)]
+    deaf = listening(6, gain_rate=np.zeros(6), gain_attitude=np.zeros(6))
+    own, compiled = (run_listening(runs, deaf, engine=e) for e in ("numpy", "numba"))
+    np.testing.assert_array_equal(compiled, own)
+    plain = run_batch(replace(from_problems(runs), wanted=EVERY * np.arange(TICKS)))[:, :, col.W_ : col.W_ + 3]
+    assert not np.array_equal(plain, own), "contacts must begin"
+
+
 def mixed():
     runs = [kicked(TABLE), kicked(TABLE, "quadratic_drag"), kicked(TABLE.replace(K_N=5e7)), kicked(TABLE, "adhesion")]
     return 3 * runs
@@ -77,7 +90,7 @@ def test_any_number_of_threads(workers):
 
 
 def test_a_run_that_hears_nothing_is_the_plain_run():
-    """By gains of zero, and by a record that is lost throughout."""
+    """By gains of zero, and by a record that is lost throughout; while no contact begins."""
     batch = replace(from_problems(mixed()), wanted=EVERY * np.arange(TICKS))
     plain = run_batch(batch)[:, :, col.W_ : col.W_ + 3]
     deaf = listening(12, gain_rate=np.zeros(12), gain_attitude=np.zeros(12))

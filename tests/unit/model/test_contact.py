@@ -22,6 +22,18 @@ def carried(state, t):
     return state["x"] + state["v"] * t + rotation.apply_to_points(Lambda, state["P"])
 
 
+class TestShareOfFirst:
+    def test_a_contact_that_begins_counts_from_where_it_touched(self):
+        h, rate = 1e-5, 0.2
+        xi = np.array([0.0, 0.25, 0.75]) * h * rate
+        np.testing.assert_allclose(contact.share_of_first(xi, np.full(3, rate), h), [0.5, 0.75, 1.25], rtol=1e-12)
+
+    def test_all_others_count_in_full(self):
+        """Above the plate, rising, deeper than one step comes, at rest."""
+        xi, rate = np.array([-1e-9, 1e-9, 3e-6, 1e-6, 0.0]), np.array([0.2, -0.2, 0.2, 0.0, 0.0])
+        np.testing.assert_array_equal(contact.share_of_first(xi, rate, 1e-5), 1.0)
+
+
 class TestK1:
     def test_position_and_lever_arm(self):
         s = moving_block()

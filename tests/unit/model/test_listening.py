@@ -108,9 +108,28 @@ def own_record(problem, every: int, gain: float) -> tuple[np.ndarray, Target]:
     return record.W, Target(record.W, turns, np.full((K, 3), gain), np.full(K, gain), every)
 
 
+def speed_after_impact(z: float, step: float, first_by_share: bool) -> float:
+    """The speed [m/s] at which a point mass without weight leaves the plate, 0.1 m/s before."""
+    start = physics.mass_on_a_foot(z=z, v=(0, 0, -0.1), g=0.0, step=step, duration=0.01)
+    return float(simulate(start.replace(first_by_share=first_by_share)).v[-1, 2])
+
+
+def test_by_its_share_the_first_force_hardly_depends_on_where_the_steps_fall():
+    """To the second order of the step; the law's own first force to the first."""
+    step = 4e-5
+    heights = 1e-5 + 0.1 * step * np.arange(8) / 8
+    right = speed_after_impact(heights[0], step / 64, first_by_share=True)
+    by_share, whole = (np.array([speed_after_impact(z, step, kind) for z in heights]) for kind in (True, False))
+    assert np.ptp(by_share) < np.ptp(whole) / 10
+    assert np.abs(by_share - right).max() < np.abs(whole - right).max() / 5
+    coarser = np.array([speed_after_impact(1e-5 + 0.2 * step * k / 8, 2 * step, True) for k in range(8)])
+    assert 3 < np.ptp(coarser) / np.ptp(by_share) < 6, "four times for twice the step"
+
+
 @pytest.mark.parametrize("gain", [0.0, 0.5])
 def test_a_run_that_listens_to_itself_is_the_plain_run(gain):
-    """Without gain to the bit; with gain the roundings of the record's attitude are heard, 1e-16 rad over 5e-5 s."""
+    """While no contact begins: without gain to the bit; with gain the roundings of the record's attitude are heard,
+    1e-16 rad over 5e-5 s."""
     W, target = own_record(TABLE.problem(3e-3), 5, gain)
     np.testing.assert_allclose(listen(TABLE.problem(3e-3), target), W, rtol=0, atol=1e-10 if gain else 0)
 
