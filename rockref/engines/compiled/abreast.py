@@ -32,7 +32,7 @@ def workspace(n: int) -> tuple[np.ndarray, ...]:
     In order: body, centres, props, memory, forces, effects, state, attitude at the start, what is heard, gains.
     """
     shapes = [
-        (col.BODY,), (n, 3), (n, col.PROPS), (n, col.MEMORY), (n, 3), (slots.SLOTS,), (col.STATE,), (9,), (HEARD,),
+        (col.BODY + 1,), (n, 3), (n, col.PROPS), (n, col.MEMORY), (n, 3), (slots.SLOTS,), (col.STATE,), (9,), (HEARD,),
         (2,),
     ]  # fmt: skip
     sizes = [int(np.prod(shape)) * LANES for shape in shapes]

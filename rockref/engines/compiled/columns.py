@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-#: Columns of `body`: mass, g, J (9), J^-1 (9), whether the axes are principal, step in which the first force of a
-#: contact counts by its share [s] (0: it counts in full).
-BODY = 22
-MASS, GRAVITY, J, J_INVERSE, PRINCIPAL, ONSET = 0, 1, 2, 11, 20, 21
+#: Columns of `body`: mass, g, J (9), J^-1 (9), whether the axes are principal.
+BODY = 21
+MASS, GRAVITY, J, J_INVERSE, PRINCIPAL = 0, 1, 2, 11, 20
+#: One more column of `body`, of runs that go abreast: the step in which the first force of a contact counts by its
+#: share [s]; 0 where it counts in full.
+ONSET = BODY
 #: Columns of `state`: x, v, Lambda (9), W, a, T, whether a and T are given, t, origin, count; of the plate: q, q_rate,
 #: pitch, pitch_rate.
 STATE = 32
