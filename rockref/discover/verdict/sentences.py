@@ -9,9 +9,13 @@ from rockref.discover.fit.objective import WHITE
 from rockref.discover.verdict.rules import Verdict
 
 
+#: Nats from which a gain by chance is told (decided: it then counts as much as an effect's prior odds).
+TOLD = 20.0
+
+
 def sentence(verdict: Verdict, evidence: Evidence) -> str:
-    """Return what the verdict says, in one or two sentences."""
-    return {
+    """Return what the verdict says, in one to three sentences."""
+    said = {
         "none": no_effect,
         "named": one_effect,
         "pair": several_effects,
@@ -20,6 +24,17 @@ def sentence(verdict: Verdict, evidence: Evidence) -> str:
         "something_else": unexplained,
         "not_trustworthy": contradiction,
     }[verdict.word](verdict, evidence)
+    return said + by_chance(evidence)
+
+
+def by_chance(evidence: Evidence) -> str:
+    """Return a sentence on what an effect that is not there gains in these runs, where that is much, or ""."""
+    if evidence.chance < TOLD:
+        return ""
+    return (
+        f" In records that the model makes without it, an effect gains up to {evidence.chance:.0f} nats by chance; so "
+        "much of its gain counts for nothing."
+    )
 
 
 def no_effect(verdict: Verdict, evidence: Evidence) -> str:

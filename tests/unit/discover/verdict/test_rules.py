@@ -48,6 +48,9 @@ def test_what_chance_gains_counts_for_nothing():
     assert decide(named).word == "named"
     # Of 300 nats an effect that is not there gains 290: with odds and what a number costs, nothing is left.
     assert decide(replace(named, chance=290.0)).word == "none"
+    told = replace(named, chance=290.0)
+    assert "290 nats by chance" in sentence(decide(told), told)
+    assert "by chance" not in sentence(decide(named), named)
     # What gains by thousands stands, and the second of a pair has to gain more than chance.
     assert decide(replace(evidence(NULL, DRAG), chance=290.0)).word == "named"
     both = hypothesis(("quadratic_drag", "gyro_scale"), 16750.0)
