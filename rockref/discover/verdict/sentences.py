@@ -8,7 +8,6 @@ from rockref.discover.evidence.evidence import Evidence
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.verdict.rules import Verdict
 
-
 #: Nats from which a gain by chance is told (decided: it then counts as much as an effect's prior odds).
 TOLD = 20.0
 

@@ -8,6 +8,7 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.floor import RECORDS, in_own_record
 from rockref.discover.fit.problem import fit_problem
 from rockref.discover.fit.stages import S1, S3, F
+from rockref.discover.selection import chance
 from rockref.discover.selection.chance import gain_in_own_record, gained_by_chance, weaker
 from rockref.effects import catalogue
 from tests.unit.discover.synthetic import experiment
@@ -51,6 +52,20 @@ def test_chance_gains_the_most_of_several_records(fitted):
     single = [gain_in_own_record(fitter, null, "rolling_resistance", seed) for seed in range(RECORDS)]
     assert len(set(single)) == RECORDS
     assert gained_by_chance(fitter, [null, more], more) == max(0.0, *single) < 10.0
+
+
+@pytest.mark.parametrize(
+    ("gains", "asked", "largest"),
+    [([3, 1, 4], 3, 4.0), ([3, 40, 5, 2, 50, 6, 1], 7, 50.0), ([-2, 800], 2, 800.0), ([-2, -3, -1], 3, 0.0)],
+    ids=["calm", "by much", "more than the effect", "nothing"],
+)
+def test_more_records_are_asked_where_chance_gains_much(fitted, monkeypatch, gains, asked, largest):
+    fitter, null, _ = fitted
+    seeds = []
+    monkeypatch.setattr(chance, "gain_in_own_record", lambda *given: float(gains[seeds.append(given[-1]) or given[-1]]))
+    less = FittedModel((), null.z, objective=17000.0)
+    more = FittedModel(("rolling_resistance",), null.z, objective=16700.0)
+    assert gained_by_chance(fitter, [less, more], more) == largest and seeds == list(range(asked))
 
 
 def test_what_gains_far_more_than_chance_could_is_not_asked_for(fitted):
