@@ -107,10 +107,11 @@ def diagnose_outcomes(
 
 
 def numbers(evidence: Evidence) -> Calibration:
-    """Return the numbers of the rules for outcomes: what is unexplained depends on how many tests there are."""
+    """Return the numbers of the rules for outcomes: what is unexplained depends on how many tests there are, and there
+    are no companions."""
     said = evidence.signature
     return replace(
-        calibration(), temperature=said["temperature"],
+        calibration(), temperature=said["temperature"], companion=0.0,
         misfit=WHITE + UNEXPLAINED * said["standard_error"],
         misfit_of_run=WHITE + UNEXPLAINED * said["largest_standard_error"],
     )  # fmt: skip

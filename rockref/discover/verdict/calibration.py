@@ -13,6 +13,7 @@ class Calibration:
     """The numbers of `calibration.toml`, where each has its meaning."""
 
     temperature: float
+    companion: float
     prior_odds: float
     certain: float
     least_amplitude: float

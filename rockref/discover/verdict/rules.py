@@ -1,7 +1,7 @@
 """The verdict, from stored evidence and calibrated numbers: a pure function.
 
-1. Each hypothesis has a probability: Laplace's evidence at one temperature, less what each effect gains by chance,
-   times the prior odds of its effects.
+1. Each hypothesis has a probability: Laplace's evidence at one temperature, less what each effect gains by chance, and
+   each one beside the first by standing for another form of that, times the prior odds of its effects.
 2. An effect too small to matter gives its probability to the hypothesis without it.
 3. If even the best hypothesis leaves innovations above the floor, the runs are not explained: by one run alone, or all.
    An effect that leaves next to nothing of the misfit is indicated all the same, without those beside it that others
@@ -95,7 +95,8 @@ def alternatives(evidence: Evidence, c: Calibration) -> tuple[Alternative, ...]:
     for h in sorted(evidence.hypotheses, key=lambda h: h.objective):
         effects = substantial(h, evidence.carried, c)
         each = np.log(c.prior_odds) - evidence.chance / c.temperature
-        score = log_evidence(h, c.temperature) + len(effects) * each
+        beside = max(len(effects) - 1, 0) * c.companion / c.temperature
+        score = log_evidence(h, c.temperature) + len(effects) * each - beside
         if effects not in scores or score > scores[effects]:
             scores[effects], fits[effects] = score, h
     keys = sorted(scores, key=lambda k: -scores[k])

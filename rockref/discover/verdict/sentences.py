@@ -8,8 +8,8 @@ from rockref.discover.evidence.evidence import Evidence
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.verdict.rules import Verdict
 
-#: Nats from which a gain by chance is told (decided: it then counts as much as an effect's prior odds).
-TOLD = 20.0
+#: Nats from which a gain by chance is told (decided: it then counts as much as the prior odds of an effect).
+TOLD = 10.0
 
 
 def sentence(verdict: Verdict, evidence: Evidence) -> str:
