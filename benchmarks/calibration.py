@@ -25,7 +25,8 @@ from rockref.discover.verdict.calibration import Calibration, calibration
 
 #: Values that are tried of each number.
 TRIED = {
-    "temperature": (4, 8, 12, 18, 25, 36, 50),
+    "temperature": (1, 1.5, 2, 3, 4, 5, 7, 12, 25),
+    "companion": (0, 40, 75, 150, 300),
     "prior_odds": (0.2, 0.1, 0.05, 0.02, 0.005),
     "certain": (0.8, 0.9, 0.95, 0.99),
     "least_amplitude": (0.05, 0.1, 0.2, 0.3),
