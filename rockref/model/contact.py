@@ -199,10 +199,10 @@ def move_anchor(
 def share_of_first(xi: np.ndarray, xi_rate: np.ndarray, h: float) -> np.ndarray:
     """Return the factor (..., n) on the first force of a contact, in the step of h [s] in which it begins; else 1.
 
-    A damped foot that touches is pushed with C_N xi_rate at once. The step gives such a force the weight h/2 there, and
-    h/2 in the next one, whenever in the step it began: the speed after an impact then depends on where the steps fall,
-    by a part of the order h. The point came down the way h xi_rate in this step, and xi of it in contact: with the
-    weight h xi / (h xi_rate) there, what is left is of the order h^2.
+    A damped foot that touches is pushed with C_N xi_rate at once (3.5a). The step gives such a force the weight h/2
+    there, and h/2 in the next one (rules I4, I5), whenever in the step it began: the speed after an impact then depends
+    on where the steps fall, by a part of the order h. The point came down the way h xi_rate in this step, and xi of it
+    in contact: with the weight h xi / (h xi_rate) there, what is left is of the order h^2.
     """
     way = h * xi_rate
     begins = (xi >= ZERO[xi.dtype]) & (xi < way)
