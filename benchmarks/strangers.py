@@ -6,11 +6,11 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | nineteenth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
+    --list first | second | ... | twentieth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
                                 by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth`, `fourteenth`,
-                                `fifteenth` to `nineteenth` of theirs)
+                                `fifteenth` to `twentieth` of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -51,6 +51,7 @@ import strangers_tenth
 import strangers_third
 import strangers_thirteenth
 import strangers_twelfth
+import strangers_twentieth
 from strangers_list import HARMLESS, Mistake
 
 from rockref.conformance.backends.executable import Executable
@@ -82,6 +83,7 @@ LISTS = {
     "seventeenth": strangers_seventeenth.MISTAKES,
     "eighteenth": strangers_eighteenth.MISTAKES,
     "nineteenth": strangers_nineteenth.MISTAKES,
+    "twentieth": strangers_twentieth.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 #: Other integrators, as lines of the function that makes a step.
@@ -94,6 +96,7 @@ STEPS = {
     **strangers_seventeenth.SCHEMES,
     **strangers_eighteenth.SCHEMES,
     **strangers_nineteenth.SCHEMES,
+    **strangers_twentieth.SCHEMES,
 }
 
 
@@ -234,6 +237,7 @@ OF_SCHEMES = {
     "seventeenth scheme": partial(of_list_schemes, strangers_seventeenth),
     "eighteenth scheme": partial(of_list_schemes, strangers_eighteenth),
     "nineteenth scheme": partial(of_list_schemes, strangers_nineteenth),
+    "twentieth scheme": partial(of_list_schemes, strangers_twentieth),
 }
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
@@ -255,6 +259,7 @@ IN_PYTHON = (
     *strangers_seventeenth.IN_PYTHON,
     *strangers_eighteenth.IN_PYTHON,
     *strangers_nineteenth.IN_PYTHON,
+    *strangers_twentieth.IN_PYTHON,
 )
 OF_C = (
     strangers_controls_c,
@@ -263,6 +268,7 @@ OF_C = (
     strangers_seventeenth,
     strangers_eighteenth,
     strangers_nineteenth,
+    strangers_twentieth,
 )
 IN_C = tuple(v for each in OF_C for v in each.IN_C)
 

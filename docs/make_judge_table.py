@@ -16,6 +16,7 @@ NAMES = {
     "twelfth": "twelfth list", "thirteenth": "thirteenth list",
     "fourteenth": "fourteenth list", "fifteenth": "fifteenth list", "sixteenth": "sixteenth list",
     "seventeenth": "seventeenth list", "eighteenth": "eighteenth list", "nineteenth": "nineteenth list",
+    "twentieth": "twentieth list",
     "scheme": "mistakes in other integrators", "fourth scheme": "fourth list, in further integrators",
     "fifth scheme": "fifth list, in further integrators",
     "thirteenth scheme": "thirteenth list, in all of them",
@@ -25,6 +26,7 @@ NAMES = {
     "seventeenth scheme": "seventeenth list, in four further integrators",
     "eighteenth scheme": "eighteenth list, in four further integrators",
     "nineteenth scheme": "nineteenth list, in four further integrators",
+    "twentieth scheme": "twentieth list, in four further integrators",
     "variants": "correct variants", "zoo": "zoo",
 }  # fmt: skip
 
