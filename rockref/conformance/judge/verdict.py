@@ -245,7 +245,7 @@ def verdict(findings: Findings, backend: Any = None) -> Verdict:
     if status != "FAIL":
         return found
     found.slip, anew = slip_of(findings, check)
-    found.says = found.says or anew
+    found.says = " ".join(filter(None, (found.says, anew)))
     words, cut = format_of(findings)
     found.slip = words if cut else "; ".join(filter(None, (words, found.slip)))
     found.rule = None if cut else rule

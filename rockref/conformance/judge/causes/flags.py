@@ -91,7 +91,8 @@ def first_steps_are_right(checks: Sequence[Check], answers: Sequence[tuple[Vecto
 
 
 def without_flags_in_company(checks: list[Check], answers: Sequence[tuple[Vector, dict[str, Any]]]) -> list[Check]:
-    """Return the checks without flags of feet (K1) where runs of one foot show that its penetration is right.
+    """Return the checks without flags of feet (K1, T5 of a first row) where runs of one foot show that its penetration
+    is right.
 
     The first wrong force tells the rule then; where no force is wrong, the flags are handed out otherwise (S2).
     """
@@ -100,7 +101,8 @@ def without_flags_in_company(checks: list[Check], answers: Sequence[tuple[Vector
     if len(alone) < SOME or wrong & set(alone):
         return checks
     forces = any(c.failed and c.layer == "L5s" and c.name.startswith(FORCES) for c in checks)
-    flag = [c.failed and c.layer == "L5s" and c.rule == "K1" and c.name.startswith("anchored@") for c in checks]
+    asked = [c.name.startswith("anchored@") and (c.rule == "K1" or not later(c)) for c in checks]
+    flag = [c.failed and c.layer == "L5s" and of_a_flag for c, of_a_flag in zip(checks, asked, strict=True)]
     if forces:
         return [c for c, is_flag in zip(checks, flag, strict=True) if not is_flag]
     return [replace(c, rule="S2") if is_flag else c for c, is_flag in zip(checks, flag, strict=True)]

@@ -6,7 +6,7 @@ more than the first result that is outside.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,12 +33,15 @@ HELD = "Feet that should slide show their trial force: they are held to stick."
 LOOSE = "Feet that should stick show the sliding force: they are made to slide."
 DAMPER = "The spring's part of the friction force is right, the damper's is not."
 OTHER_TRIAL = "The foot is held to stick, and shows another force than the trial force."
+OPEN = "The friction of a foot above the plate is no trial force: it is not asked whether the foot is open."
 STALE = "The friction forces are those of the row before."
 MOVES_ALONE = "Friction turns the block as it should, and moves it otherwise."
 #: Rules whose vectors show the friction of the start. A wrong sliding velocity (K1) has vectors of its own.
 OF_FRICTION = ("T5", "T1", "T2", "T6", "T3")
 #: A force is another one where it differs by this share. Decided: far above rounding, also of single precision.
 SAME = 1e-5
+#: So many feet have to show it. Decided.
+FEET = 3
 
 
 def rule_of_friction(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
@@ -47,6 +50,8 @@ def rule_of_friction(answers: Answers, checks: Sequence[Check], check: Check) ->
     if vector is None or not check.weighed or check.rule not in OF_FRICTION:
         return check.rule, ""
     if vector.piece == "contact_law":
+        if check.rule == "T2" and check.name == "F_T" and shows_another_trial_when_open(vector.inputs, out):
+            return "T5", OPEN
         rule, words = rule_of_one_foot(vector.inputs, out, check)
         if words:
             return rule, words
@@ -66,9 +71,21 @@ def rule_of_friction(answers: Answers, checks: Sequence[Check], check: Check) ->
 
 def shows_another_trial(q: dict[str, Any], out: dict[str, Any]) -> bool:
     """Return whether the force of a foot that is held to stick is not its trial force. q : inputs of `contact_law`"""
-    if out.get("F_T") is None or not q["xi"] >= 0:
+    return bool(q["xi"] >= 0) and is_another_trial(q, out, bool(q["anchored"]))
+
+
+def shows_another_trial_when_open(q: dict[str, Any], out: dict[str, Any]) -> bool:
+    """Return whether a foot above the plate has a friction that is no trial force, wherever its spring is tied: who
+    holds that of an open foot to no threshold shows a trial force."""
+    return bool(q["xi"] < 0) and all(is_another_trial(q, out, tied) for tied in (True, False))
+
+
+def is_another_trial(q: dict[str, Any], out: dict[str, Any], tied: bool) -> bool:
+    """Return whether the friction that is shown is not the trial force of a foot that is tied to its old anchor, or to
+    where it is."""
+    if out.get("F_T") is None:
         return False
-    stretch = np.asarray(q["u_t"]) - q["s"] if q["anchored"] else np.zeros(2)
+    stretch = np.asarray(q["u_t"]) - q["s"] if tied else np.zeros(2)
     spring, damper = -q["K_T"] * stretch, -q["C_T"] * np.asarray(q["v_slide"])
     scale = max(np.max(np.abs(spring)), np.max(np.abs(damper)))
     return bool(np.max(np.abs(np.asarray(out["F_T"], float) - spring - damper)) > SAME * scale)
@@ -113,8 +130,10 @@ def rule_of_the_start(answers: Answers, vector: Vector, out: dict[str, Any], che
     """Return the rule that the friction of the first row speaks of, and a sentence."""
     row = first_row(vector, out)
     off, size = row.off, size_and_unit("F_T@0", vector.layer)[0]
-    if not np.any(off) or not np.all(np.isfinite(row.got)):
+    if not np.any(off):
         return check.rule, ""
+    if not np.all(np.isfinite(row.got)):
+        return ("T2", LOOSE) if check.rule == "T3" and all_are_loose(answers) else (check.rule, "")
     if check.rule == "T3" and np.all(row.alike(row.got, row.whole)[off]) and all_are_held(answers):
         return "T2", HELD
     stick = row.alike(row.right, row.whole)
@@ -133,6 +152,26 @@ def rule_of_the_start(answers: Answers, vector: Vector, out: dict[str, Any], che
 def all_are_held(answers: Answers) -> bool:
     """Return whether every foot that should slide and has a wrong friction in a first row shows its trial force: that
     of a foot without friction may be anything that is left of it."""
+    return not any(np.any(row.off & ~row.alike(row.got, row.whole)) for _, row in rows_with_friction(answers))
+
+
+def all_are_loose(answers: Answers) -> bool:
+    """Return whether every foot that should stick and has a wrong friction in a first row shows the sliding force, some
+    feet, and all that should slide are right; feet without a trial force have no direction to slide in."""
+    loose, size = 0, size_and_unit("F_T@0", "L5s")[0]
+    for vector, row in rows_with_friction(answers):
+        wrong = row.off & np.all(np.isfinite(row.got), axis=-1)
+        slide = sliding_force(vector.inputs, row.k, row.whole)
+        if np.any(wrong & ~row.alike(row.right, row.whole)):
+            return False
+        if not np.allclose(row.got[wrong], slide[wrong], rtol=SAME, atol=size):
+            return False
+        loose += int(np.sum(wrong))
+    return loose >= FEET
+
+
+def rows_with_friction(answers: Answers) -> Iterator[tuple[Vector, FirstRow]]:
+    """Yield the first rows that show friction."""
     for vector, out in answers:
         if vector.layer != "L5s" or "F_T@0" not in vector.expect or vector.inputs.get("F") is not None:
             continue
@@ -140,9 +179,8 @@ def all_are_held(answers: Answers) -> bool:
             row = first_row(vector, out)
         except (Missing, TypeError, ValueError, IndexError):
             continue
-        if row.got.shape == row.right.shape and np.any(row.off & ~row.alike(row.got, row.whole)):
-            return False
-    return True
+        if row.got.shape == row.right.shape:
+            yield vector, row
 
 
 def sliding_force(q: dict[str, Any], k: Kinematics, F_trial: np.ndarray) -> np.ndarray:

@@ -8,6 +8,11 @@ from typing import Any
 import numpy as np
 
 from rockref.conformance.judge.causes.as_if import rule_as_if, rule_of_feet_that_never_push, rule_of_untied_feet
+from rockref.conformance.judge.causes.at_the_start import (
+    rule_of_brought_loads,
+    rule_of_the_first_evaluation,
+    rule_of_tied_feet,
+)
 from rockref.conformance.judge.causes.circumstances import rule_in_common, rule_of_normal_forces
 from rockref.conformance.judge.causes.constants import rule_of_a_constant
 from rockref.conformance.judge.causes.data_flow import is_clear
@@ -43,6 +48,9 @@ def cause_of(
     if profile != "float32" and check.weighed and check.layer in ("L5s", "LS"):
         for told in (
             rule_of_what_is_shown,
+            rule_of_brought_loads,
+            rule_of_the_first_evaluation,
+            rule_of_tied_feet,
             rule_of_a_constant,
             rule_of_untied_feet,
             rule_of_lost_numbers,

@@ -109,8 +109,10 @@ def what_feet_do(problem: Any, r: Any, i: int, before: Any, v: np.ndarray, W: np
         "push": np.abs(p.C_N * k.xi_rate) > SHARE * np.abs(p.K_N * k.xi),
     }  # fmt: skip
     turn = point_kinematics(*here, 0 * v, W, p.P)
+    # About the height of the plate alone: a tilt moves all feet alike, as a drift does.
+    spin = point_kinematics(*here, 0 * v, r.Lambda[i].T @ [0, 0, (r.Lambda[i] @ W)[2]], p.P)
     parts = {
-        "drift": (p.C_T * np.hypot(v[0], v[1]), size), "spin": (norm(p.C_T[:, None] * turn.v_slide), size),
+        "drift": (p.C_T * np.hypot(v[0], v[1]), size), "spin": (norm(p.C_T[:, None] * spin.v_slide), size),
         "fall": (np.abs(p.C_N * v[2]), np.abs(p.K_N * k.xi)),
         "tilt": (np.abs(p.C_N * turn.xi_rate), np.abs(p.K_N * k.xi)),
     }  # fmt: skip

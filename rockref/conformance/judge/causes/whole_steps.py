@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from rockref.conformance.judge.causes.at_the_start import loads_are_not_taken
 from rockref.conformance.judge.causes.rows_of_the_law import SAME
 from rockref.conformance.judge.causes.slips import rotation_vector
 from rockref.conformance.judge.compare_answer import LOOK, Check, bar_of
@@ -20,11 +21,14 @@ def rule_of_a_step(answers: list[tuple[Vector, dict[str, Any]]], check: Check, p
 
     A moment of the right size that points another way is turned by another attitude: A3, not the sum. A rotation that
     is off by no more than what the angular acceleration adds in a step speaks of that: I2, not I3; by a moment of the
-    right size that points another way: A3.
+    right size that points another way: A3. Every step starts from loads that it is given: where those alone are wrong
+    that take such, S2.
     """
     vector, out = next(((v, out) for v, out in answers if v.id == check.vector), (None, {}))
     if vector is None or not check.weighed:
         return check.rule
+    if loads_are_not_taken(answers):
+        return "S2"
     if check.name == "T":
         expected = vector.expect["T"]
         off = abs(np.linalg.norm(out["T"]) - np.linalg.norm(expected.value))

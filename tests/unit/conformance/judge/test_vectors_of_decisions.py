@@ -77,6 +77,30 @@ SEVERAL = (
     Mistake("a drag along the rate in place of a spring", ("T1",), "return -K_T * (u_t - s) - C_T * v_slide",
             "return -(K_T * 1e-4 * np.hypot(*(u_t - s)) / 1e-5 + C_T) * np.asarray(v_slide)"),
 )  # fmt: skip
+#: What feet show that are told apart by their flags, their height, or their load; velocities that turn back.
+OF_THEIR_OWN = (
+    Mistake("who slides of the foot three on", ("T6", "S2"), 'memory["sliding"][i]', 'memory["sliding"][i - 3]'),
+    Mistake("who sticks above seven tenths of the cone is flagged", ("T2", "T6"), '"sliding": slides',
+            '"sliding": slides or bool(np.hypot(*F_T) > 0.7 * limit)'),
+    Mistake("who falls after it rose stands", ("I4",), "v_next = v + h / 2 * (a + a_next)  # I4",
+            "v_next = v + h / 2 * (a + a_next)\n    v_next = np.where((v > 0) & (v_next < 0), 0.0, v_next)"),
+    Mistake("y of the velocity of the turn without its height", ("K1",), "rate = v + np.cross(Lambda @ W, r)",
+            "rate = v + np.cross(Lambda @ W, r)\n    rate[:, 1] += (Lambda @ W)[0] * r[:, 2]"),
+    Mistake("every foot slides", ("T2",), "np.hypot(*F_trial) <= limit", "bool(np.hypot(*F_trial) * limit < 0)"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("mistake", OF_THEIR_OWN, ids=lambda m: m.says)
+def test_runs_with_forces_tell_apart(mistake):
+    found = seen(Runs(planted(mistake), {}), mistake)
+    assert found["named"], found
+
+
+def test_pieces_see_that_feet_which_touch_without_a_load_are_flagged():
+    flags = Mistake("feet that push for those that touch", ("T5", "S2"), "row[k] for row in kept",
+                    '(row["F"][:, 2] > 0 if k == "anchored" else row[k]) for row in kept')  # fmt: skip
+    found = seen(planted(flags), flags)
+    assert found["named"], found
 
 
 @pytest.mark.parametrize("mistake", MISTAKES + BY_PIECES, ids=lambda m: m.says)

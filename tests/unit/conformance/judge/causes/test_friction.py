@@ -75,3 +75,11 @@ def test_friction_of_the_row_before_speaks_of_the_evaluation(late, rule):
     vector, out = asked("L5s", "anchors stay while the block turns, springs alone")
     out["F"][1, :, :2] = out["F"][0, :, :2] * (1.0 if late else 0.5)
     assert named([(vector, out)], "F_T@1") == rule
+
+
+@pytest.mark.parametrize(("share", "rule"), [(1.0, "T2"), (1e-3, "T5")])
+def test_friction_above_the_plate_that_is_no_trial_force_is_that_of_a_foot_that_nobody_asks(share, rule):
+    vector = next(v for v in vectors.layer("L1") if v.id == "L1-N2-0049")
+    q = vector.inputs
+    out = ask(NumpyEngine(), vector) | {"F_T": -share * q["C_T"] * np.asarray(q["v_slide"])}
+    assert named([(vector, out)], "F_T") == rule

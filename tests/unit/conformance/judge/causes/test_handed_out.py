@@ -37,6 +37,16 @@ def attitudes_of_the_start(rows):
     return {"Lambda": np.broadcast_to(rows["Lambda"][0], rows["Lambda"].shape)}
 
 
+def rates_averaged(rows):
+    return {"W": (rows["W"] + np.concatenate([rows["W"][:1], rows["W"][:-1]])) / 2}
+
+
+def rates_averaged_and_turned_by(rows):
+    apart = rates_averaged(rows)["W"] - rows["W"]
+    turn = np.cross(apart[:, None, :], np.eye(3)[None]) * 2.0**-17
+    return {"W": rows["W"] + apart, "Lambda": rows["Lambda"] + turn}
+
+
 def forces_and_places(rows):
     return {"F": rows["F"] / 9.81, "x": rows["x"] + np.arange(len(rows["x"]))[:, None] * 1e-9}
 
@@ -47,11 +57,19 @@ def forces_and_places(rows):
         (forces_at_another_scale, "S2"),
         (attitudes_late, "S2"),
         (attitudes_of_the_start, "I3"),
+        (rates_averaged, "S2"),
     ],
 )
 def test_what_moves_nothing_is_handed_out_otherwise(change, rule):
     found = verdict(judge(Shown(change), ["L5s"]))
     assert found.status == "FAIL" and found.rule == rule, (found.rule, found.check, found.says)
+
+
+def test_rates_by_which_the_block_turns_are_not_idle():
+    answers = [(v, Shown(rates_averaged_and_turned_by).simulate(vectors.problem_of(v.inputs)))
+               for v in vectors.layer("L5s")]  # fmt: skip
+    told = Check("L5s-I5-0014", "L5s", "I5", "W@1", "outside")
+    assert rule_of_what_is_shown(answers, [told], told) == ("I5", "")
 
 
 def test_forces_that_move_the_block_are_not_idle():
