@@ -159,7 +159,7 @@ def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[st
     """
     if rule == "N1":
         seen = parted(by_run(answers, pushes(check)))
-        if words := right_alone(*seen, normal_damper, ACROSS):
+        if words := right_alone(*seen, seen_damper, ACROSS):
             return "K1", RATE.format(words)
         if undamped(*seen, normal_damper):
             return "K1", UNDAMPED
@@ -215,6 +215,11 @@ def has_friction(f: Feet) -> np.ndarray:
 def normal_damper(f: Feet) -> np.ndarray:
     """Return which feet touch, with a normal damper that works."""
     return f["touching"] & f["push"]
+
+
+def seen_damper(f: Feet) -> np.ndarray:
+    """Return which feet show that their normal damper works: where tension is cut, none is seen."""
+    return f["pressed"] & f["push"]
 
 
 def by_run(answers: Answers, seen: Callable[..., Any]) -> dict[str, list[tuple[Feet, bool]]]:

@@ -106,7 +106,7 @@ def what_feet_do(problem: Any, r: Any, i: int, before: Any, v: np.ndarray, W: np
         "spring": spring > SHARE * size, "damper": damper > SHARE * size, "slides": r.sliding[i], "slid": slid & ~new,
         "moved": slid & ~new & (i > 0), "between": (p.mu * F_N < size) & (size <= p.mu_0 * F_N),
         "dragged": norm(r.F[i][:, :2]) > 0, "later": np.full(len(F_N), i > 0),
-        "push": np.abs(p.C_N * k.xi_rate) > SHARE * np.abs(p.K_N * k.xi),
+        "pressed": F_N > 0, "push": np.abs(p.C_N * k.xi_rate) > SHARE * np.abs(p.K_N * k.xi),
     }  # fmt: skip
     turn = point_kinematics(*here, 0 * v, W, p.P)
     # About the height of the plate alone: a tilt moves all feet alike, as a drift does.

@@ -17,6 +17,7 @@ from rockref.conformance.judge.causes.circumstances import (
 )
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
 from rockref.conformance.judge.causes.one_foot import rule_of_one_foot
+from rockref.conformance.judge.causes.other_integrators import first_rows
 from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
 from rockref.conformance.judge.causes.steps_of_a_run import step_is_wrong
 from rockref.conformance.judge.compare_answer import Check
@@ -103,6 +104,16 @@ def test_normal_dampers_that_are_right_where_the_block_turns_alone_speak_of_the_
         answers, told = changed_where(right, meets, 2)
         check = Check(told[0], "L5s", "N1", "F_N@0", "outside", float("inf"))
         assert rule_of_normal_forces(answers, check, "N1")[0] == rule
+
+
+def test_first_rows_alone_speak_of_the_rate_of_penetration_where_tension_hides_dampers(right):
+    for meets, rule in (
+        (lambda f: f["pressed"] & f["push"] & ~f["no fall"], "K1"),
+        (lambda f: f["pressed"] & f["push"], "N1"),
+    ):
+        answers, told = changed_where(right, meets, 2)
+        check = Check(told[0], "L5s", "N1", "F_N@0", "outside", float("inf"))
+        assert rule_of_normal_forces(first_rows(answers), check, "N1")[0] == rule
 
 
 @pytest.mark.parametrize(("component", "told_rule", "name"), [(0, "T1", "F_T@0"), (2, "N1", "F_N@0")])
