@@ -28,6 +28,7 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.problem import END, FitProblem, fit_problem
 from rockref.discover.fit.stages import S1, S2, S3, F
 from rockref.discover.fit.steps import fine_enough
+from rockref.discover.fit.whitening import quieten, whiten
 from rockref.discover.fit_gates import Gate, innovations_white, off_bounds, same_place, step_halved
 from rockref.discover.fit_store import FitStore
 from rockref.discover.listening.records import opened
@@ -285,9 +286,12 @@ def lengthened(fitter: Fitter, h: FittedModel, after: str = "S2") -> tuple[Fitte
     fitter.widen()
     fine_enough(fitter, [h], (S3, F))
     if after in (S1.name, S2.name):
+        quieten(fitter, h, S3)
+        whiten(fitter, h, S3)
         fitter.refine(h, S3, STEPS)
         earlier = h.z.copy()
         fitter.problem.say(f"{h.name} at S3: mean loss {h.loss:.2f}")
+    whiten(fitter, h, F)
     fitter.refine(h, F, CONVERGED)
     fitter.problem.say(f"{h.name} at F: mean loss {h.loss:.2f}")
     return h, earlier

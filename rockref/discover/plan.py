@@ -21,6 +21,7 @@ from rockref.api import Model, simulate
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.problem import END, fit_problem
 from rockref.discover.fit.stages import F, time_scale
+from rockref.discover.fit.whitening import whiten
 from rockref.discover.hypotheses.candidates import LEFT_OUT, kinds
 from rockref.discover.hypotheses.effects import effect_parameters
 from rockref.discover.hypotheses.law import law_parameters
@@ -218,6 +219,7 @@ def says(
     own = problem.parameters(problem.carried)
     truth = FittedModel(problem.carried, np.array([true_z(p, model) for p in own]))
     numbers = [p for kind in effects for p in switches_of(kind, model)]
+    whiten(fitter, truth, F)
     H, _ = fitter.linearise(fitter.evaluate(truth, F), F, numbers)
     shared = [k for k, p in enumerate((*own, *numbers)) if p.run is None and (not p.effect or k >= len(own))]
     rest = [k for k in range(len(H)) if k not in shared]

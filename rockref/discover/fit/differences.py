@@ -9,6 +9,7 @@ import numpy as np
 
 from rockref.discover.fit.objective import mean_loss, smoothed
 from rockref.discover.fit.problem import FitProblem
+from rockref.discover.fit.spikes import whitened
 from rockref.discover.fit.stages import Stage, fineness
 from rockref.discover.hypotheses.parameter import Parameter
 from rockref.discover.listening.listener import Job, Listener
@@ -47,7 +48,9 @@ class Residuals:
         """Return innovations (J, R, n, 3) of jobs, smoothed and in inflated noise widths."""
         problem, stage, listener = self.problem, self.stage, self.listener
         predicted = listener.predict(jobs, stage.memory(problem.time_scale, fine), stage.horizon)
+        found = problem.spikes.get(stage.name)
         r = listener.innovations(predicted, stage.jitter)
+        r = r if found is None else whitened(r, found)
         return smoothed(r, stage.smoothing * listener.gyro.sample_rate) / stage.inflation
 
     def at(self, parameters: Sequence[Parameter], points: Sequence[np.ndarray]) -> np.ndarray:
@@ -55,11 +58,23 @@ class Residuals:
         jobs = [self.problem.job(parameters, z) for z in points]
         return self.of(jobs, self.fineness(parameters, points[0]))
 
+    def coarsely_at(self, parameters: Sequence[Parameter], points: Sequence[np.ndarray]) -> np.ndarray:
+        """Return innovations (J, R, n, 3) as `at`, by steps that are not as fine as the records ask for.
+
+        Enough for slopes: what steps change of innovations is alike at both ends of a difference.
+        """
+        jobs = [self.problem.job(parameters, z) for z in points]
+        return self.of(jobs, self.stiffness(parameters, points[0]))
+
     def fineness(self, parameters: Sequence[Parameter], z: np.ndarray) -> float:
         """Return the factor on the number of steps that the stiffness at z, and the records, ask for."""
+        return self.stiffness(parameters, z) * self.problem.finer.get(self.stage.name, 1.0)
+
+    def stiffness(self, parameters: Sequence[Parameter], z: np.ndarray) -> float:
+        """Return the factor on the number of steps that the stiffness at z asks for."""
         found = [p.value(float(value)) for p, value in zip(parameters, z, strict=True) if p.name == "K_N"]
         stiffness = found[0] if found else self.problem.base.parameters.K_N
-        return fineness(stiffness, self.problem.base.mass) * self.problem.finer.get(self.stage.name, 1.0)
+        return fineness(stiffness, self.problem.base.mass)
 
 
 def jacobian(

@@ -83,7 +83,7 @@ def spread_about(
     ends = [np.sum([axis.end for axis in some], axis=0) for some in together.values()]
     up = [moved(parameters, z, end) for end in ends]
     down = [moved(parameters, z, -end) for end in ends]
-    there = residuals.at(parameters, [*up, *down])
+    there = residuals.coarsely_at(parameters, [*up, *down])
     moves: list[np.ndarray] = []
     J = np.zeros((len(z), *r.shape))
     for k, some in enumerate(together.values()):

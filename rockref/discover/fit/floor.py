@@ -15,6 +15,7 @@ import numpy as np
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.objective import WHITE
 from rockref.discover.fit.stages import Stage
+from rockref.discover.fit.whitening import whiten
 from rockref.discover.listening.listener import Listener
 from rockref.discover.progress import StageCounter
 from rockref.measure.gyroscope import quantise
@@ -48,7 +49,9 @@ def in_own_record(fitter: Fitter, h: FittedModel, stage: Stage, seed: int) -> tu
     ]
     own = replace(
         problem, listener=Listener(problem.experiment, runs, listener.end, listener.workers, whole=listener),
-        progress=StageCounter({}), refined=lambda h, stage: None,
+        progress=StageCounter({}), refined=lambda h, stage: None, spikes={},
     )  # fmt: skip
-    again = Fitter(own)
-    return again, again.evaluate(FittedModel(h.effects, h.z.copy()), stage)
+    again, start = Fitter(own), FittedModel(h.effects, h.z.copy())
+    if stage.name in problem.spikes:
+        whiten(again, start, stage)
+    return again, again.evaluate(start, stage)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from rockref.api import Model
+from rockref.discover.fit.spikes import Spikes
 from rockref.discover.fit.stages import Stage, time_scale
 from rockref.discover.hypotheses.candidates import within_base
 from rockref.discover.hypotheses.effects import effect_parameters
@@ -32,6 +33,7 @@ class FitProblem:
     base : the baseline without effects.  carried : effects of the user's model, part of every hypothesis
     candidates : ids of the effects that may be missing.  tone : frequency [Hz] of a line in the misfit, if there is one
     finer : factor on the steps of a stage, by its name (`rockref.discover.fit.steps`)
+    spikes : what is not white in the innovations of a right model, by the stage (`rockref.discover.fit.whitening`)
     progress : counts the stages.  refined : called with every hypothesis that was refined, and its stage
     """
 
@@ -43,6 +45,7 @@ class FitProblem:
     seed: int = 0
     tone: float | None = None
     finer: dict[str, float] = field(default_factory=dict)
+    spikes: dict[str, list[Spikes]] = field(default_factory=dict)
     progress: StageCounter = field(default_factory=lambda: StageCounter({}), repr=False)
     refined: Callable[[Any, Stage], None] = lambda h, stage: None
     _known: dict = field(default_factory=dict, repr=False)

@@ -65,7 +65,7 @@ class Listener:
     ----------
     measured : (R, N, 3) records [rad/s], padded;  valid : (R, N) bool, which samples there are
     sigma : (R, 3) noise of a sample [rad/s];  slope : (R, N, 3) steepest change of the record nearby [rad/s^2]
-    whole : the listener of which this one is a part, and which counts its block-steps, too
+    whole : the listener of which this one is a part: it knows the noise, and counts the block-steps, too
     """
 
     def __init__(
@@ -84,7 +84,8 @@ class Listener:
         self.valid = np.zeros((len(runs), self.N), bool)
         for i, ((_, crv), n) in enumerate(zip(records, counts, strict=True)):
             self.measured[i, :n], self.valid[i, :n] = crv[:n], True
-        self.sigma = np.tile(noise_of(runs, self.gyro), (len(runs), 1))
+        noise = noise_of(runs, self.gyro) if whole is None else whole.sigma[0]
+        self.sigma: np.ndarray = np.tile(noise, (len(runs), 1))
         self.slope = np.stack(
             [steepest(self.measured[i], self.sigma[i], self.gyro.sample_rate) for i in range(len(runs))]
         )
@@ -113,9 +114,14 @@ class Listener:
             records = [(run, *record_of(run)) for run in self.runs]
             runs = [replace(run, t=t[::factor], crv=crv[::factor]) for run, t, crv in records]
             few = Listener(replace(self.experiment, gyro=gyro), runs, self.end, self.workers, whole=self)
-            few.sigma = self.sigma
             self._thinned[factor] = few
         return self._thinned[factor]
+
+    def quieten(self, share: np.ndarray) -> None:
+        """Take the noise of each axis to be a share (3,) of what it was taken for."""
+        self.sigma = self.sigma * share
+        for few in self._thinned.values():
+            few.sigma = self.sigma
 
     def target(self, i: int, effects: tuple[Effect, ...], ticks: Grid | None = None) -> Target:
         """Return what run i tells of the block, its sensor having these effects; the last hundred are kept."""

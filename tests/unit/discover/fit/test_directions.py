@@ -20,7 +20,7 @@ class Product:
         self.patterns = rng.choice([-1.0, 1.0], size=(2, 1, SAMPLES, 1))
         self.noise = 0.1 * rng.standard_normal((1, SAMPLES, 1))
 
-    def at(self, parameters, points):
+    def coarsely_at(self, parameters, points):
         return np.array([
             (np.exp(z[0] + z[1]) - 1) * self.patterns[0] + z[2] * self.patterns[1] + self.noise for z in points
         ])  # fmt: skip
@@ -29,7 +29,7 @@ class Product:
 def found(rounds, z=(0.4, -0.4, 0.0)):
     """The spread about a point, from a first covariance that is far too small where two numbers undo each other."""
     product, parameters, z = Product(), (FREE,) * 3, np.array(z)
-    r = product.at(parameters, [z])[0]
+    r = product.coarsely_at(parameters, [z])[0]
     covariance = softened(np.diag([SAMPLES, SAMPLES, SAMPLES]) + np.eye(3))
     for _ in range(rounds):
         spread = spread_about(product, parameters, z, r, covariance)
@@ -71,7 +71,7 @@ def test_numbers_of_a_run_move_in_all_runs_at_once():
     asked = []
 
     class Runs:
-        def at(self, parameters, points):
+        def coarsely_at(self, parameters, points):
             asked.append(len(points))
             return np.array(
                 [[(z[0] + z[1 + i]) * patterns[0] + 0.5 * z[0] * patterns[1] for i in (0, 1)] for z in points]
@@ -81,7 +81,7 @@ def test_numbers_of_a_run_move_in_all_runs_at_once():
     # of one unit of each: the sums of squares of what each number does in the two runs, and of its prior
     H = SAMPLES * np.array([[2.5, 1.0, 1.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1.0]]) + np.eye(3)
     z = np.zeros(3)
-    spread = spread_about(Runs(), parameters, z, Runs().at(parameters, [z])[0], softened(H))
+    spread = spread_about(Runs(), parameters, z, Runs().coarsely_at(parameters, [z])[0], softened(H))
     assert asked == [1, 4]
     assert np.count_nonzero(np.abs(spread.J).sum(axis=(2, 3)), axis=1).tolist() == [2, 1, 1]
     # the patterns are orthogonal within 1/sqrt(SAMPLES); robust weights of innovations of zero are one
