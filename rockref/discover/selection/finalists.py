@@ -48,13 +48,14 @@ def follow(fitter: Fitter, field: Sequence[FittedModel], beam: Sequence[FittedMo
 
 
 def converged(fitter: Fitter, beam: list[FittedModel]) -> list[FittedModel]:
-    """Return a beam, best first: the finalists fitted until no step gains, and again from the law and the releases of
-    the best of them.
+    """Return a beam, best first: the finalists, and the best without some of its effects, fitted until no step gains,
+    and again from the law and the releases of the best of them.
 
     A fit that stops early, or in a local minimum, lies hundreds of nats too high; a common start compares effects.
     """
     limit = CLOSE * min(h.objective for h in beam)
-    finalists = sorted((h for h in beam if h.objective <= limit), key=penalised)[:FINALISTS]
+    close = sorted((h for h in beam if h.objective <= limit), key=penalised)
+    finalists = close[:FINALISTS] + [h for h in close[FINALISTS:] if set(h.effects) < set(close[0].effects)]
     follow(fitter, finalists, beam)
     for _ in range(EXCHANGES):
         best = min(beam, key=penalised)

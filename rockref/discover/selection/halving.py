@@ -23,7 +23,7 @@ MARGIN = 1.15
 #: Steps that size a sensor's error from the release.
 SIZED = 3
 #: Nats that an effect has to gain (decided: what the temperature of the evidence and odds of one in twenty ask for).
-WORTH = 21.0
+WORTH = 10.0
 #: Mean loss that inflated noise leaves where an addition is proposed far from the valley.
 WARM = 1.5
 

@@ -8,9 +8,10 @@
    what a step gains at S3 and by what it promises at F, and those that gain enough join.
 4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
 5. At the longest memory take each effect of the best model out, and try to replace it, from the same point; by what it
-   is mistaken for, from the shortest memory. Of all that explains the runs as well, parts are tried, too.
+   is mistaken for, from the shortest memory. Of all that explains the runs as well, parts are tried, too; and last
+   what could stand in the place of its effects.
 
-On the way steps of the law are made as fine as the records ask for (`rockref.discover.fit.steps`).
+On the way steps are made as fine as the records ask for (`fit.steps`), and innovations white (`fit.whitening`).
 """
 
 from __future__ import annotations
@@ -24,10 +25,12 @@ from rockref.discover.fit.ridges import kicked
 from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
 from rockref.discover.fit.steps import fine_enough
+from rockref.discover.fit.whitening import quieten, whiten
 from rockref.discover.selection.finalists import converged, follow, penalised
 from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, sized_at_release, within
 from rockref.discover.selection.rivals import rivals
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
+from rockref.discover.selection.swaps import swapped
 from rockref.discover.selection.together import from_anywhere, from_statement, leads
 from rockref.discover.selection.tone import tone
 
@@ -52,10 +55,8 @@ BEAM, ADDED, MOST = 4, 2, 3
 VALLEYS = 4
 #: Hypotheses within the margin beside which one more effect is tried.
 EQUALS = 2
-#: Steps at S3.
-STEPS = 3
-#: Steps at S2 of what S1 smooths away (decided: as many as what comes from S1 takes there).
-SHARPER = 3
+#: Steps at S3, and at S2 of what S1 smooths away (decided: as many as what comes from S1 takes there).
+STEPS, SHARPER = 3, 3
 #: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
 REPLACING = 4
 #: Steps of the best model without one of its effects (decided: from its law it comes near at once, or never).
@@ -284,6 +285,9 @@ class Search:
         self.problem.progress.begin(stage.name, MEMORY[stage.name], self.best(beam).name)
         self.fitter.widen()
         fine_enough(self.fitter, beam, [stage])
+        if stage is S3 and quieten(self.fitter, self.best(beam), stage):
+            self._floors.clear()
+        whiten(self.fitter, self.best(beam), stage)
         if stage is F:
             follow(self.fitter, beam, beam)
             self.remember(beam)
@@ -333,7 +337,7 @@ class Search:
             found.append(self.fitter.polish(self.nothing(best), F, 3))
         self.remember([*beam, *found])
         self.problem.progress.begin("without", "comparing the finalists", best.name)
-        return converged(self.fitter, best_of_each([*beam, *found, *self.seen.values()]))
+        return swapped(self.fitter, converged(self.fitter, best_of_each([*beam, *found, *self.seen.values()])))
 
     def added(self, h: FittedModel) -> list[str]:
         """Return the effects of a model beyond those that the user's model carries."""
