@@ -2,7 +2,7 @@
 
 1. Each hypothesis has a probability: Laplace's evidence at one temperature, less what each effect gains by chance, and
    each one beside the first by standing for another form of that, times the prior odds of its effects.
-2. An effect too small to matter gives its probability to the hypothesis without it.
+2. An effect too small to matter gives its probability to the hypothesis without it, if anything explains the runs so.
 3. If even the best hypothesis leaves innovations above the floor, the runs are not explained: by one run alone, or all.
    An effect that leaves next to nothing of the misfit is indicated all the same, without those beside it that others
    could replace. So it is where one more explains a part of that: an effect that is there explains all that is left,
@@ -93,7 +93,7 @@ def alternatives(evidence: Evidence, c: Calibration) -> tuple[Alternative, ...]:
     scores: dict[tuple[str, ...], float] = {}
     fits: dict[tuple[str, ...], HypothesisEvidence] = {}
     for h in sorted(evidence.hypotheses, key=lambda h: h.objective):
-        effects = substantial(h, evidence.carried, c)
+        effects = counted(evidence, h, c)
         each = np.log(c.prior_odds) - evidence.chance / c.temperature
         beside = max(len(effects) - 1, 0) * c.companion / c.temperature
         score = log_evidence(h, c.temperature) + len(effects) * each - beside
@@ -108,6 +108,17 @@ def alternatives(evidence: Evidence, c: Calibration) -> tuple[Alternative, ...]:
 def substantial(h: HypothesisEvidence, carried: tuple[str, ...], c: Calibration) -> tuple[str, ...]:
     """Return the effects of a hypothesis that are large enough to matter, in the order of their names."""
     return tuple(sorted(e for e in h.effects if e not in carried and h.size(e) >= c.least_amplitude))
+
+
+def counted(evidence: Evidence, h: HypothesisEvidence, c: Calibration) -> tuple[str, ...]:
+    """Return the effects for which a hypothesis stands: those that are large enough to matter, and such without which
+    nothing explains the runs, where it does."""
+    large = substantial(h, evidence.carried, c)
+    if not is_explained(h, c):
+        return large
+    explaining = [k.effects for k in evidence.hypotheses if is_explained(k, c)]
+    own = set(h.effects) - set(evidence.carried)
+    return tuple(sorted(e for e in own if e in large or all(e in effects for effects in explaining)))
 
 
 def contradicting_run(h: HypothesisEvidence, c: Calibration) -> str | None:

@@ -22,7 +22,7 @@ def limits_for(*information: float) -> dict:
 
 
 def test_the_more_runs_tell_of_a_number_the_smaller_is_its_limit():
-    found = limits_for(1e3, 1e4)
+    found = limits_for(3e2, 1e4)
     assert found["a.size"]["in_typical_sizes"] > found["b.size"]["in_typical_sizes"] >= calibration().least_amplitude
 
 

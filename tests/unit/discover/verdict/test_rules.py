@@ -33,7 +33,7 @@ DRAG = hypothesis(("quadratic_drag",))
 
 
 def test_a_baseline_that_explains_is_none():
-    v = decide(evidence(hypothesis(), hypothesis(("quadratic_drag",), 16990.0)))
+    v = decide(evidence(hypothesis(), hypothesis(("quadratic_drag",), 16996.0)))
     assert (v.word, v.effects) == ("none", ()) and v.probability > C.trust * C.certain
 
 
@@ -111,6 +111,17 @@ def test_stated_probabilities_leave_room_for_what_the_search_misses():
 def test_a_trifle_gives_its_probability_to_the_baseline():
     small = hypothesis(("quadratic_drag",), 16500.0, size=0.1)
     assert decide(evidence(hypothesis(), small)).word == "none"
+
+
+def test_what_alone_explains_the_runs_is_no_trifle():
+    small = hypothesis(("viscous_friction",), 9400.0, size=0.1)
+    beside = hypothesis(("viscous_friction", "gyro_drift"), 9399.0, size=0.1)
+    far = hypothesis(objective=205000.0, loss=19.0, held=19.0)
+    v = decide(evidence(small, beside, far))
+    assert (v.word, v.effects) == ("named", ("viscous_friction",))
+    # What explains the runs without it takes its place.
+    other = hypothesis(("hunt_crossley_contact",), 9300.0)
+    assert decide(evidence(small, far, other)).effects == ("hunt_crossley_contact",)
 
 
 def test_what_nothing_explains_is_something_else():
