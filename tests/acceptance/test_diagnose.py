@@ -15,6 +15,9 @@ ANSWERS = {a["name"]: a for a in json.loads((EXPERIMENTS / "answers.json").read_
 #: Error over the noise from which on half of a gap can be closed: the motion amplifies the noise, so that a right model
 #: leaves a tenth above it (1.02 in the median of 34 right verdicts of the blind test, 1.15 at most); twice that.
 GAP = 1.2
+#: Share by which an error without a clear gap may rise on held-out runs: it is amplified noise, and 18 000 innovations
+#: tell its size to half a per cent.
+SCATTER = 0.01
 
 
 @pytest.mark.slow
@@ -32,10 +35,10 @@ def test_verdict_is_right_or_a_class_that_holds_the_truth(name):
         return
     assert found["verdict"] in (("pair",) if len(truth) > 1 else ("named", "indicated", "class"))
     assert set(truth) <= set(found["effects"]) and len(found["effects"]) <= 3
-    # The error falls, and a clear gap to the noise closes by half at least, on runs that were never fitted as on those
-    # that were.
+    # The error falls on the fit runs, and on held-out ones but for its scatter; a clear gap to the noise closes by half
+    # at least on both.
     error, noise = found["error"], found["error"]["noise_floor"]
     for use in ("fit", "holdout"):
         before, after = error["baseline"][use], error["with_effect"][use]
-        assert after < before
+        assert after < before or (use == "holdout" and before < GAP * noise and after < (1 + SCATTER) * before)
         assert before < GAP * noise or before - after > 0.5 * (before - noise)
