@@ -286,7 +286,8 @@ def lengthened(fitter: Fitter, h: FittedModel, after: str = "S2") -> tuple[Fitte
     fitter.widen()
     fine_enough(fitter, [h], (S3, F))
     if after in (S1.name, S2.name):
-        quieten(fitter, h, S3)
+        if S3.name not in fitter.problem.spikes:  # as `whiten`, once: fits from other starts are compared
+            quieten(fitter, h, S3)
         whiten(fitter, h, S3)
         fitter.refine(h, S3, STEPS)
         earlier = h.z.copy()

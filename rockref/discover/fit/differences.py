@@ -64,13 +64,13 @@ class Residuals:
         Enough for slopes: what steps change of innovations is alike at both ends of a difference.
         """
         jobs = [self.problem.job(parameters, z) for z in points]
-        return self.of(jobs, self.stiffness(parameters, points[0]))
+        return self.of(jobs, self.by_stiffness(parameters, points[0]))
 
     def fineness(self, parameters: Sequence[Parameter], z: np.ndarray) -> float:
         """Return the factor on the number of steps that the stiffness at z, and the records, ask for."""
-        return self.stiffness(parameters, z) * self.problem.finer.get(self.stage.name, 1.0)
+        return self.by_stiffness(parameters, z) * self.problem.finer.get(self.stage.name, 1.0)
 
-    def stiffness(self, parameters: Sequence[Parameter], z: np.ndarray) -> float:
+    def by_stiffness(self, parameters: Sequence[Parameter], z: np.ndarray) -> float:
         """Return the factor on the number of steps that the stiffness at z asks for."""
         found = [p.value(float(value)) for p, value in zip(parameters, z, strict=True) if p.name == "K_N"]
         stiffness = found[0] if found else self.problem.base.parameters.K_N

@@ -56,7 +56,7 @@ def changes(fitter: Fitter, h: FittedModel, stage: Stage) -> np.ndarray:
     problem, listener = fitter.problem, fitter.problem.listener
     rng = np.random.default_rng(problem.seed)
     parameters = fitter.parameters(h)
-    memory = stage.memory(problem.time_scale, fitter.residuals(stage).stiffness(parameters, h.z))
+    memory = stage.memory(problem.time_scale, fitter.residuals(stage).by_stiffness(parameters, h.z))
     job = problem.job(parameters, h.z)
     noisy = [
         replace(run, t=t, crv=listener.measured[i, : len(t)] + listener.sigma[i] * rng.standard_normal((len(t), 3)))

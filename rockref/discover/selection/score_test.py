@@ -56,8 +56,13 @@ class ScoreTest:
 
 def predicted_gain(H: np.ndarray, g: np.ndarray) -> float:
     """Return by how much the objective would fall, were it the quadratic of H and g."""
-    d = -np.linalg.solve(H + DAMPED * np.diag(np.diag(H)), g)
+    d = predicted_step(H, g)
     return float(-(g @ d + 0.5 * d @ H @ d))
+
+
+def predicted_step(H: np.ndarray, g: np.ndarray) -> np.ndarray:
+    """Return the step (G,) to the bottom of the quadratic of H and g, hardly damped."""
+    return -np.linalg.solve(H + DAMPED * np.diag(np.diag(H)), g)
 
 
 def score_test(fitter: Fitter, h: FittedModel, stage: Stage, among: Sequence[str] | None = None) -> ScoreTest:

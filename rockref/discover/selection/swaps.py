@@ -15,10 +15,10 @@ from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import F
 from rockref.discover.selection.finalists import converged, follow, penalised
 from rockref.discover.selection.halving import say
-from rockref.discover.selection.score_test import DAMPED, ScoreTest, best_of_each, score_test
+from rockref.discover.selection.score_test import ScoreTest, best_of_each, predicted_gain, predicted_step, score_test
 
 #: Exchanges that are followed, by the quadratic; decided: it overrates what the law cannot do at once, and on a block
-#: of other feet put the right one fifth.
+#: of other feet put the right one third among those that were not known.
 MOST = 4
 
 
@@ -53,9 +53,7 @@ def swaps(fitter: Fitter, best: FittedModel, known: Collection[frozenset[str]]) 
     return [found[k][1] for k in ranked[:MOST]]
 
 
-def exchanged(
-    fitter: Fitter, best: FittedModel, test: ScoreTest, out: str, into: str
-) -> tuple[float, FittedModel]:  # fmt: skip
+def exchanged(fitter: Fitter, best: FittedModel, test: ScoreTest, out: str, into: str) -> tuple[float, FittedModel]:
     """Return by how much the objective would rise, were it quadratic, and the model with one effect for another."""
     parameters = fitter.parameters(best)
     gone = np.array([k for k, p in enumerate(parameters) if p.effect == out])
@@ -64,10 +62,9 @@ def exchanged(
     away = -best.z[gone]
     g = test.g[rows] + test.H[np.ix_(rows, gone)] @ away
     H = test.H[np.ix_(rows, rows)]
-    d = -np.linalg.solve(H + DAMPED * np.diag(np.diag(H)), g)
-    above = test.g[gone] @ away + 0.5 * away @ test.H[np.ix_(gone, gone)] @ away + g @ d + 0.5 * d @ H @ d
+    without = test.g[gone] @ away + 0.5 * away @ test.H[np.ix_(gone, gone)] @ away
     h = fitter.with_effect(fitter.without(best, out), into)
     limits = fitter.parameters(h)
-    h.z = np.clip(h.z + d, [p.least for p in limits], [p.most for p in limits])
+    h.z = np.clip(h.z + predicted_step(H, g), [p.least for p in limits], [p.most for p in limits])
     h.H = H
-    return float(above), h
+    return float(without) - predicted_gain(H, g), h

@@ -64,8 +64,9 @@ def test_a_second_fit_starts_where_the_first_one_ended(monkeypatch):
     assert not first.from_store and second.from_store
     lines = [report.line for report in said if report.line]
     assert lines[0] == "the baseline: from what was found before, at F"
-    # It goes on from there, by the covariance about that fit in place of the one about an earlier stage.
-    assert second.evidence.objective == pytest.approx(first.evidence.objective, rel=2e-3)
+    # It goes on from there, by the covariance about that fit in place of the one about an earlier stage: another
+    # draw of its spikes moves the objective by less than the two nats that count as one.
+    assert second.evidence.objective == pytest.approx(first.evidence.objective, abs=2.0)
 
 
 def test_a_model_begins_at_its_own_numbers():

@@ -96,24 +96,20 @@ def test_dampers_that_are_right_where_the_block_turns_alone_speak_of_the_velocit
         assert rule_in_common(answers, check, "T1")[0] == rule
 
 
-def test_normal_dampers_that_are_right_where_the_block_turns_alone_speak_of_the_rate_of_penetration(right):
+@pytest.mark.parametrize(
+    ("pushed", "rows"), [("touching", lambda answers: answers), ("pressed", first_rows)],
+    ids=["whole runs", "first rows alone, where tension hides dampers"],
+)  # fmt: skip
+def test_normal_dampers_that_are_right_where_the_block_turns_alone_speak_of_the_rate_of_penetration(
+    right, pushed, rows
+):
     for meets, rule in (
-        (lambda f: f["touching"] & f["push"] & ~f["no fall"], "K1"),
-        (lambda f: f["touching"] & f["push"], "N1"),
+        (lambda f: f[pushed] & f["push"] & ~f["no fall"], "K1"),
+        (lambda f: f[pushed] & f["push"], "N1"),
     ):
         answers, told = changed_where(right, meets, 2)
         check = Check(told[0], "L5s", "N1", "F_N@0", "outside", float("inf"))
-        assert rule_of_normal_forces(answers, check, "N1")[0] == rule
-
-
-def test_first_rows_alone_speak_of_the_rate_of_penetration_where_tension_hides_dampers(right):
-    for meets, rule in (
-        (lambda f: f["pressed"] & f["push"] & ~f["no fall"], "K1"),
-        (lambda f: f["pressed"] & f["push"], "N1"),
-    ):
-        answers, told = changed_where(right, meets, 2)
-        check = Check(told[0], "L5s", "N1", "F_N@0", "outside", float("inf"))
-        assert rule_of_normal_forces(first_rows(answers), check, "N1")[0] == rule
+        assert rule_of_normal_forces(rows(answers), check, "N1")[0] == rule
 
 
 @pytest.mark.parametrize(("component", "told_rule", "name"), [(0, "T1", "F_T@0"), (2, "N1", "F_N@0")])
