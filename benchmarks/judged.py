@@ -1,7 +1,7 @@
 """Measure how well the judge judges, and write `benchmarks/judged.csv`: `python benchmarks/judged.py [PART...]`.
 
-Parts: first to twentieth (lists of mistakes), scheme and "fourth", "fifth", "thirteenth", "fourteenth", "fifteenth",
-"sixteenth" to "twentieth scheme" (other integrators), variants (correct ones), zoo. What is not measured keeps its
+Parts: first to twenty-first (lists of mistakes), scheme and "fourth", "fifth", "thirteenth", "fourteenth", "fifteenth",
+"sixteenth" to "twenty-first scheme" (other integrators), variants (correct ones), zoo. What is not measured keeps its
 rows; the rows of a first judgement are never written anew. Without a part all are measured: an hour of
 processor time. Each mistake that is judged is kept in `judged.partial` beside: whoever is interrupted types the same
 again, and goes on where the measurement ended, unless the judge has changed since. What is not named is printed.

@@ -6,11 +6,11 @@ the verdict has, or the next one that it gives. Alike: the verdict has that rule
 the one that it has. The fingerprints of the zoo are not consulted: none of its mistakes helps. Two minutes of processor
 time.
 
-    --list first | second | ... | twentieth  the mistakes of `strangers_list.py`, `strangers_second.py` and so on; all
-                                by default
+    --list first | second | ... | twenty-first  the mistakes of `strangers_list.py`, `strangers_second.py` and so on;
+                                all by default
     --profile scheme            planted in backends with another integrator (`strangers_schemes.py`; with `--list
                                 fourth` those of `strangers_fourth.py`, with `fifth`, `thirteenth`, `fourteenth`,
-                                `fifteenth` to `twentieth` of theirs)
+                                `fifteenth` to `twenty-first` of theirs)
     --controls                  correct variants in place of mistakes (`strangers_controls.py`), long runs among them;
                                 and rows of too few digits, which are told as a format
 """
@@ -52,6 +52,7 @@ import strangers_third
 import strangers_thirteenth
 import strangers_twelfth
 import strangers_twentieth
+import strangers_twentyfirst
 from strangers_list import HARMLESS, Mistake
 
 from rockref.conformance.backends.executable import Executable
@@ -84,6 +85,7 @@ LISTS = {
     "eighteenth": strangers_eighteenth.MISTAKES,
     "nineteenth": strangers_nineteenth.MISTAKES,
     "twentieth": strangers_twentieth.MISTAKES,
+    "twenty-first": strangers_twentyfirst.MISTAKES,
 }
 MISTAKES = strangers_list.MISTAKES
 #: Other integrators, as lines of the function that makes a step.
@@ -97,6 +99,7 @@ STEPS = {
     **strangers_eighteenth.SCHEMES,
     **strangers_nineteenth.SCHEMES,
     **strangers_twentieth.SCHEMES,
+    **strangers_twentyfirst.SCHEMES,
 }
 
 
@@ -205,7 +208,8 @@ def of_list_schemes(lists: Any) -> Iterator[tuple[Mistake, str]]:
     """The same of a list and its own integrators, without what dwindles with the step."""
     yield from lists.OF_STEPS
     dwindle = getattr(lists, "OF_THE_STEP", ())
-    yield from in_turn(tuple(m for m in lists.MISTAKES if m.says not in dwindle), list(lists.SCHEMES))
+    asked = getattr(lists, "IN_STEPS", lists.MISTAKES)
+    yield from in_turn(tuple(m for m in asked if m.says not in dwindle), list(lists.SCHEMES))
 
 
 def of_thirteenth_schemes() -> Iterator[tuple[Mistake, str]]:
@@ -238,6 +242,7 @@ OF_SCHEMES = {
     "eighteenth scheme": partial(of_list_schemes, strangers_eighteenth),
     "nineteenth scheme": partial(of_list_schemes, strangers_nineteenth),
     "twentieth scheme": partial(of_list_schemes, strangers_twentieth),
+    "twenty-first scheme": partial(of_list_schemes, strangers_twentyfirst),
 }
 SHORT_LAYERS = [n for n in LAYERS if n != "L5"]
 #: Correct variants: in Python, in C, and integrators.
@@ -260,6 +265,7 @@ IN_PYTHON = (
     *strangers_eighteenth.IN_PYTHON,
     *strangers_nineteenth.IN_PYTHON,
     *strangers_twentieth.IN_PYTHON,
+    *strangers_twentyfirst.IN_PYTHON,
 )
 OF_C = (
     strangers_controls_c,
@@ -269,6 +275,7 @@ OF_C = (
     strangers_eighteenth,
     strangers_nineteenth,
     strangers_twentieth,
+    strangers_twentyfirst,
 )
 IN_C = tuple(v for each in OF_C for v in each.IN_C)
 

@@ -16,7 +16,7 @@ NAMES = {
     "twelfth": "twelfth list", "thirteenth": "thirteenth list",
     "fourteenth": "fourteenth list", "fifteenth": "fifteenth list", "sixteenth": "sixteenth list",
     "seventeenth": "seventeenth list", "eighteenth": "eighteenth list", "nineteenth": "nineteenth list",
-    "twentieth": "twentieth list",
+    "twentieth": "twentieth list", "twenty-first": "twenty-first list",
     "scheme": "mistakes in other integrators", "fourth scheme": "fourth list, in further integrators",
     "fifth scheme": "fifth list, in further integrators",
     "thirteenth scheme": "thirteenth list, in all of them",
@@ -27,6 +27,7 @@ NAMES = {
     "eighteenth scheme": "eighteenth list, in four further integrators",
     "nineteenth scheme": "nineteenth list, in four further integrators",
     "twentieth scheme": "twentieth list, in four further integrators",
+    "twenty-first scheme": "twenty-first list, in two further integrators",
     "variants": "correct variants", "zoo": "zoo",
 }  # fmt: skip
 
