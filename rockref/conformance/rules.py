@@ -73,11 +73,12 @@ RULES: tuple[Rule, ...] = (
 )
 
 #: What a run by itself cannot tell from a rule: constants that are misread, a rate and the damper that it drives, a
-#: force and what is made of it, an inertia and the equations that it stands in; as the zoo shows, whose mistakes of the
-#: rules on the right make runs point to those on the left.
+#: force and what is made of it, an inertia and the equations that it stands in, an increment and its exponential; as
+#: the zoo shows, whose mistakes of the rules on the right make runs point to those on the left.
 #: The likeliest first: runs are given their points and constants, and what is derived from parameters comes last.
 ALIKE_IN_RUNS: dict[str, tuple[str, ...]] = {
     "I2": ("I5", "G1"),
+    "I3": ("I2",),
     "I5": ("I2", "G1", "M1"),
     "K1": ("N1", "G2"),
     "N1": ("K1", "P1", "P2"),

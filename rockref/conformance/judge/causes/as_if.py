@@ -1,5 +1,5 @@
-"""Whether runs are those of the law with other inputs: feet that never slide, whose anchors are kept, or that nobody
-has tied.
+"""Whether runs are those of the law with other inputs: feet that never slide, whose anchors are kept, that nobody
+has tied, or that remember what another foot has done.
 
 Such an input stands for a decision of the law. A run that is wrong, and equals what the law makes of another
 input, tells that decision, whichever rule the run is to show.
@@ -7,7 +7,7 @@ input, tells that decision, whichever rule the run is to show.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -32,6 +32,28 @@ INPUTS: tuple[tuple[str, str, dict[str, float | bool]], ...] = (
 #: first step is the same.
 UNTIED: tuple[str, dict[str, float | bool]] = ("no foot was tied before the start", {"anchored": False})
 NO_SPRING = {"K_T": 2.0**-60}
+#: What a foot remembers, by rule and in words; and what it may take for it: another foot's, mostly.
+MEMORY = (
+    ("T5", "anchored", "flags of touching"), ("T5", "s", "anchors"), ("T6", "sliding", "flags of sliding"),
+)  # fmt: skip
+OTHER_FEET: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = (
+    ("of the foot before", lambda a: np.roll(a, 1, axis=0)),
+    ("of the foot after", lambda a: np.roll(a, -1, axis=0)),
+    ("from the last foot to the first", lambda a: a[::-1]),
+    ("of the first half", lambda a: a[np.arange(len(a)) % max(len(a) // 2, 1)]),
+    ("of the first foot", lambda a: np.repeat(a[:1], len(a), axis=0)),
+    ("of the opposite sign", lambda a: ~a if a.dtype == bool else -a),
+    ("with their coordinates exchanged", lambda a: a[..., ::-1] if a.ndim > 1 else a),
+)
+READ = "The runs are those of the law where feet have the {} {}."
+#: Rules that a wrong memory of the feet may seem to be.
+OF_FRICTION = ("T5", "T1", "T2", "T6", "T3")
+#: What the first evaluation alone decides of a run of one step: the rates have seen a second one, which remembers
+#: otherwise again.
+OF_THE_START = ("x", "Lambda")
+#: A share of the wrong runs of one step that another foot's memory has to explain. Decided: those that it does not are
+#: wrong of several feet in ways that cancel.
+NEARLY_ALL = 0.8
 #: Feet that push by nothing, wherever they are.
 NO_PUSH = {"K_N": 2.0**-60, "C_N": 2.0**-60}
 NOWHERE = "No foot pushes in any run: they are not where they should be."
@@ -56,6 +78,27 @@ def rule_as_if(answers: Answers, checks: Sequence[Check], check: Check) -> tuple
         count = sum(is_explained(v, out, inputs) for v, out in wrong)
         if count >= SOME and count >= MOST * len(wrong):
             return rule, SAYS.format(words)
+    return check.rule, ""
+
+
+def rule_of_other_feet(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
+    """Return the rule of what feet remember, and a sentence, where nearly all wrong runs of one step, the one that is
+    told among them, are those of the law whose feet read it from another foot; its own rule and "" elsewhere."""
+    failed = {c.vector for c in checks if c.failed and c.weighed and not c.follows and c.layer == "L5s"}
+    single = [(v, out) for v, out in answers if v.id in failed and len(rows_of_the_law(v.id)) == 2]
+    told = [(v, out) for v, out in single if v.id == check.vector]
+    if check.rule not in OF_FRICTION or check.layer != "L5s" or not told:
+        return check.rule, ""
+    if all(is_explained(v, out, NO_SPRING, OF_THE_START) for v, out in told):
+        return check.rule, ""
+    for rule, name, words in MEMORY:
+        for whose, read in OTHER_FEET:
+            inputs = {name: read}
+            if not all(is_explained(v, out, inputs, OF_THE_START) for v, out in told):
+                continue
+            count = sum(is_explained(v, out, inputs, OF_THE_START) for v, out in single)
+            if count >= SOME and count >= NEARLY_ALL * len(single):
+                return rule, READ.format(words, whose)
     return check.rule, ""
 
 
@@ -97,11 +140,16 @@ def rule_of_feet_that_never_push(answers: Answers, checks: Sequence[Check], chec
     return ("K1", NOWHERE) if sure else (check.rule, "")
 
 
-def is_explained(vector: Vector, out: dict[str, Any], inputs: dict[str, Any]) -> bool:
-    """Return whether the rows of a run are nearer to the law's with other inputs than they are to the law's, by far."""
+def is_explained(
+    vector: Vector, out: dict[str, Any], inputs: dict[str, Any], keys: Sequence[str] = ("x", "Lambda", "W")
+) -> bool:
+    """Return whether the rows of a run are nearer to the law's with other inputs than they are to the law's, by far.
+
+    keys : what is looked at
+    """
     right, other = law(vector), law(vector, inputs)
     off = left = 0.0
-    for key in ("x", "Lambda", "W"):
+    for key in keys:
         try:
             got = np.asarray(out[key], float)
             off += float(np.sum((got - right[key]) ** 2))
@@ -135,7 +183,8 @@ def given_up(answers: Answers) -> bool:
 
 
 def law(vector: Vector, inputs: dict[str, Any] | None = None) -> dict[str, Any]:
-    """Return the law's own answer to a run, with other inputs for all feet."""
-    q = {k: np.full(np.shape(vector.inputs[k]), a)[()] for k, a in (inputs or {}).items()}
+    """Return the law's own answer to a run, with other inputs: a number for all feet, or what makes them of the own."""
+    given = vector.inputs
+    q = {k: a(given[k]) if callable(a) else np.full(np.shape(given[k]), a)[()] for k, a in (inputs or {}).items()}
     ask = richardson.ask if vector.layer == "LS" else call.ask
-    return ask(NumpyEngine(), replace(vector, inputs=vector.inputs | q))
+    return ask(NumpyEngine(), replace(vector, inputs=given | q))

@@ -22,6 +22,12 @@ from rockref.conformance.vectors import Vector
 #: Decided: where friction is wrong the circumstance of its rule agrees by 0.8 or more, those of others by half as much.
 CLEAR, LESS = 0.8, 0.7
 
+
+def shows_parts(f: Feet) -> np.ndarray:
+    """Return which feet show how much of their trial force is the spring's: of a sliding foot its direction alone."""
+    return f["dragged"] & (f["bent"] | ~f["slides"])
+
+
 Circumstance = Callable[[Feet], np.ndarray]
 Circumstances = tuple[tuple[str, str, Circumstance], ...]
 Parts = tuple[tuple[str, str, str], ...]
@@ -32,11 +38,13 @@ CIRCUMSTANCES: Circumstances = (
     ("T5", "feet touch anew", lambda f: f["new"]),
     ("T5", "feet touch anew beside others that are tied", lambda f: f["beside"]),
     ("T5", "stretched feet stand beside one that touches anew", lambda f: f["spring"] & f["company"]),
-    ("T5", "anchors are those of the step before", lambda f: f["later"] & ~f["new"] & f["spring"]),
+    ("T5", "anchors are those of the step before", lambda f: f["later"] & ~f["new"] & f["spring"] & f["dragged"]),
     ("T1", "dampers of friction work", lambda f: f["damper"]),
     ("T1", "springs of friction are stretched", lambda f: f["spring"]),
     ("T1", "dampers of sticking feet work", lambda f: f["damper"] & ~f["slides"]),
     ("T1", "springs of sticking feet are stretched", lambda f: f["spring"] & ~f["slides"]),
+    ("T1", "springs of feet that slid are stretched", lambda f: f["spring"] & f["slid"] & shows_parts(f)),
+    ("T1", "dampers of feet that slid work", lambda f: f["damper"] & f["slid"] & shows_parts(f)),
     ("T2", "feet slide", lambda f: f["slides"]),
     ("T2", "feet begin or cease to slide", lambda f: f["slides"] != f["slid"]),
     ("T2", "feet that touch anew slide", lambda f: f["new"] & f["slides"]),
@@ -46,6 +54,7 @@ CIRCUMSTANCES: Circumstances = (
     ("T3", "feet slide on", lambda f: f["slides"] & f["slid"]),
     ("T3", "feet begin to slide", lambda f: f["slides"] & ~f["slid"]),
     ("T4", "feet slid in the step before", lambda f: f["moved"]),
+    ("T4", "anchors of feet were moved", lambda f: f["carried"]),
     ("S1", "a step comes before", lambda f: f["later"]),
 )
 #: The same of normal forces.
@@ -78,6 +87,9 @@ ALONG: Parts = (("drift", "spin", "the block turns"), ("spin", "drift", "the blo
 ACROSS: Parts = (("fall", "tilt", "the block turns"), ("tilt", "fall", "the block falls"))
 IN_COMMON = "Forces are wrong where {}, and hardly anywhere else."
 AFTER_A_STEP = IN_COMMON.format("a step comes before")
+SLOW = (
+    "Normal dampers of slow feet are wrong, and those of fast ones are right: it is the damper, and not the velocity."
+)
 BOTH = "What is wrong of open feet and of those that touch is the penetration."
 NORMAL = "The normal forces of the row are wrong already: where {}."
 
@@ -138,11 +150,11 @@ def anew_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
 
 
 def after_sliding_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
-    """Return whether feet slid in the step before nearly wherever forces are wrong, none of them before the start, and
-    anchors of feet that stuck are right."""
+    """Return whether anchors of feet were moved in the run nearly wherever forces are wrong, none of them before the
+    start, and anchors of feet that stuck are right."""
     stuck = [f for f in right if np.any(f["later"] & ~f["new"] & f["spring"] & ~f["slid"])]
     at_start = any(bool(np.any(f["slid"] & ~f["later"])) for f in wrong)
-    return len(stuck) >= SOME and not at_start and sum(bool(np.any(f["moved"])) for f in wrong) >= CLEAR * len(wrong)
+    return len(stuck) >= SOME and not at_start and sum(bool(np.any(f["carried"])) for f in wrong) >= CLEAR * len(wrong)
 
 
 def beyond_the_cones(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
@@ -163,6 +175,8 @@ def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[st
             return "K1", RATE.format(words)
         if undamped(*seen, normal_damper):
             return "K1", UNDAMPED
+    if rule in ("K1", "S1") and slow_alone(*parted(by_run(answers, pushes(check)))):
+        return "N1", SLOW
     if not check.name.startswith("F_"):
         return rule, ""
     of_runs = by_run(answers, normal)
@@ -177,6 +191,17 @@ def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[st
         return rule, ""
     best = max(OF_NORMAL_FORCES, key=lambda c: agreement(c[2], wrong, right))
     return best[0], NORMAL.format(best[1])
+
+
+def slow_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
+    """Return whether a foot is slower wherever forces are wrong than all feet are where they are right and dampers
+    work, in some runs each: a speed below which the damper does not work is no velocity's."""
+    slowest = [
+        [float(np.min(f["sinking"][works])) for f in of if np.any(works := asked(f))]
+        for of, asked in ((wrong, moves_across), (right, seen_damper))
+    ]
+    sure = len(slowest[0]) == len(wrong) and min(map(len, slowest)) >= SOME
+    return sure and max(slowest[0]) < min(slowest[1])
 
 
 def undamped(wrong: Sequence[Feet], right: Sequence[Feet], works: Circumstance) -> bool:
@@ -215,6 +240,11 @@ def has_friction(f: Feet) -> np.ndarray:
 def normal_damper(f: Feet) -> np.ndarray:
     """Return which feet touch, with a normal damper that works."""
     return f["touching"] & f["push"]
+
+
+def moves_across(f: Feet) -> np.ndarray:
+    """Return which feet touch and go up or down, however slowly."""
+    return f["touching"] & (f["sinking"] > 0)
 
 
 def seen_damper(f: Feet) -> np.ndarray:

@@ -27,6 +27,7 @@ AT_THE_START = "Where the start brings its own acceleration, the fall is right: 
 #: So many weights no wrong force or acceleration makes. Decided: a sign of the weight makes two, of a moving block.
 FAR = 4.0
 TOO_FAR = "Falls from rest are right, others off by more in a step than a weight makes: it is the velocity."
+TURNED_OFF = "Blocks that turn fall by more in a step than a weight makes, others as they should: it is the place."
 A_STEP_LATE = "The first step of every fall is right, and the second of some is not: the velocity is wrong."
 ADD_UP = "Falls gain more in each step, by the same whatever their velocity: loads add up from step to step."
 WHOLE_STEP = (
@@ -55,6 +56,8 @@ def rule_of_a_fall(answers: Answers, rule: str) -> tuple[str, str]:
     runs = [(v, out) for v, out in answers if v.layer == "L5s" and free(v)]
     if too_far(answers, "L5s"):
         return "I1", TOO_FAR
+    if turns_off(answers):
+        return "I1", TURNED_OFF
     ratios = [g for v, out in runs for g in growth(v, out)]
     if len(ratios) < 2 or any(abs(g - 2) >= NEAR for g in ratios):
         return rule, ""
@@ -77,6 +80,19 @@ def too_far(answers: Answers, layer: str) -> bool:
         elif np.any(q["Lambda"] != np.eye(3)):
             rest.append(in_weights(q, out))
     return len(rest) >= SOME and max(rest) <= NEAR and sum(w > FAR for w in moving) > 1
+
+
+def turns_off(answers: Answers) -> bool:
+    """Return whether falls of blocks that do not turn are right, and of those that do off by more in a row than their
+    weight would make."""
+    straight: list[float] = []
+    turning: list[float] = []
+    for vector, out in answers:
+        q = vector.inputs
+        asked = vector.layer == "L5s" and q.get("a") is None and way_of_the_weight(q) > SAME / NEAR
+        if asked and is_clear(vector):
+            (turning if np.any(q["W"]) else straight).append(in_weights(q, out))
+    return len(straight) >= SOME and max(straight) <= NEAR and sum(w > FAR for w in turning) > 1
 
 
 def in_weights(q: dict[str, Any], out: dict[str, Any]) -> float:

@@ -32,6 +32,7 @@ Answers = Sequence[tuple[Vector, dict[str, Any]]]
 HELD = "Feet that should slide show their trial force: they are held to stick."
 LOOSE = "Feet that should stick show the sliding force: they are made to slide."
 DAMPER = "The spring's part of the friction force is right, the damper's is not."
+ON_THE_CONE = "All friction that is wrong is that of sliding feet, and of the right size: its direction is wrong."
 OTHER_TRIAL = "The foot is held to stick, and shows another force than the trial force."
 OPEN = "The friction of a foot above the plate is no trial force: it is not asked whether the foot is open."
 STALE = "The friction forces are those of the row before."
@@ -136,6 +137,8 @@ def rule_of_the_start(answers: Answers, vector: Vector, out: dict[str, Any], che
         return ("T2", LOOSE) if check.rule == "T3" and all_are_loose(answers) else (check.rule, "")
     if check.rule == "T3" and np.all(row.alike(row.got, row.whole)[off]) and all_are_held(answers):
         return "T2", HELD
+    if check.rule == "T2" and all_are_on_the_cone(answers):
+        return "T3", ON_THE_CONE
     stick = row.alike(row.right, row.whole)
     slide = sliding_force(vector.inputs, row.k, row.whole)
     loose = np.all(stick[off]) and np.allclose(row.got[off], slide[off], rtol=SAME, atol=size)
@@ -168,6 +171,19 @@ def all_are_loose(answers: Answers) -> bool:
             return False
         loose += int(np.sum(wrong))
     return loose >= FEET
+
+
+def all_are_on_the_cone(answers: Answers) -> bool:
+    """Return whether every foot that has a wrong friction in a first row should slide, and has one of the right size,
+    some feet: it was decided rightly that they slide, and how large the force is."""
+    wrong = 0
+    for _, row in rows_with_friction(answers):
+        off, slide = row.off, ~row.alike(row.right, row.whole)
+        sizes = norm(row.got), norm(row.right)
+        if np.any(off & ~slide) or not np.allclose(sizes[0][off], sizes[1][off], rtol=SAME, atol=0.0):
+            return False
+        wrong += int(np.sum(off))
+    return wrong >= FEET
 
 
 def rows_with_friction(answers: Answers) -> Iterator[tuple[Vector, FirstRow]]:

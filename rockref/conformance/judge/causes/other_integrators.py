@@ -30,6 +30,9 @@ STEADY = 1e-9
 GROWTH = 1.25
 #: A coefficient of friction beyond every cone, as short runs have it. Decided.
 HELD = 2.0**20
+#: A share of the normal forces after sixteen steps by which they are no longer those of springs at the places that are
+#: shown. Decided: integrators of first order differ by half a hundredth, before any extrapolation.
+UNFIT = 2e-2
 #: A share of the runs with dampers that have to be wrong for the dampers to be. Decided.
 MOST = 0.5
 SLID = "Anchors of feet that never slide are right: those of feet that slide are not."
@@ -39,6 +42,7 @@ STICKING = "Where feet stick, friction moves the block as it should; where they 
 AFTER_THE_START = "Forces of the start and all that springs alone make are right: after a step dampers are wrong."
 SLOWED = "The rates of a ball that nothing turns change."
 DRAGGED = "Friction turns the block as it should, and moves it otherwise: the sum is wrong."
+NO_SPRINGS = "After sixteen steps normal forces without dampers are not those of springs where the feet are."
 PULLED = "What the place of a drifting block is off by grows faster than the steps: its velocity changes."
 
 
@@ -65,6 +69,8 @@ def rule_of_sixteen_steps(answers: Answers, checks: Sequence[Check], check: Chec
         return "A1", DRAGGED
     if check.rule == "A1" and is_clear(next(v for v, _ in answers if v.id == check.vector)) and too_far(answers, "LS"):
         return "I1", TOO_FAR
+    if check.rule in ("A1", "A2", "A3") and pushes_do_not_fit(answers):
+        return "N1", NO_SPRINGS
     if check.rule in ("A1", "N1") and dampers_alone(answers, checks, check):
         return "S1", AFTER_THE_START
     if check.rule == "I2" and balls_are_slowed(answers):
@@ -93,6 +99,24 @@ def turns_are_on_time(answers: Answers) -> bool:
     share = float(ways[0] @ made[0] / (made[0] @ made[0]))
     apart = [np.linalg.norm(way - share * of) / np.linalg.norm(of) for way, of in zip(ways, made, strict=True)]
     return bool(max(apart) <= NEAR * abs(share - 1))
+
+
+def pushes_do_not_fit(answers: Answers) -> bool:
+    """Return whether forces are shown, and in no run without normal dampers those after sixteen steps are what springs
+    make at the places of the same row: it is the force, whatever is made of it."""
+    shares = []
+    for vector, out in answers:
+        q = vector.inputs
+        if vector.layer != "LS" or damped(vector) or is_clear(vector):
+            continue
+        try:
+            got, x, Lambda = (np.asarray(out[key], float)[1] for key in ("F", "x", "Lambda"))
+        except (KeyError, TypeError, ValueError, IndexError):
+            return False
+        springs = q["K_N"] * np.maximum(-(x + q["P"] @ Lambda.T)[:, 2], 0.0)
+        if np.max(springs) > 0.0:
+            shares.append(float(np.max(np.abs(got[:, 2] - springs)) / np.max(springs)))
+    return len(shares) >= SOME and min(shares) > UNFIT
 
 
 def dragged_alone(answers: Answers) -> bool:

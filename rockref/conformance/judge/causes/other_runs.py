@@ -7,7 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from rockref.conformance.judge.causes.as_if import rule_as_if, rule_of_feet_that_never_push, rule_of_untied_feet
+from rockref.conformance.judge.causes.as_if import (
+    rule_as_if,
+    rule_of_feet_that_never_push,
+    rule_of_other_feet,
+    rule_of_untied_feet,
+)
 from rockref.conformance.judge.causes.at_the_start import (
     rule_of_brought_loads,
     rule_of_the_first_evaluation,
@@ -66,7 +71,7 @@ def cause_of(
     if of_moments:
         return rule_of_a_moment(answers, checks, check)
     if hidden:
-        for told in (rule_of_feet_that_never_push, rule_of_a_turn_alone, rule_as_if):
+        for told in (rule_of_feet_that_never_push, rule_of_a_turn_alone, rule_of_other_feet, rule_as_if):
             other, says = told(answers, checks, check)
             if says:
                 return other, says

@@ -12,13 +12,14 @@ from rockref.conformance.judge.causes.as_if import law
 from rockref.conformance.judge.causes.circumstances import (
     CIRCUMSTANCES,
     SLID,
+    SLOW,
     rule_in_common,
     rule_of_normal_forces,
 )
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
 from rockref.conformance.judge.causes.one_foot import rule_of_one_foot
 from rockref.conformance.judge.causes.other_integrators import first_rows
-from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
+from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law, same
 from rockref.conformance.judge.causes.steps_of_a_run import step_is_wrong
 from rockref.conformance.judge.compare_answer import Check
 from tests.unit.conformance.judge.causes.hidden_runs import verdict_on_hidden
@@ -55,6 +56,7 @@ def with_wrong_friction(answers, meets, hidden):
     [
         "feet slid in the step before",
         "stretched feet stand beside one that touches anew",
+        "springs of feet that slid are stretched",
         "feet that touch anew slide",
     ],
 )
@@ -124,6 +126,27 @@ def test_feet_that_move_and_are_wrong_where_no_damper_works_speak_of_the_velocit
         check = Check(told[0], "L5s", told_rule, name, "outside", float("inf"))
         ask_ = rule_in_common if component == 0 else rule_of_normal_forces
         assert ask_(answers, check, told_rule)[0] == rule
+
+
+@pytest.mark.parametrize(("below", "rule"), [(1e-3, "N1"), (np.inf, "K1")])
+def test_normal_dampers_that_are_wrong_of_slow_feet_alone_speak_of_the_damper(right, below, rule):
+    answers, told = changed_where(right, lambda f: f["touching"] & (f["sinking"] > 0) & (f["sinking"] < below), 2)
+    check = Check(told[0], "L5s", "K1", "F_N@0", "outside", float("inf"))
+    assert rule_of_normal_forces(answers, check, "K1") == (rule, SLOW if rule == "N1" else "")
+
+
+def test_an_anchor_that_was_moved_stays_moved_while_the_foot_sticks():
+    carried = [row.feet for v in vectors.layer("L5s") for row in rows_of_the_law(v.id) if row.feet is not None]
+    assert any(np.any(f["carried"] & ~f["moved"]) for f in carried)
+    assert not any(np.any(f["moved"] & ~f["carried"] & f["touching"]) for f in carried)
+    assert not any(np.any(f["carried"] & (f["new"] | ~f["touching"])) for f in carried)
+
+
+def test_rates_are_the_same_where_they_differ_by_what_is_negligible(right):
+    vector, out = next((v, out) for v, out in right if rows_of_the_law(v.id))
+    row = rows_of_the_law(vector.id)[0]
+    for key, off, alike in (("W", 5e-13, True), ("W", 2e-12, False), ("x", 1e-13, False)):
+        assert same({key: np.asarray(out[key]) + off}, key, 0, getattr(row, key)) is alike
 
 
 def test_friction_of_feet_whose_normal_force_is_wrong_speaks_of_that(right):

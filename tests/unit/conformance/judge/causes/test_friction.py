@@ -7,7 +7,8 @@ from rockref.conformance import vectors
 from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine
 from rockref.conformance.judge.causes.friction import rule_of_friction
-from rockref.conformance.judge.compare_answer import compare
+from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
+from rockref.conformance.judge.compare_answer import Check, compare
 from rockref.model.contact import point_kinematics, trial_force
 
 
@@ -68,6 +69,22 @@ def test_friction_that_moves_the_block_wrongly_and_turns_it_rightly_is_summed_wr
         out["x"][1, 0] += 1e-9
         out["Lambda"][1] += turned
     assert named(answers, "x@1") == rule
+
+
+@pytest.mark.parametrize(("size", "rule"), [(1.0, "T3"), (1.1, "T2")])
+def test_sliding_forces_of_the_right_size_speak_of_their_direction(size, rule):
+    answers, told = [], []
+    for vector in vectors.layer("L5s"):
+        out, rows = ask(NumpyEngine(), vector), rows_of_the_law(vector.id)
+        slides = rows[0].feet["slides"] if rows and rows[0].feet is not None else np.zeros(1, bool)
+        dragged = slides & (np.hypot(*np.asarray(out["F"])[0, :, :2].T) > 0)
+        if "F_T@0" in vector.expect and np.any(dragged):
+            F = np.array(out["F"])
+            F[0, dragged, :2] = size * F[0, dragged, 1::-1] * [1, -1]
+            out, told = dict(out) | {"F": F}, [*told, vector.id]
+        answers.append((vector, out))
+    check = Check(told[0], "L5s", "T2", "F_T@0", "outside", float("inf"))
+    assert rule_of_friction(answers, [], check)[0] == rule
 
 
 @pytest.mark.parametrize(("late", "rule"), [(True, "S1"), (False, "T5")])

@@ -11,12 +11,23 @@ from rockref.conformance.backends.law import NumpyEngine, RulesBackend
 from rockref.conformance.backends.other_scheme import kick_and_drift
 from rockref.conformance.backends.rule_set import law
 from rockref.conformance.judge.causes.flags import without_lost_numbers
-from rockref.conformance.judge.causes.other_integrators import gains_speed
+from rockref.conformance.judge.causes.other_integrators import gains_speed, rule_of_sixteen_steps
 from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
 from rockref.conformance.judge.compare_answer import Check, compare
 from rockref.conformance.judge.findings import Findings, answered, by_finer_steps, judge
 from rockref.conformance.judge.verdict import verdict
 from rockref.model.contact import point_kinematics
+
+
+@pytest.mark.parametrize(("share", "rule"), [(1.1, "N1"), (1.001, "A1")])
+def test_normal_forces_that_are_not_those_of_springs_after_sixteen_steps_speak_of_the_force(share, rule):
+    answers = []
+    for v in vectors.layer("LS"):
+        out = richardson.ask(NumpyEngine(), v)
+        answers.append((v, out | {"F": np.asarray(out["F"]) * [[[1.0]], *[[[share]]] * (len(out["F"]) - 1)]}))
+    told = next(v.id for v in vectors.layer("LS") if v.rule == "A2")
+    check = Check(told, "LS", "A1", "x@1", "outside", float("inf"))
+    assert rule_of_sixteen_steps(answers, [], check)[0] == rule
 
 
 class Other:

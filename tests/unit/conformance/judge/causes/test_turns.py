@@ -9,7 +9,7 @@ from rockref.conformance import vectors
 from rockref.conformance.backends.call import ask
 from rockref.conformance.backends.law import NumpyEngine
 from rockref.conformance.backends.rule_set import law
-from rockref.conformance.judge.causes.falls import TOO_FAR, free, rule_of_a_fall
+from rockref.conformance.judge.causes.falls import TOO_FAR, TURNED_OFF, free, rule_of_a_fall
 from rockref.conformance.judge.causes.rows_of_the_law import rows_of_the_law
 from rockref.conformance.judge.causes.slips import exponential, rotation_vector
 from rockref.conformance.judge.causes.turns import angular_acceleration, rule_of_a_turn, rule_of_no_rotation
@@ -119,3 +119,15 @@ def test_a_fall_that_is_off_by_more_than_a_weight_makes_speaks_of_the_velocity()
     assert rule_of_a_fall(answers, "A1") == ("I1", TOO_FAR)
     found = verdict_on_hidden(start=start)
     assert found.rule == "I1", (found.rule, found.says, found.check)
+
+
+@pytest.mark.parametrize(("rule", "words", "carried"), [("I1", TURNED_OFF, 0.0), ("A1", "", 1e-3)])
+def test_falls_that_are_off_where_the_block_turns_speak_of_the_place(rule, words, carried):
+    """Places that turn about the origin; with blocks that do not turn carried aside as well, nothing is told."""
+    answers = []
+    for v in vectors.layer("L5s"):
+        q, out = v.inputs, dict(ask(NumpyEngine(), v))
+        steps = np.arange(len(out["x"]))[:, None]
+        off = q["step"] * np.cross(q["W"], q["x"]) + carried * (not np.any(q["W"])) * q["step"]
+        answers.append((v, out | {"x": out["x"] + steps**2 * off}))
+    assert rule_of_a_fall(answers, "A1") == (rule, words)
