@@ -83,21 +83,23 @@ def rule_as_if(answers: Answers, checks: Sequence[Check], check: Check) -> tuple
 
 def rule_of_other_feet(answers: Answers, checks: Sequence[Check], check: Check) -> tuple[str, str]:
     """Return the rule of what feet remember, and a sentence, where nearly all wrong runs of one step, the one that is
-    told among them, are those of the law whose feet read it from another foot; its own rule and "" elsewhere."""
+    told among them, are those of the law whose feet read it from another foot, and not as many those without springs
+    of friction; its own rule and "" elsewhere."""
     failed = {c.vector for c in checks if c.failed and c.weighed and not c.follows and c.layer == "L5s"}
     single = [(v, out) for v, out in answers if v.id in failed and len(rows_of_the_law(v.id)) == 2]
     told = [(v, out) for v, out in single if v.id == check.vector]
     if check.rule not in OF_FRICTION or check.layer != "L5s" or not told:
         return check.rule, ""
-    if all(is_explained(v, out, NO_SPRING, OF_THE_START) for v, out in told):
-        return check.rule, ""
+    unsprung = sum(is_explained(v, out, NO_SPRING, OF_THE_START) for v, out in single)
+    # Where springs of friction are right in other runs, none is missing.
+    sprung = sum(v.layer == "L5s" and v.id not in failed and is_stretched(v) for v, _ in answers) >= FEET
     for rule, name, words in MEMORY:
         for whose, read in OTHER_FEET:
             inputs = {name: read}
             if not all(is_explained(v, out, inputs, OF_THE_START) for v, out in told):
                 continue
             count = sum(is_explained(v, out, inputs, OF_THE_START) for v, out in single)
-            if count >= SOME and count >= NEARLY_ALL * len(single):
+            if count >= max(SOME, NEARLY_ALL * len(single)) and (sprung or count - unsprung >= SOME):
                 return rule, READ.format(words, whose)
     return check.rule, ""
 
