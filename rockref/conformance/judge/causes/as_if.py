@@ -92,14 +92,15 @@ def rule_of_other_feet(answers: Answers, checks: Sequence[Check], check: Check) 
         return check.rule, ""
     unsprung = sum(is_explained(v, out, NO_SPRING, OF_THE_START) for v, out in single)
     # Where springs of friction are right in other runs, none is missing.
-    sprung = sum(v.layer == "L5s" and v.id not in failed and is_stretched(v) for v, _ in answers) >= FEET
+    wrong = {c.vector for c in checks if c.failed}
+    sprung = sum(v.layer == "L5s" and v.id not in wrong and is_stretched(v) for v, _ in answers) >= FEET
     for rule, name, words in MEMORY:
         for whose, read in OTHER_FEET:
             inputs = {name: read}
             if not all(is_explained(v, out, inputs, OF_THE_START) for v, out in told):
                 continue
             count = sum(is_explained(v, out, inputs, OF_THE_START) for v, out in single)
-            if count >= max(SOME, NEARLY_ALL * len(single)) and (sprung or count - unsprung >= SOME):
+            if count >= max(SOME, unsprung, NEARLY_ALL * len(single)) and (sprung or count - unsprung >= SOME):
                 return rule, READ.format(words, whose)
     return check.rule, ""
 
