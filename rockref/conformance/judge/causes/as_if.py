@@ -36,14 +36,15 @@ NO_SPRING = {"K_T": 2.0**-60}
 MEMORY = (
     ("T5", "anchored", "flags of touching"), ("T5", "s", "anchors"), ("T6", "sliding", "flags of sliding"),
 )  # fmt: skip
-OTHER_FEET: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = (
-    ("of the foot before", lambda a: np.roll(a, 1, axis=0)),
-    ("of the foot after", lambda a: np.roll(a, -1, axis=0)),
-    ("from the last foot to the first", lambda a: a[::-1]),
-    ("of the first half", lambda a: a[np.arange(len(a)) % max(len(a) // 2, 1)]),
-    ("of the first foot", lambda a: np.repeat(a[:1], len(a), axis=0)),
-    ("of the opposite sign", lambda a: ~a if a.dtype == bool else -a),
-    ("with their coordinates exchanged", lambda a: a[..., ::-1] if a.ndim > 1 else a),
+OTHER_FEET: tuple[tuple[str, Callable[[np.ndarray, dict[str, Any]], np.ndarray]], ...] = (
+    ("of the foot before", lambda a, q: np.roll(a, 1, axis=0)),
+    ("of the foot after", lambda a, q: np.roll(a, -1, axis=0)),
+    ("from the last foot to the first", lambda a, q: a[::-1]),
+    ("of the first half", lambda a, q: a[np.arange(len(a)) % max(len(a) // 2, 1)]),
+    ("of the first foot", lambda a, q: np.repeat(a[:1], len(a), axis=0)),
+    ("of the opposite sign", lambda a, q: ~a if a.dtype == bool else -a),
+    ("with their coordinates exchanged", lambda a, q: a[..., ::-1] if a.ndim > 1 else a),
+    ("where they are, if they slid", lambda a, q: np.where(q["sliding"][:, None], places(q), a) if a.ndim > 1 else a),
 )
 READ = "The runs are those of the law where feet have the {} {}."
 #: Rules that a wrong memory of the feet may seem to be.
@@ -126,6 +127,11 @@ def rule_of_untied_feet(answers: Answers, checks: Sequence[Check], check: Check)
     return ("T5", GIVEN_UP) if sum(is_stretched(v) for v in right) >= FEET else (check.rule, "")
 
 
+def places(q: dict[str, Any]) -> np.ndarray:
+    """Return where feet (n, 2) [m] are along the plate at a start."""
+    return np.asarray((q["x"] + q["P"] @ q["Lambda"].T)[:, :2])
+
+
 def is_stretched(vector: Vector) -> bool:
     """Return whether springs that are tied at the start move the block of a run, or turn it."""
     tied, untied = law(vector), law(vector, UNTIED[1])
@@ -188,6 +194,8 @@ def given_up(answers: Answers) -> bool:
 def law(vector: Vector, inputs: dict[str, Any] | None = None) -> dict[str, Any]:
     """Return the law's own answer to a run, with other inputs: a number for all feet, or what makes them of the own."""
     given = vector.inputs
-    q = {k: a(given[k]) if callable(a) else np.full(np.shape(given[k]), a)[()] for k, a in (inputs or {}).items()}
+    q = {
+        k: a(given[k], given) if callable(a) else np.full(np.shape(given[k]), a)[()] for k, a in (inputs or {}).items()
+    }
     ask = richardson.ask if vector.layer == "LS" else call.ask
     return ask(NumpyEngine(), replace(vector, inputs=given | q))

@@ -120,6 +120,8 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
     believed, words, meets = CIRCUMSTANCES[best]
     told = any(is_off and np.any(meets(feet)) for feet, is_off in of_runs.get(check.vector, []))
     clear = told and scores[best] >= CLEAR and own <= LESS * scores[best]
+    if clear and believed == "T1" and rule == "T5" and given_up(answers):
+        return rule, GIVEN_UP
     return (believed, IN_COMMON.format(words)) if clear else (rule, "")
 
 

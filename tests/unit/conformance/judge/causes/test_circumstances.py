@@ -15,6 +15,7 @@ from rockref.conformance.judge.causes.circumstances import (
     SLOW,
     rule_in_common,
     rule_of_normal_forces,
+    shows_parts,
 )
 from rockref.conformance.judge.causes.falls import rule_of_a_fall
 from rockref.conformance.judge.causes.one_foot import rule_of_one_foot
@@ -226,6 +227,24 @@ def test_stretched_feet_with_the_friction_of_new_ones_have_given_up_their_anchor
         answers.append((v, dict(out) | {"F": F}))
     check = Check(told[0], "L5s", "T1", "F_T@0", "outside", float("inf"))
     assert rule_in_common(answers, check, "T1")[0] == rule
+
+
+@pytest.mark.parametrize(("share", "rule"), [(1.0, "T5"), (0.5, "T1")])
+def test_feet_that_slid_without_a_spring_are_tied_where_they_are_and_with_half_of_one_pulled_wrongly(
+    right, share, rule
+):
+    answers, told = [], []
+    for v, out in right:
+        rows, F = rows_of_the_law(v.id), np.array(out["F"])
+        feet = rows[0].feet if rows else None
+        if feet is not None:
+            anew = law(v, {"anchored": False, "sliding": False})["F"][0]
+            off = feet["touching"] & feet["slid"] & feet["spring"] & shows_parts(feet)
+            F[0, off] += share * (anew - F[0])[off] + feet["slides"][off, None]
+            told += [v.id] * bool(np.any(off))
+        answers.append((v, dict(out) | {"F": F}))
+    check = Check(told[0], "L5s", "T5", "F_T@0", "outside", float("inf"))
+    assert rule_in_common(answers, check, "T5")[0] == rule
 
 
 def test_where_the_anchor_of_a_new_foot_is_right_its_trial_force_is_wrong():
