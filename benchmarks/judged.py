@@ -1,11 +1,10 @@
 """Measure how well the judge judges, and write `benchmarks/judged.csv`: `python benchmarks/judged.py [PART...]`.
 
-Parts: first to twenty-first (lists of mistakes), scheme and "fourth", "fifth", "thirteenth", "fourteenth", "fifteenth",
-"sixteenth" to "twenty-first scheme" (other integrators), variants (correct ones), zoo. What is not measured keeps its
-rows; the rows of a first judgement are never written anew. Without a part all are measured: an hour of
-processor time. Each mistake that is judged is kept in `judged.partial` beside: whoever is interrupted types the same
-again, and goes on where the measurement ended, unless the judge has changed since. What is not named is printed.
-`python docs/make_judge_table.py` makes the table of the documentation of it.
+Parts: the numbers of the lists, "scheme" and such as "4 scheme" (lists in other integrators), variants (correct ones),
+zoo. What is not measured keeps its rows; the rows of a first judgement are never written anew. Without a part all are
+measured: hours of processor time. Each mistake that is judged is kept in `judged.partial` beside: whoever is
+interrupted types the same again, and goes on where the measurement ended, unless the judge has changed since. What is
+not named is printed. `python docs/make_judge_table.py` makes the table of the documentation of it.
 """
 
 from __future__ import annotations
@@ -21,20 +20,20 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import strangers
+from strangers import correct, judging, planting, registry, report
 
 FILE = Path(__file__).with_name("judged.csv")
 ROOT = FILE.parents[1]
 KEPT = FILE.with_suffix(".partial")
 ZOO = ROOT / "benchmarks/zoo.csv"
 COLUMNS = ("judged", "way", "when", "asked", "detected", "named", "top_two")
-PARTS = (*strangers.LISTS, *strangers.OF_SCHEMES, "variants", "zoo")
+PARTS = (*registry.LISTS, *judging.OF_SCHEMES, "variants", "zoo")
 Row = dict[str, Any]
 
 
 def judge_digest() -> str:
     """What judges, as a digest: vectors, code, and the texts in which the mistakes are planted."""
-    parts = [*(ROOT / "rockref/conformance").rglob("*"), *FILE.parent.glob("strangers*.py"), strangers.SOURCE]
+    parts = [*(ROOT / "rockref/conformance").rglob("*"), *FILE.parent.glob("strangers/*.py"), planting.SOURCE]
     digest = hashlib.sha256()
     for path in sorted(p for p in parts if p.is_file() and "__pycache__" not in p.parts):
         digest.update(path.read_bytes())
@@ -59,20 +58,18 @@ def of_list(part: str) -> Iterator[Row]:
     digest = judge_digest()
     known, found = kept(digest), []
     pairs = (
-        list(strangers.OF_SCHEMES[part]())
-        if part in strangers.OF_SCHEMES
-        else [(m, None) for m in strangers.LISTS[part]]
+        list(judging.OF_SCHEMES[part]()) if part in judging.OF_SCHEMES else [(m, None) for m in registry.LISTS[part]]
     )
     for mistake, scheme in pairs:
         key = f"{part}: {mistake.says}, {scheme}"
         if key not in known:
-            known[key] = strangers.of_mistake(mistake, scheme)
+            known[key] = judging.of_mistake(mistake, scheme)
             with KEPT.open("a", encoding="utf-8") as file:
                 file.write(json.dumps({"judge": digest, "key": key, "found": known[key]}) + "\n")
         found.append(known[key])
         print(f"{part}: {len(found)} of {len(pairs)}", file=sys.stderr, flush=True)
-    strangers.show(found, [], as_json=False)
-    for way, row in strangers.counted(found).items():
+    report.show(found, [], as_json=False)
+    for way, row in report.counted(found).items():
         yield {"way": way, "top_two": row["top two"]} | {k: row[k] for k in ("asked", "detected", "named")}
 
 
@@ -92,8 +89,8 @@ def of_zoo(_: str) -> Iterator[Row]:
 
 def of_variants(_: str) -> Iterator[Row]:
     """Correct variants, of which none is to be rejected."""
-    asked = len(strangers.IN_PYTHON) + len(strangers.IN_C) + len(strangers.STEPS)
-    yield {"way": "pieces and runs", "asked": asked, "detected": strangers.controls("")}
+    asked = len(registry.IN_PYTHON) + len(registry.IN_C) + len(registry.STEPS)
+    yield {"way": "pieces and runs", "asked": asked, "detected": correct.controls("")}
 
 
 def written() -> list[Row]:

@@ -9,27 +9,13 @@ ROOT = Path(__file__).resolve().parents[1]
 SOURCE = ROOT / "benchmarks" / "judged.csv"
 TABLE = ROOT / "docs" / "reference" / "judged_table.inc"
 HEAD = "| what is judged | shown | asked | detected | named by the right rule | in the top two |"
-NAMES = {
-    "first": "first list of mistakes", "second": "second list", "third": "third list", "fourth": "fourth list",
-    "fifth": "fifth list", "sixth": "sixth list", "seventh": "seventh list", "eighth": "eighth list",
-    "ninth": "ninth list", "tenth": "tenth list", "eleventh": "eleventh list",
-    "twelfth": "twelfth list", "thirteenth": "thirteenth list",
-    "fourteenth": "fourteenth list", "fifteenth": "fifteenth list", "sixteenth": "sixteenth list",
-    "seventeenth": "seventeenth list", "eighteenth": "eighteenth list", "nineteenth": "nineteenth list",
-    "twentieth": "twentieth list", "twenty-first": "twenty-first list",
-    "scheme": "mistakes in other integrators", "fourth scheme": "fourth list, in further integrators",
-    "fifth scheme": "fifth list, in further integrators",
-    "thirteenth scheme": "thirteenth list, in all of them",
-    "fourteenth scheme": "fourteenth list, in nine further integrators",
-    "fifteenth scheme": "fifteenth list, in six further integrators",
-    "sixteenth scheme": "sixteenth list, in four further integrators",
-    "seventeenth scheme": "seventeenth list, in four further integrators",
-    "eighteenth scheme": "eighteenth list, in four further integrators",
-    "nineteenth scheme": "nineteenth list, in four further integrators",
-    "twentieth scheme": "twentieth list, in four further integrators",
-    "twenty-first scheme": "twenty-first list, in two further integrators",
-    "variants": "correct variants", "zoo": "zoo",
-}  # fmt: skip
+NAMES = {"scheme": "mistakes in other integrators", "variants": "correct variants", "zoo": "zoo"}
+
+
+def name(judged: str) -> str:
+    """What is judged, in words: a list by its number, with its mistakes as they are or in other integrators."""
+    number, _, scheme = judged.partition(" ")
+    return NAMES.get(judged) or f"list {number}" + (", in other integrators" if scheme else "")
 
 
 def rows() -> list[dict[str, str]]:
@@ -59,7 +45,7 @@ def table() -> list[str]:
         counts = [cell(row, before, key) for key in ("detected", "named", "top_two")]
         if row["judged"] == "variants" or row["way"] == "controls":
             counts[0] = f"{counts[0]} rejected"
-        lines.append(f"| {NAMES[row['judged']]} | {row['way']} | {row['asked']} | {' | '.join(counts)} |")
+        lines.append(f"| {name(row['judged'])} | {row['way']} | {row['asked']} | {' | '.join(counts)} |")
     return lines
 
 

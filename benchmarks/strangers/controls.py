@@ -1,7 +1,7 @@
 """Correct variants of the two tutorial backends: other ways to write the same law, which the judge must not reject.
 
 Each is a change of text in `examples/backend_numpy.py`, or of text or compiler options of the tutorial in C.
-`python benchmarks/strangers.py --controls` judges them, with their pieces and by runs: those in C by all layers, the
+`python benchmarks/strangers --controls` judges them, with their pieces and by runs: those in C by all layers, the
 trajectories among them, those in Python by all but the trajectories.
 """
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from strangers_controls import Variant
+from strangers.controls import Variant
 
 IN_C = (
     Variant("the C text, fast mathematics", flags=("-O3", "-ffast-math")),

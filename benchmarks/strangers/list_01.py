@@ -1,4 +1,4 @@
-"""Mistakes of somebody who ports the block, planted in the tutorial backend one at a time: the list of `strangers.py`.
+"""Mistakes of somebody who ports the block, planted in the tutorial backend one at a time: the first list of strangers.
 
 They were written down from the equations and the text of the tutorial alone, without the zoo's list at hand, and before
 any of them was judged. Each is a change of text in `examples/backend_numpy.py`.

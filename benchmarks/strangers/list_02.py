@@ -1,11 +1,11 @@
-"""A second list of mistakes for `strangers.py`, planted in the tutorial backend one at a time.
+"""A second list of mistakes of strangers, planted in the tutorial backend one at a time.
 
 They were written down from the equations and the text of the tutorial, and published, before any of them was judged.
 """
 
 from __future__ import annotations
 
-from strangers_list import Mistake
+from strangers.list_01 import Mistake
 
 N1 = "max(K_N * xi + C_N * xi_rate, 0.0) if xi >= 0 else 0.0"
 E = "np.sin(angle) / angle * H + 2 * (np.sin(angle / 2) / angle) ** 2 * H @ H"

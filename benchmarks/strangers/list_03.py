@@ -1,4 +1,4 @@
-"""A third list of mistakes for `strangers.py`, planted in the tutorial backend one at a time.
+"""A third list of mistakes of strangers, planted in the tutorial backend one at a time.
 
 They are of other kinds than those of the two lists before: what goes wrong in C++, Julia or Rust on the way from the
 documents to a program. They were written down, and published, before any of them was judged.
@@ -6,7 +6,7 @@ documents to a program. They were written down, and published, before any of the
 
 from __future__ import annotations
 
-from strangers_list import Mistake
+from strangers.list_01 import Mistake
 
 ROWS = """\
         state, kept = started(problem), []

@@ -1,4 +1,4 @@
-"""A fourth list for `strangers.py`: mistakes and correct variants in the manner of other languages and integrators.
+"""A fourth list of strangers: mistakes and correct variants in the manner of other languages and integrators.
 
 Arrays stored by columns, constants of single precision, positions of feet that are kept from one step to the next,
 feet summed in another order, steps made of others. The mistakes were written down, and published, before any of them
@@ -7,8 +7,8 @@ was judged; so were the variants, which have to pass.
 
 from __future__ import annotations
 
-from strangers_controls import SECOND, SUM, E, Variant
-from strangers_list import Mistake
+from strangers.controls import SECOND, SUM, E, Variant
+from strangers.list_01 import Mistake
 
 N1 = "max(K_N * xi + C_N * xi_rate, 0.0) if xi >= 0 else 0.0"
 MOVED = "r, u, xi, xi_rate, v_slide = point_motion(x, Lambda, v, W, points.P)\n"

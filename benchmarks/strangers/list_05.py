@@ -1,4 +1,4 @@
-"""A fifth list for `strangers.py`: mistakes and correct variants in the manner of physics engines and finite elements.
+"""A fifth list of strangers: mistakes and correct variants in the manner of physics engines and finite elements.
 
 Engines put bodies to sleep, damp them a little, limit their rates, take the rates in plate axes and lift what overlaps;
 finite elements count in millimetres and tonnes. Mistakes and variants were written down, and published, before any of
@@ -7,9 +7,9 @@ them was judged.
 
 from __future__ import annotations
 
-from strangers_controls import SECOND, SLIDES, E, Variant
-from strangers_fourth import EULER, FOUND, MOVED, UNSTARTED
-from strangers_list import Mistake
+from strangers.controls import SECOND, SLIDES, E, Variant
+from strangers.list_01 import Mistake
+from strangers.list_04 import EULER, FOUND, MOVED, UNSTARTED
 
 MADE = "    made = np.array([getattr(points, k) for k in PROPERTIES])\n"
 FORCES = '    F = np.array([[*c["F_T"], c["F_N"]] for c in found])\n'

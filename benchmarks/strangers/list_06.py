@@ -1,4 +1,4 @@
-"""A sixth list for `strangers.py`: mistakes and correct variants in the manner of solvers and of parallel programs.
+"""A sixth list of strangers: mistakes and correct variants in the manner of solvers and of parallel programs.
 
 Implicit solvers change the mass and correct penetrations, tables of contacts lose the identity of a foot, threads read
 what another has not written yet, a stepper fits its step to the rows. Mistakes and variants were written down, and
@@ -7,10 +7,10 @@ published, before any of them was judged.
 
 from __future__ import annotations
 
-from strangers_controls import E, Variant
-from strangers_fifth import SUMS, TAKEN, TRIAL
-from strangers_fourth import FOUND, MOVED, UNSTARTED
-from strangers_list import Mistake
+from strangers.controls import E, Variant
+from strangers.list_01 import Mistake
+from strangers.list_04 import FOUND, MOVED, UNSTARTED
+from strangers.list_05 import SUMS, TAKEN, TRIAL
 
 ANCHOR = '            memory["s"][i],\n'
 SPIN = "    turn = np.sign((Lambda @ W)[2]) * F[:, 2].sum() * 1e-3\n"

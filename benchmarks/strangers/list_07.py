@@ -1,4 +1,4 @@
-"""A seventh list for `strangers.py`: mistakes and correct variants in the manner of particle codes, robots, graphics.
+"""A seventh list of strangers: mistakes and correct variants in the manner of particle codes, robots, graphics.
 
 Particle codes add up how far a foot has slid, robots smooth and clamp what they compute, graphics keep two buffers and
 take the wrong one; frames are turned the other way round. Mistakes and variants were written down, and published,
@@ -7,11 +7,11 @@ before any of them was judged.
 
 from __future__ import annotations
 
-from strangers_controls import SECOND, SUM, TURNED, E, Variant
-from strangers_fifth import FORCES, TRIAL
-from strangers_fourth import FOUND, MOVED, UNSTARTED
-from strangers_list import SPEED, T3, Mistake
-from strangers_sixth import ANCHOR
+from strangers.controls import SECOND, SUM, TURNED, E, Variant
+from strangers.list_01 import SPEED, T3, Mistake
+from strangers.list_04 import FOUND, MOVED, UNSTARTED
+from strangers.list_05 import FORCES, TRIAL
+from strangers.list_06 import ANCHOR
 
 SLIDES = "slides = not sticks(F_T, limit)"
 AFTER = "        s = anchor_after(F_T, u_t, v_slide, K_T, C_T)\n"

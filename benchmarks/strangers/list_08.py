@@ -1,4 +1,4 @@
-"""An eighth list for `strangers.py`: mistakes and correct variants of somebody in a hurry.
+"""An eighth list of strangers: mistakes and correct variants of somebody in a hurry.
 
 An index that is one too low, a list that was sorted for one use and read for another, a limit that was meant for a
 test. Mistakes and variants were written down, and published, before any of them was judged.
@@ -6,12 +6,12 @@ test. Mistakes and variants were written down, and published, before any of them
 
 from __future__ import annotations
 
-from strangers_controls import SUM, TURNED, Variant
-from strangers_fifth import CONE, MADE, ROWS, SUMS
-from strangers_fourth import MOVED
-from strangers_list import Mistake
-from strangers_seventh import ADVANCED, SLIDES
-from strangers_sixth import ANCHOR
+from strangers.controls import SUM, TURNED, Variant
+from strangers.list_01 import Mistake
+from strangers.list_04 import MOVED
+from strangers.list_05 import CONE, MADE, ROWS, SUMS
+from strangers.list_06 import ANCHOR
+from strangers.list_07 import ADVANCED, SLIDES
 
 MISTAKES = (
     Mistake("the weight once more in the predicted velocity", ("S1",), "v + h * a, W + h * A, E",

@@ -1,4 +1,4 @@
-"""A ninth list for `strangers.py`: mistakes of programs that share work between threads, and correct variants of them.
+"""A ninth list of strangers: mistakes of programs that share work between threads, and correct variants of them.
 
 Sums that are made twice, a frame that is read before it is written, limits that a kernel has and the law has not.
 Mistakes and variants were written down, and published, before any of them was judged.
@@ -6,11 +6,11 @@ Mistakes and variants were written down, and published, before any of them was j
 
 from __future__ import annotations
 
-from strangers_controls import SUM, Variant
-from strangers_fifth import FORCES, SUMS, TRIAL
-from strangers_fourth import FOUND, MOVED
-from strangers_list import E, Mistake
-from strangers_seventh import ADVANCED, ONE_STEP
+from strangers.controls import SUM, Variant
+from strangers.list_01 import E, Mistake
+from strangers.list_04 import FOUND, MOVED
+from strangers.list_05 import FORCES, SUMS, TRIAL
+from strangers.list_07 import ADVANCED, ONE_STEP
 
 MISTAKES = (
     Mistake("the last foot is summed twice", ("A1",), "force = F.sum(axis=0) -",

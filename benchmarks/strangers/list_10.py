@@ -1,4 +1,4 @@
-"""A tenth list for `strangers.py`: slips on the way from the paper's text to C, Fortran, Rust or JavaScript.
+"""A tenth list of strangers: slips on the way from the paper's text to C, Fortran, Rust or JavaScript.
 
 Numbers that are whole where they should not be, arrays of another order, values that are overwritten before they are
 read, memory that nobody sets back. Mistakes and variants were written down, and published, before any of them was
@@ -7,11 +7,11 @@ judged.
 
 from __future__ import annotations
 
-from strangers_controls import SECOND, SUM, TURNED, Variant
-from strangers_fifth import FORCES, MADE, ROWS, SUMS
-from strangers_list import N1, SPEED, T3, Mistake
-from strangers_second import TRIAL
-from strangers_seventh import AFTER, ONE_STEP, SLIDES
+from strangers.controls import SECOND, SUM, TURNED, Variant
+from strangers.list_01 import N1, SPEED, T3, Mistake
+from strangers.list_02 import TRIAL
+from strangers.list_05 import FORCES, MADE, ROWS, SUMS
+from strangers.list_07 import AFTER, ONE_STEP, SLIDES
 
 INSTANTS = '"t": wanted * problem.step'
 #: x is divided by the length, and then y by the length that has changed.

@@ -1,4 +1,4 @@
-"""An eleventh list for `strangers.py`: slips of those who derive the law once more, and of those who make it fast.
+"""An eleventh list of strangers: slips of those who derive the law once more, and of those who make it fast.
 
 A length by a rule of thumb, turns that are added up as vectors, a share of the weight that is taken off, what is
 predicted handed out as what is. Mistakes and variants were written down, and published, before any of them was judged.
@@ -6,13 +6,13 @@ predicted handed out as what is. Mistakes and variants were written down, and pu
 
 from __future__ import annotations
 
-from strangers_controls import SECOND, SUM, TURNED, E, Variant
-from strangers_fifth import ROWS, SUMS
-from strangers_fourth import MOVED
-from strangers_list import FIRST, N1, T3, Mistake
-from strangers_second import TRIAL
-from strangers_seventh import ADVANCED, AFTER, ONE_STEP
-from strangers_sixth import ANCHOR
+from strangers.controls import SECOND, SUM, TURNED, E, Variant
+from strangers.list_01 import FIRST, N1, T3, Mistake
+from strangers.list_02 import TRIAL
+from strangers.list_04 import MOVED
+from strangers.list_05 import ROWS, SUMS
+from strangers.list_06 import ANCHOR
+from strangers.list_07 import ADVANCED, AFTER, ONE_STEP
 
 TIED = "s = anchor_before(xi, u_t, s, anchored)\n"
 NORMAL = "F_N = normal_force(xi, xi_rate, K_N, C_N)"

@@ -1,4 +1,4 @@
-"""A twelfth list for `strangers.py`: habits of other trades, brought along to the block.
+"""A twelfth list of strangers: habits of other trades, brought along to the block.
 
 Granular codes with Mindlin's spring, engines of games with their limits and their few directions, fixed-point numbers,
 finite elements, and signs of those who look at the plate and not at the block. Mistakes and variants were written down,
@@ -7,13 +7,13 @@ and published, before any of them was judged.
 
 from __future__ import annotations
 
-from strangers_controls import SUM, TURNED, E, Variant
-from strangers_fifth import MADE, ROWS, TRIAL
-from strangers_list import N1, T3, Mistake
-from strangers_second import TRIAL as FORMULA
-from strangers_second import UNSTARTED
-from strangers_seventh import AFTER
-from strangers_tenth import INSTANTS
+from strangers.controls import SUM, TURNED, E, Variant
+from strangers.list_01 import N1, T3, Mistake
+from strangers.list_02 import TRIAL as FORMULA
+from strangers.list_02 import UNSTARTED
+from strangers.list_05 import MADE, ROWS, TRIAL
+from strangers.list_07 import AFTER
+from strangers.list_10 import INSTANTS
 
 NORMAL = "F_N = normal_force(xi, xi_rate, K_N, C_N)"
 SUMMED = "force = F.sum(axis=0) - [0, 0, mass * g]"

@@ -1,4 +1,4 @@
-"""A thirteenth list for `strangers.py`: habits of engines for games, of ports from Fortran, and of kernels for GPUs.
+"""A thirteenth list of strangers: habits of engines for games, of ports from Fortran, and of kernels for GPUs.
 
 Half lengths for whole ones, contacts with a margin, limits on velocities, bodies that fall asleep, pyramids for cones,
 an index of the step before, numbers of half precision, lanes that are left over, loops that end early. Mistakes and
@@ -7,13 +7,14 @@ variants were written down, and published, before any of them was judged.
 
 from __future__ import annotations
 
-from strangers_controls import SUM, E, Variant
-from strangers_fifth import FORCES, MADE, ROWS, SUMS
-from strangers_list import N1, SPEED, T3, Mistake
-from strangers_second import TRIAL
-from strangers_seventh import ADVANCED, AFTER, ONE_STEP
-from strangers_tenth import INSTANTS
-from strangers_twelfth import GAIN, KICK, NORMAL, PLACE, RATE
+from strangers import list_04, list_05, schemes
+from strangers.controls import SUM, E, Variant
+from strangers.list_01 import N1, SPEED, T3, Mistake
+from strangers.list_02 import TRIAL
+from strangers.list_05 import FORCES, MADE, ROWS, SUMS
+from strangers.list_07 import ADVANCED, AFTER, ONE_STEP
+from strangers.list_10 import INSTANTS
+from strangers.list_12 import GAIN, KICK, NORMAL, PLACE, RATE
 
 DEPTH = "-u[:, 2], -rate[:, 2], rate[:, :2]"
 BODY_MOMENT = f"    force, _, T = {SUMS}\n"
@@ -99,6 +100,9 @@ MISTAKES = (
     Mistake("instants in whole milliseconds", ("S2",), INSTANTS, '"t": np.round(wanted * problem.step, 3)'),
     Mistake("a block that hardly moves falls asleep", ("S2", "I1", "I4"), STEPPED, ASLEEP + STEPPED),
 )  # fmt: skip
+
+#: The integrators of the lists before, in which the mistakes are planted.
+INTO = {**schemes.SCHEMES, **list_04.SCHEMES, **list_05.SCHEMES}
 
 IN_PYTHON = (
     Variant("sums in extended precision",

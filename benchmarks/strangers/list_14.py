@@ -1,4 +1,4 @@
-"""A fourteenth list for `strangers.py`: mistakes in other formulas, and in nine integrators of other trades.
+"""A fourteenth list of strangers: mistakes in other formulas, and in nine integrators of other trades.
 
 Integrators of molecular dynamics, of rigid tops and of compressible flow; springs that harden, friction that is weaker
 across, levers that are rounded, moments that damp. Mistakes and variants were written down, and published, before any
@@ -7,13 +7,13 @@ of them was judged; that the integrators converge to the law was looked at befor
 
 from __future__ import annotations
 
-from strangers_controls import SOLVED, SUM, TURNED, E, Variant
-from strangers_fifth import ROWS, SUMS, TRIAL
-from strangers_fourth import EULER, UNSTARTED
-from strangers_list import N1, T3, Mistake
-from strangers_seventh import AFTER
-from strangers_thirteenth import DEPTH
-from strangers_twelfth import INCREMENT, KICK, MOMENT, PLACE, RATE, SUMMED
+from strangers.controls import SOLVED, SUM, TURNED, E, Variant
+from strangers.list_01 import N1, T3, Mistake
+from strangers.list_04 import EULER, UNSTARTED
+from strangers.list_05 import ROWS, SUMS, TRIAL
+from strangers.list_07 import AFTER
+from strangers.list_12 import INCREMENT, KICK, MOMENT, PLACE, RATE, SUMMED
+from strangers.list_13 import DEPTH
 
 BACK = "return force, moment, Lambda.T @ moment"
 LOADS = "return force / block.mass, T, F,"

@@ -1,4 +1,4 @@
-"""A fifteenth list for `strangers.py`: simulators that are differentiated, and integrators that look back or repeat.
+"""A fifteenth list of strangers: simulators that are differentiated, and integrators that look back or repeat.
 
 Maxima and switches that are smoothed, sliding friction that falls with the speed, levers by Euler's angles, floors and
 limits on velocities, rates that wrap round; integrators that are implicit, that damp, that act on the group of turns,
@@ -8,13 +8,13 @@ the integrators converge to the law was looked at before, without the judge.
 
 from __future__ import annotations
 
-from strangers_controls import SUM, TURNED, E, Variant
-from strangers_fifth import CONE, FORCES, ROWS, STEP, SUMS, TAKEN, TRIAL
-from strangers_fourteenth import BACK, LOADS, STRETCH, TIED
-from strangers_fourth import EULER, FOUND, MOVED, UNSTARTED
-from strangers_list import N1, SPEED, T3, Mistake
-from strangers_seventh import ADVANCED, AFTER, ONE_STEP, SLIDES
-from strangers_twelfth import GAIN, INCREMENT, KICK, PLACE, RATE, SUMMED
+from strangers.controls import SUM, TURNED, E, Variant
+from strangers.list_01 import N1, SPEED, T3, Mistake
+from strangers.list_04 import EULER, FOUND, MOVED, UNSTARTED
+from strangers.list_05 import CONE, FORCES, ROWS, STEP, SUMS, TAKEN, TRIAL
+from strangers.list_07 import ADVANCED, AFTER, ONE_STEP, SLIDES
+from strangers.list_12 import GAIN, INCREMENT, KICK, PLACE, RATE, SUMMED
+from strangers.list_14 import BACK, LOADS, STRETCH, TIED
 
 LEVERS = "    r = P @ Lambda.T\n"
 BY_ANGLES = """    from scipy.spatial.transform import Rotation

@@ -1,4 +1,4 @@
-"""A sixteenth list for `strangers.py`: slips of indices, values that are stale, and caches that are kept too long.
+"""A sixteenth list of strangers: slips of indices, values that are stale, and caches that are kept too long.
 
 Somebody ports the block to another language: entries read across the diagonal, arguments in another order, loops that
 write one component, sums that are not set back, what the first run left in a cache, early exits; integrators by places
@@ -9,13 +9,13 @@ the judge.
 
 from __future__ import annotations
 
-from strangers_controls import SOLVED, SUM, Variant
-from strangers_fifth import CONE, FORCES, ROWS, STEP, TAKEN
-from strangers_fourteenth import BACK, LOADS, STRETCH, TIED
-from strangers_fourth import EULER, FOUND, MOVED, UNSTARTED
-from strangers_list import FIRST, N1, T3, E, Mistake
-from strangers_seventh import AFTER, KEPT, ONE_STEP, SLIDES
-from strangers_twelfth import GAIN, KICK, PLACE, RATE
+from strangers.controls import SOLVED, SUM, Variant
+from strangers.list_01 import FIRST, N1, T3, E, Mistake
+from strangers.list_04 import EULER, FOUND, MOVED, UNSTARTED
+from strangers.list_05 import CONE, FORCES, ROWS, STEP, TAKEN
+from strangers.list_07 import AFTER, KEPT, ONE_STEP, SLIDES
+from strangers.list_12 import GAIN, KICK, PLACE, RATE
+from strangers.list_14 import BACK, LOADS, STRETCH, TIED
 
 LEVERS = "    r = P @ Lambda.T\n"
 TRIAL = "    F_T = trial_force(u_t, s, v_slide, K_T, C_T)\n"

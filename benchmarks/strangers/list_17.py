@@ -1,4 +1,4 @@
-"""A seventeenth list for `strangers.py`: what slips to somebody who ports the block within a week.
+"""A seventeenth list of strangers: what slips to somebody who ports the block within a week.
 
 Signs, factors of two, a constant for its neighbour, whole division, millimetres and degrees, arrays read by columns,
 one foot that is forgotten, a value that is not written back, half a step; integrators from a text book of numerical
@@ -8,13 +8,13 @@ converge to the law was looked at before, without the judge.
 
 from __future__ import annotations
 
-from strangers_controls import SOLVED, SUM, TURNED, E, Variant
-from strangers_fifth import CONE, FORCES, ROWS, SUMS, TRIAL
-from strangers_fourteenth import STRETCH
-from strangers_fourth import EULER, UNSTARTED
-from strangers_list import FIRST, N1, SPEED, T3, Mistake
-from strangers_seventh import ADVANCED, AFTER, ONE_STEP
-from strangers_twelfth import GAIN, KICK, MOMENT, NORMAL, PLACE, RATE
+from strangers.controls import SOLVED, SUM, TURNED, E, Variant
+from strangers.list_01 import FIRST, N1, SPEED, T3, Mistake
+from strangers.list_04 import EULER, UNSTARTED
+from strangers.list_05 import CONE, FORCES, ROWS, SUMS, TRIAL
+from strangers.list_07 import ADVANCED, AFTER, ONE_STEP
+from strangers.list_12 import GAIN, KICK, MOMENT, NORMAL, PLACE, RATE
+from strangers.list_14 import STRETCH
 
 LEVERS = "r = P @ Lambda.T\n"
 SLIDING = "-u[:, 2], -rate[:, 2], rate[:, :2]"

@@ -1,4 +1,4 @@
-"""An eighteenth list for `strangers.py`: branches that are rarely taken, brackets, and what is left in a buffer.
+"""An eighteenth list of strangers: branches that are rarely taken, brackets, and what is left in a buffer.
 
 Whole division, arguments of the arc tangent, the other end of an array, one axis of one foot, a view in place of a
 copy, half of an array written back, early exits, feet that touch and are not pressed, a static coefficient above the
@@ -9,16 +9,16 @@ the law was looked at before, without the judge.
 
 from __future__ import annotations
 
-from strangers_controls import SECOND, SOLVED, SUM, E, Variant
-from strangers_fifth import CONE, MADE
-from strangers_fourteenth import BACK, STRETCH
-from strangers_fourth import EULER, FOUND, MOVED
-from strangers_list import N1, SPEED, T3, Mistake
-from strangers_seventeenth import ALL
-from strangers_seventh import ADVANCED, AFTER, ONE_STEP, SLIDES
-from strangers_sixteenth import LEVERS, STARTED
-from strangers_thirteenth import DEPTH
-from strangers_twelfth import GAIN, INCREMENT, KICK, MOMENT, PLACE, RATE, SUMMED
+from strangers.controls import SECOND, SOLVED, SUM, E, Variant
+from strangers.list_01 import N1, SPEED, T3, Mistake
+from strangers.list_04 import EULER, FOUND, MOVED
+from strangers.list_05 import CONE, MADE
+from strangers.list_07 import ADVANCED, AFTER, ONE_STEP, SLIDES
+from strangers.list_12 import GAIN, INCREMENT, KICK, MOMENT, PLACE, RATE, SUMMED
+from strangers.list_13 import DEPTH
+from strangers.list_14 import BACK, STRETCH
+from strangers.list_16 import LEVERS, STARTED
+from strangers.list_17 import ALL
 
 STICKS = "np.hypot(*F_trial) <= limit"
 ANCHOR = "u_t + (F_T + C_T * v_slide) / K_T"

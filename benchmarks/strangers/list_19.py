@@ -1,4 +1,4 @@
-"""A nineteenth list for `strangers.py`: what a program loses between two languages, and what was cut off for safety.
+"""A nineteenth list of strangers: what a program loses between two languages, and what was cut off for safety.
 
 Feet counted from one, a library's other convention (sinc, quaternions, element by element), arrays that are overwritten
 while they are read, values of the step before, caps that were meant as a guard, dead zones, single and half precision,
@@ -9,17 +9,17 @@ looked at before, without the judge.
 
 from __future__ import annotations
 
-from strangers_controls import GAIN, SOLVED, TURNED, E, Variant
-from strangers_eighteenth import CORNERS, KEPT_ROW, STICKS
-from strangers_fifth import CONE, MADE, ROWS, SUMS
-from strangers_fourteenth import BACK, STRETCH
-from strangers_fourth import EULER, FOUND, MOVED, UNSTARTED
-from strangers_list import FIRST, N1, SPEED, T3, Mistake
-from strangers_seventeenth import ALL, HALF, LAST, MOMENTS, STAGES
-from strangers_seventh import ADVANCED, AFTER
-from strangers_sixteenth import LEVERS
-from strangers_thirteenth import DEPTH
-from strangers_twelfth import INCREMENT, KICK, MOMENT, NORMAL, PLACE, SUMMED
+from strangers.controls import GAIN, SOLVED, TURNED, E, Variant
+from strangers.list_01 import FIRST, N1, SPEED, T3, Mistake
+from strangers.list_04 import EULER, FOUND, MOVED, UNSTARTED
+from strangers.list_05 import CONE, MADE, ROWS, SUMS
+from strangers.list_07 import ADVANCED, AFTER
+from strangers.list_12 import INCREMENT, KICK, MOMENT, NORMAL, PLACE, SUMMED
+from strangers.list_13 import DEPTH
+from strangers.list_14 import BACK, STRETCH
+from strangers.list_16 import LEVERS
+from strangers.list_17 import ALL, HALF, LAST, MOMENTS, STAGES
+from strangers.list_18 import CORNERS, KEPT_ROW, STICKS
 
 PREDICTED = "v + h * a, W + h * A, E"
 TIED = "anchor_before(xi, u_t, s, anchored)\n    trace"

@@ -1,4 +1,4 @@
-"""A twentieth list for `strangers.py`: what somebody writes who ports the block from the paper to arrays.
+"""A twentieth list of strangers: what somebody writes who ports the block from the paper to arrays.
 
 The release posture by hand, products element by element, one component for its neighbour, values of the step before,
 what is lumped, averaged or scaled, truth of a number for its sign, half of a program in other units; integrators of
@@ -8,18 +8,18 @@ integrators converge to the law was looked at before, without the judge.
 
 from __future__ import annotations
 
-from strangers_controls import GAIN, SUM, TURNED, E, Variant
-from strangers_eighteenth import CORNERS, STICKS
-from strangers_fifth import MADE, ROWS, TRIAL
-from strangers_fourteenth import BACK, STRETCH
-from strangers_fourth import EULER, FOUND, UNSTARTED
-from strangers_list import N1, SPEED, T3, Mistake
-from strangers_nineteenth import CHOSEN, PREDICTED, SLIDING_ROW
-from strangers_seventeenth import ALL, LAST, MOMENTS, STAGES
-from strangers_seventh import ADVANCED, AFTER, ONE_STEP
-from strangers_sixteenth import LEVERS, NORMAL, STARTED
-from strangers_thirteenth import DEPTH
-from strangers_twelfth import INCREMENT, KICK, MOMENT, PLACE, RATE, SUMMED
+from strangers.controls import GAIN, SUM, TURNED, E, Variant
+from strangers.list_01 import N1, SPEED, T3, Mistake
+from strangers.list_04 import EULER, FOUND, UNSTARTED
+from strangers.list_05 import MADE, ROWS, TRIAL
+from strangers.list_07 import ADVANCED, AFTER, ONE_STEP
+from strangers.list_12 import INCREMENT, KICK, MOMENT, PLACE, RATE, SUMMED
+from strangers.list_13 import DEPTH
+from strangers.list_14 import BACK, STRETCH
+from strangers.list_16 import LEVERS, NORMAL, STARTED
+from strangers.list_17 import ALL, LAST, MOMENTS, STAGES
+from strangers.list_18 import CORNERS, STICKS
+from strangers.list_19 import CHOSEN, PREDICTED, SLIDING_ROW
 
 RELEASED = "    def kinematics(self, x, Lambda, v, W, P):\n"
 RELEASE = '''    def release(self, mass, g, P, K_N, theta_0):

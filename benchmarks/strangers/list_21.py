@@ -1,4 +1,4 @@
-"""A twenty-first list for `strangers.py`: five hands.
+"""A twenty-first list of strangers: five hands.
 
 A programmer of C, one of games, a user of Julia, a control engineer, a student who translates by hand: clamps and warm
 starts, averages of a sum where the sum of averages was meant, filters of a signal, rounding to fixed digits, flags in
@@ -9,18 +9,18 @@ looked at before, without the judge.
 
 from __future__ import annotations
 
-from strangers_controls import SOLVED, SUM, TURNED, E, Variant
-from strangers_eighteenth import CORNERS, LOOKED
-from strangers_fifth import FORCES, ROWS, TRIAL
-from strangers_fourteenth import BACK, LOADS, STRETCH
-from strangers_fourth import EULER, FOUND, UNSTARTED
-from strangers_list import FIRST, N1, T3, Mistake
-from strangers_seventeenth import ALL, KEPT_ANCHOR, LAST, MOMENTS, STAGES
-from strangers_seventh import ADVANCED, ONE_STEP, SLIDES
-from strangers_sixteenth import LEVERS
-from strangers_thirteenth import DEPTH
-from strangers_twelfth import GAIN, INCREMENT, KICK, MOMENT, PLACE, RATE, SUMMED
-from strangers_twentieth import RELEASE, RELEASED
+from strangers.controls import SOLVED, SUM, TURNED, E, Variant
+from strangers.list_01 import FIRST, N1, T3, Mistake
+from strangers.list_04 import EULER, FOUND, UNSTARTED
+from strangers.list_05 import FORCES, ROWS, TRIAL
+from strangers.list_07 import ADVANCED, ONE_STEP, SLIDES
+from strangers.list_12 import GAIN, INCREMENT, KICK, MOMENT, PLACE, RATE, SUMMED
+from strangers.list_13 import DEPTH
+from strangers.list_14 import BACK, LOADS, STRETCH
+from strangers.list_16 import LEVERS
+from strangers.list_17 import ALL, KEPT_ANCHOR, LAST, MOMENTS, STAGES
+from strangers.list_18 import CORNERS, LOOKED
+from strangers.list_20 import RELEASE, RELEASED
 
 FOOT = '''def contact_law(xi, xi_rate, u_t, v_slide, s, anchored, sliding, K_N, C_N, K_T, C_T, mu_0, mu):
     """N1 to T6 for one point, in order. `trace` shows what lies between, and is optional."""

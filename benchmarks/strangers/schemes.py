@@ -1,4 +1,4 @@
-"""Mistakes of somebody whose integrator is another one: the list of `strangers.py --profile scheme`.
+"""Mistakes of somebody whose integrator is another one: the list of `--profile scheme`.
 
 The tutorial backend with its step exchanged for a symplectic Euler step or a midpoint step, and one mistake in it:
 those of the two other lists that lie outside the law's integrator, and those of this one. Written down before any was
@@ -7,7 +7,7 @@ judged.
 
 from __future__ import annotations
 
-from strangers_list import Mistake
+from strangers.list_01 import Mistake
 
 #: Where the step of the tutorial begins and ends.
 BEGIN, END = "def advanced(problem, state):", "class Backend:"

@@ -6,8 +6,11 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "benchmarks"))
-from strangers import Runs, counted, made, of_mistake, planted, seen, with_step
-from strangers_list import HARMLESS, MISTAKES
+from strangers import registry
+from strangers.judging import OF_SCHEMES, Runs, of_mistake, seen
+from strangers.list_01 import HARMLESS, MISTAKES
+from strangers.planting import made, planted, with_step
+from strangers.report import counted
 
 from rockref.conformance.judge.findings import judge
 from rockref.conformance.judge.verdict import verdict
@@ -20,6 +23,15 @@ def test_every_mistake_is_planted_in_one_place_and_of_a_rule():
         assert mistake.rules and set(mistake.rules) <= set(BY_ID), mistake.says
     assert len({m.says for m in MISTAKES}) == len(MISTAKES) > 56
     assert {rule for m in MISTAKES for rule in m.rules} >= set(BY_ID) - {"R1", "B1"}, "the tutorial shows neither"
+
+
+def test_every_list_of_the_folder_is_found_and_planted_whole():
+    assert list(registry.LISTS) == [str(n + 1) for n in range(len(registry.LISTS))] and len(registry.LISTS) > 20
+    for number, mistakes in registry.LISTS.items():
+        assert len({m.says for m in mistakes}) == len(mistakes), number
+        assert all(hasattr(planted(m), "simulate") for m in mistakes), number
+    assert set(registry.WITH_SCHEMES) < set(registry.LISTS)
+    assert all(planted(*pair) for asked in OF_SCHEMES.values() for pair in asked())
 
 
 @pytest.mark.parametrize("mistake", MISTAKES[::9], ids=lambda m: m.says)

@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[4] / "benchmarks"))
-from strangers import Runs, planted, seen
-from strangers_list import Mistake
+from strangers.judging import Runs, seen
+from strangers.list_01 import Mistake
+from strangers.planting import planted
 
 CONE = "cone(F_N, sliding and anchored, mu_0, mu)"
 SLIDES = "slides = not sticks(F_T, limit)"

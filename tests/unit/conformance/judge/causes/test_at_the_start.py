@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[5] / "benchmarks"))
-from strangers import Runs, planted, seen
-from strangers_list import Mistake
+from strangers.judging import Runs, seen
+from strangers.list_01 import Mistake
+from strangers.planting import planted
 
 N1 = "max(K_N * xi + C_N * xi_rate, 0.0) if xi >= 0 else 0.0"
 STARTED = "        state |= memory\n    return state\n"
