@@ -230,19 +230,18 @@ def test_stretched_feet_with_the_friction_of_new_ones_have_given_up_their_anchor
 
 
 @pytest.mark.parametrize(("share", "rule"), [(1.0, "T5"), (0.5, "T1")])
-def test_feet_that_slid_without_a_spring_are_tied_where_they_are_and_with_half_of_one_pulled_wrongly(
-    right, share, rule
-):
-    answers, told = [], []
-    for v, out in right:
-        rows, F = rows_of_the_law(v.id), np.array(out["F"])
-        feet = rows[0].feet if rows else None
+def test_feet_that_slid_and_have_no_spring_are_tied_where_they_are_and_half_a_spring_is_another(right, share, rule):
+    def meets(f):
+        return f["touching"] & f["slid"] & f["spring"] & shows_parts(f)
+
+    wrong, told = changed_where(right, meets, 0)
+    answers = []
+    for (v, out), (_, of_the_law) in zip(wrong, right, strict=True):
+        feet = rows_of_the_law(v.id)[0].feet if rows_of_the_law(v.id) else None
         if feet is not None:
-            anew = law(v, {"anchored": False, "sliding": False})["F"][0]
-            off = feet["touching"] & feet["slid"] & feet["spring"] & shows_parts(feet)
-            F[0, off] += share * (anew - F[0])[off] + feet["slides"][off, None]
-            told += [v.id] * bool(np.any(off))
-        answers.append((v, dict(out) | {"F": F}))
+            sticks, F = meets(feet) & ~feet["slides"], np.array(of_the_law["F"])[0]
+            out["F"][0, sticks] = (F + share * (law(v, {"anchored": False, "sliding": False})["F"][0] - F))[sticks]
+        answers.append((v, out))
     check = Check(told[0], "L5s", "T5", "F_T@0", "outside", float("inf"))
     assert rule_in_common(answers, check, "T5")[0] == rule
 
