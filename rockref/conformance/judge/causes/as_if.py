@@ -100,7 +100,11 @@ def rule_of_other_feet(answers: Answers, checks: Sequence[Check], check: Check) 
             inputs = {name: read}
             if not all(is_explained(v, out, inputs, OF_THE_START) for v, out in told):
                 continue
-            count = sum(is_explained(v, out, inputs, OF_THE_START) for v, out in single)
+            explained = [v for v, out in single if is_explained(v, out, inputs, OF_THE_START)]
+            # The direction of feet that slide is that of an anchor elsewhere, or of another sliding force.
+            if rule == "T5" and sum(feet_stick(v) for v in explained) < SOME:
+                continue
+            count = len(explained)
             if count >= max(SOME, unsprung, NEARLY_ALL * len(single)) and (sprung or count - unsprung >= SOME):
                 return rule, READ.format(words, whose)
     return check.rule, ""
@@ -125,6 +129,12 @@ def rule_of_untied_feet(answers: Answers, checks: Sequence[Check], check: Check)
         return "T5", SAYS.format(words)
     right = [v for v, _ in answers if v.layer == check.layer and v.id not in failed]
     return ("T5", GIVEN_UP) if sum(is_stretched(v) for v in right) >= FEET else (check.rule, "")
+
+
+def feet_stick(vector: Vector) -> bool:
+    """Return whether a foot should stick at the start of a run, and is dragged at."""
+    feet = rows_of_the_law(vector.id)[0].feet
+    return feet is not None and bool(np.any(feet["touching"] & feet["dragged"] & ~feet["slides"]))
 
 
 def places(q: dict[str, Any]) -> np.ndarray:
