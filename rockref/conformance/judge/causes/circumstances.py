@@ -120,6 +120,8 @@ def rule_in_common(answers: Answers, check: Check, rule: str) -> tuple[str, str]
     believed, words, meets = CIRCUMSTANCES[best]
     told = any(is_off and np.any(meets(feet)) for feet, is_off in of_runs.get(check.vector, []))
     clear = told and scores[best] >= CLEAR and own <= LESS * scores[best]
+    if believed == "T4" and not all_are_carried(wrong):
+        return rule, ""
     if clear and believed == "T1" and rule == "T5" and given_up(answers):
         return rule, GIVEN_UP
     return (believed, IN_COMMON.format(words)) if clear else (rule, "")
@@ -152,18 +154,24 @@ def anew_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
 
 
 def after_sliding_alone(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
-    """Return whether anchors of feet were moved in the run nearly wherever forces are wrong, none of them before the
+    """Return whether anchors of feet were moved in the run wherever forces are wrong, none of them before the
     start, and anchors of feet that stuck are right."""
     stuck = [f for f in right if np.any(f["later"] & ~f["new"] & f["spring"] & ~f["slid"])]
     at_start = any(bool(np.any(f["slid"] & ~f["later"])) for f in wrong)
-    return len(stuck) >= SOME and not at_start and sum(bool(np.any(f["carried"])) for f in wrong) >= CLEAR * len(wrong)
+    return len(stuck) >= SOME and not at_start and all_are_carried(wrong)
+
+
+def all_are_carried(wrong: Sequence[Feet]) -> bool:
+    """Return whether an anchor was moved in the run wherever forces are wrong: nothing else follows from it."""
+    return all(bool(np.any(f["carried"])) for f in wrong)
 
 
 def beyond_the_cones(wrong: Sequence[Feet], right: Sequence[Feet]) -> bool:
     """Return whether feet that slid before the start are right between the cones, and many are wrong that are not
-    between them: the threshold is right."""
+    between them, some that stick after they slid: the threshold is right."""
     asked = [f for f in right if np.any(f["between"] & f["slid"] & ~f["later"])]
-    return len(asked) >= SOME and sum(not np.any(f["between"]) for f in wrong) >= SOME
+    stuck = any(bool(np.any(f["carried"] & f["dragged"])) and not np.any(f["slides"]) for f in wrong)
+    return stuck and len(asked) >= SOME and sum(not np.any(f["between"]) for f in wrong) >= SOME
 
 
 def rule_of_normal_forces(answers: Answers, check: Check, rule: str) -> tuple[str, str]:
