@@ -175,12 +175,13 @@ def all_are_loose(answers: Answers) -> bool:
 
 def all_are_on_the_cone(answers: Answers) -> bool:
     """Return whether every foot that has a wrong friction in a first row should slide, and has one of the right size,
-    some feet: it was decided rightly that they slide, and how large the force is."""
+    some feet, and none shows its trial force: it was decided rightly that they slide, and how large the force is."""
     wrong = 0
     for _, row in rows_with_friction(answers):
         off, slide = row.off, ~row.alike(row.right, row.whole)
         sizes = norm(row.got), norm(row.right)
-        if np.any(off & ~slide) or not np.allclose(sizes[0][off], sizes[1][off], rtol=SAME, atol=0.0):
+        held = off & row.alike(row.got, row.whole)
+        if np.any(held | (off & ~slide)) or not np.allclose(sizes[0][off], sizes[1][off], rtol=SAME, atol=0.0):
             return False
         wrong += int(np.sum(off))
     return wrong >= FEET
