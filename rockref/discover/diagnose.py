@@ -12,7 +12,7 @@ import numpy as np
 
 from rockref.api import Model
 from rockref.discover.compare.models import baseline_model
-from rockref.discover.evidence.collect import add_held_out, hypothesis_evidence
+from rockref.discover.evidence.collect import add_held_out, hypothesis_evidence, least_loss
 from rockref.discover.evidence.evidence import Evidence, HypothesisEvidence
 from rockref.discover.evidence.misfit import misfit
 from rockref.discover.evidence.result import model_of
@@ -218,7 +218,8 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     null = next(h for h in fits if h.effects == problem.carried)
     kept = list(dict.fromkeys([*fits[:STORED], null]))
     problem.progress.begin("evidence", "weighing the evidence", fits[0].name)
-    said = {h.effects: hypothesis_evidence(fitter, h, *calibration().widths) for h in kept}
+    least = least_loss(fitter, fits[0])
+    said = {h.effects: hypothesis_evidence(fitter, h, *calibration().widths, least) for h in kept}
     listener = problem.listener
     runs = experiment.holdout_runs()
     held = Listener(experiment, runs, listener.end, listener.workers) if runs else None

@@ -21,9 +21,9 @@ from rockref.discover.listening.listener import Listener
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
 NINETY = 1.6449
-#: Mean loss, of all or of one axis of a run, from which a model is asked what it leaves in records of its own (decided:
-#: below it no limit is near).
-ASKED = 1.0
+#: Mean loss, of all and of one axis of a run, from which a model is asked what it leaves in records of its own (decided:
+#: below them no limit is near).
+ASKED, ASKED_OF_AXIS = 1.0, 1.15
 #: Length of a block [s] and mean loss from which it is far above white; decided: white blocks of 150 values have 0.947
 #: with a deviation of 0.09.
 BLOCK, FAR_ABOVE = 0.05, 1.5
@@ -31,18 +31,31 @@ BLOCK, FAR_ABOVE = 0.05, 1.5
 TRIMMED = 0.10
 
 
-def hypothesis_evidence(fitter: Fitter, h: FittedModel, temperature: float, interval: float) -> HypothesisEvidence:
+def least_loss(fitter: Fitter, h: FittedModel) -> tuple[float, np.ndarray]:
+    """Return the mean loss that these runs would leave of a right model, in all and by run and axis (R, 3): that of
+    white noise, or what a model that comes near it leaves in records of its own.
+
+    h : the best of all that were fitted. Records of a wrong model's own are others than these.
+    """
+    losses = fitter.losses(h)
+    if h.loss > ASKED or losses.max() > ASKED_OF_AXIS:
+        return floor(fitter, h, F)
+    return WHITE, np.full(losses.shape, WHITE)
+
+
+def hypothesis_evidence(
+    fitter: Fitter, h: FittedModel, temperature: float, interval: float, least: tuple[float, np.ndarray] | None = None
+) -> HypothesisEvidence:
     """Return what a fit at the longest memory says of the fit runs.
 
-    temperature : of the evidence;  interval : factor on the half widths of intervals
+    temperature : of the evidence;  interval : factor on the half widths of intervals;  least : of a right
+    model, as `least_loss` returns it; h is asked if None
     """
     deviation, H = deviations(fitter, h, F, temperature)
     runs = fitter.problem.runs
     parameters = fitter.parameters(h)
     found = numbers_of(parameters, centring(parameters) @ h.z, interval * deviation)
-    losses = fitter.losses(h)
-    asked = max(h.loss, losses.max()) > ASKED
-    least, floors = floor(fitter, h, F) if asked else (WHITE, np.full(losses.shape, WHITE))
+    losses, (all_of_it, floors) = fitter.losses(h), least or least_loss(fitter, h)
     law = [abs(float(z)) for p, z in zip(parameters, h.z, strict=True) if not p.effect and p.run is None]
     return HypothesisEvidence(
         effects=h.effects,
@@ -50,7 +63,7 @@ def hypothesis_evidence(fitter: Fitter, h: FittedModel, temperature: float, inte
         eigenvalues=np.linalg.eigvalsh(H).tolist(),
         loss=h.loss,
         loss_by_run_and_axis={run.id: row.tolist() for run, row in zip(runs, losses, strict=True)},
-        floor=least,
+        floor=all_of_it,
         floor_by_run_and_axis={run.id: row.tolist() for run, row in zip(runs, floors, strict=True)},
         blocks={run.id: float(share) for run, share in zip(runs, far_above(fitter, h), strict=True)},
         farthest=max(law, default=0.0),
