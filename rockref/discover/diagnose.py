@@ -134,6 +134,7 @@ def diagnose(
     problem = fit_problem(experiment, experiment.fit_runs(), base, end, workers, seed=seed)
     problem.progress = StageCounter(STAGES, progress)
     problem.candidates = candidate_effects(base.points, problem.carried, known)
+    problem.companion = calibration().companion
     fitter = Fitter(problem)
     search = Search(fitter) if store is None else KeptSearch(fitter, store, key)
     if store is not None:

@@ -8,6 +8,7 @@ from typing import Any
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import S2, S3, Stage
 from rockref.discover.fit_store import FitStore, read_fit, written
+from rockref.discover.selection.finalists import remember
 from rockref.discover.selection.search import Search
 
 #: Stages after which the state is kept. What follows the last stage needs the score test that is made in it.
@@ -25,7 +26,7 @@ class KeptSearch(Search):
             self.problem.tone = self.state["tone"]
             self.problem.finer.update(self.state["finer"])
             self.baseline = self.model(self.state["baseline"])
-            self.remember([self.model(known) for known in self.state["seen"]])
+            remember(self.seen, [self.model(known) for known in self.state["seen"]])
             self.problem.say(f"going on after stage {self.state['stage']}")
 
     def begin(self) -> list[FittedModel]:

@@ -21,8 +21,8 @@ from rockref.discover.listening.listener import Listener
 
 #: Half width of a 90 % interval in standard deviations of a normal law.
 NINETY = 1.6449
-#: Mean loss, of all and of one axis of a run, from which a model is asked what it leaves in records of its own (decided:
-#: below them no limit is near).
+#: Mean loss, of all and of one axis of a run, from which a model is asked what it leaves in records of its own
+#: (decided: below them no limit is near).
 ASKED, ASKED_OF_AXIS = 1.0, 1.15
 #: Length of a block [s] and mean loss from which it is far above white; decided: white blocks of 150 values have 0.947
 #: with a deviation of 0.09.

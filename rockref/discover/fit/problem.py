@@ -32,6 +32,7 @@ class FitProblem:
 
     base : the baseline without effects.  carried : effects of the user's model, part of every hypothesis
     candidates : ids of the effects that may be missing.  tone : frequency [Hz] of a line in the misfit, if there is one
+    companion : nats that an effect beside another one has to gain beyond what any has to
     finer : factor on the steps of a stage, by its name (`rockref.discover.fit.steps`)
     spikes : what is not white in the innovations of a right model, by the stage (`rockref.discover.fit.whitening`)
     progress : counts the stages.  refined : called with every hypothesis that was refined, and its stage
@@ -44,6 +45,7 @@ class FitProblem:
     carried: tuple[str, ...] = ()
     seed: int = 0
     tone: float | None = None
+    companion: float = 0.0
     finer: dict[str, float] = field(default_factory=dict)
     spikes: dict[str, list[Spikes]] = field(default_factory=dict)
     progress: StageCounter = field(default_factory=lambda: StageCounter({}), repr=False)

@@ -21,9 +21,15 @@ FINALISTS, CLOSE = 4, 1.02
 EXCHANGES = 2
 
 
-def penalised(h: FittedModel) -> float:
-    """Return the objective and what each effect has to gain [nat]."""
-    return h.objective + WORTH * len(h.effects)
+def penalised(fitter: Fitter, h: FittedModel) -> float:
+    """Return the objective and what its effects have to gain [nat]: those beside the first more."""
+    added = len(h.effects) - len(fitter.problem.carried)
+    return h.objective + WORTH * added + fitter.problem.companion * max(added - 1, 0)
+
+
+def lowest(fitter: Fitter, field: Sequence[FittedModel]) -> FittedModel:
+    """Return the best of a field, less what its effects have to gain."""
+    return min(field, key=lambda h: penalised(fitter, h))
 
 
 def follow(fitter: Fitter, field: Sequence[FittedModel], beam: Sequence[FittedModel], most: int = CONVERGED) -> None:
@@ -40,8 +46,8 @@ def follow(fitter: Fitter, field: Sequence[FittedModel], beam: Sequence[FittedMo
         before = [h.objective for h in going]
         moving = [h for h in going if fitter.polished(h, F)]
         pace = max((b - h.objective for b, h in zip(before, going, strict=True)), default=0.0)
-        near = min(map(penalised, beam)) + WORTH + left * pace
-        going = [h for h in moving if penalised(h) <= near]
+        near = penalised(fitter, lowest(fitter, beam)) + WORTH + left * pace
+        going = [h for h in moving if penalised(fitter, h) <= near]
     for h in field:
         fitter.problem.say(f"followed {h.name} {h.objective:.0f} ({h.loss:.2f})")
         fitter.problem.refined(h, F)
@@ -54,17 +60,25 @@ def converged(fitter: Fitter, beam: list[FittedModel]) -> list[FittedModel]:
     A fit that stops early, or in a local minimum, lies hundreds of nats too high; a common start compares effects.
     """
     limit = CLOSE * min(h.objective for h in beam)
-    close = sorted((h for h in beam if h.objective <= limit), key=penalised)
+    close = sorted((h for h in beam if h.objective <= limit), key=lambda h: penalised(fitter, h))
     finalists = close[:FINALISTS] + [h for h in close[FINALISTS:] if set(h.effects) < set(close[0].effects)]
     follow(fitter, finalists, beam)
     for _ in range(EXCHANGES):
-        best = min(beam, key=penalised)
+        best = lowest(fitter, beam)
         others = [beside(fitter, best, h) for h in finalists if not holds(h, best)]
         beam += others
         follow(fitter, others, beam)
-        if set(min(beam, key=penalised).effects) == set(best.effects):
+        if set(lowest(fitter, beam).effects) == set(best.effects):
             break
     return sorted(best_of_each(beam), key=lambda h: h.objective)
+
+
+def remember(known: dict[frozenset[str], FittedModel], field: Sequence[FittedModel]) -> None:
+    """Keep the best fit at F of each set of effects."""
+    for h in field:
+        there = known.get(frozenset(h.effects))
+        if there is None or h.objective < there.objective:
+            known[frozenset(h.effects)] = h
 
 
 def holds(h: FittedModel, best: FittedModel) -> bool:

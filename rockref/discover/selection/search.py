@@ -26,11 +26,10 @@ from rockref.discover.fit.stages import S1, S2, S3, F, Stage
 from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
 from rockref.discover.fit.steps import fine_enough
 from rockref.discover.fit.whitening import quieten, whiten
-from rockref.discover.selection.finalists import converged, follow, penalised
-from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, sized_at_release, within
-from rockref.discover.selection.rivals import rivals
+from rockref.discover.selection.elimination import Elimination
+from rockref.discover.selection.finalists import follow, lowest, penalised, remember
+from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
-from rockref.discover.selection.swaps import swapped
 from rockref.discover.selection.together import from_anywhere, from_statement, leads
 from rockref.discover.selection.tone import tone
 
@@ -57,10 +56,6 @@ VALLEYS = 4
 EQUALS = 2
 #: Steps at S3, and at S2 of what S1 smooths away (decided: as many as what comes from S1 takes there).
 STEPS, SHARPER = 3, 3
-#: Additions among which replacements of an effect are chosen (decided: twice as many as are refined).
-REPLACING = 4
-#: Steps of the best model without one of its effects (decided: from its law it comes near at once, or never).
-LESS = 3
 #: Words for the stages of longer memory.
 MEMORY = {"S3": "refining the best models", "F": "testing every effect again at the longest memory"}
 
@@ -117,7 +112,7 @@ class Search:
             self.fitter.refine(h, S3, STEPS)
         field = within(field, BEAM, MARGINS["S3"])
         follow(self.fitter, field, field)
-        self.remember(field)
+        remember(self.seen, field)
         return field
 
     def unexplained(self, beam: list[FittedModel]) -> list[FittedModel]:
@@ -158,20 +153,26 @@ class Search:
         while not self.is_explained(best := self.best(beam)) and self.may_add(best, left):
             left = best.loss
             progress.begin("effects", f"comparing {self.compared(best)}", best.name)
-            added = halving(self.fitter, self.equals(beam, best))
+            added = halving(self.fitter, self.equals(beam, best)) if self.shows(best) else self.sharper(best)
             if min(h.objective for h in added) > best.objective:
                 break
             self.add(beam, added)
-            if not self.is_explained(now := self.best(beam)):
+            if not self.is_explained(now := self.best(beam)) and self.shows(now):
                 beam.append(self.anywhere(now))
         return within(beam, BEAM)
+
+    def shows(self, h: FittedModel) -> bool:
+        """Return whether the shortest memory contradicts a model: where it does not, it tells no effects apart, and no
+        laws beside them."""
+        return self.leaves_more(self.fitter.evaluate(h.copy(), S1), CONTRADICTED, S1)
 
     def add_first(self, beam: list[FittedModel]) -> None:
         """Add hypotheses of one effect to a beam of the baseline: with feet as they are, then with other feet.
 
         Where an effect explains the runs and the law stays where it was, no other feet are looked for. Else the
         baseline starts over the whole prior; where that does not explain them, so does the law beside an effect that
-        leads by far; where none does, an effect and the law are looked for together.
+        leads by far; where none does, an effect and the law are looked for together, if the shortest memory shows that
+        something is missing.
         """
         progress, null = self.problem.progress, self.best(beam)
         progress.begin("effects", f"comparing {self.compared(null)}", null.name)
@@ -188,7 +189,7 @@ class Search:
         self.problem.say(f"the law from anywhere: mean loss {alone.loss:.2f}")
         if not self.is_explained(self.best(beam)):
             self.add(beam, self.sharper(alone))
-        if self.is_explained(best := self.best(beam)):
+        if self.is_explained(best := self.best(beam)) or not self.shows(alone):
             return
         left = min(h.loss for h in beam if h.effects == self.problem.carried)
         if leader is None and leads(best, left):
@@ -290,7 +291,7 @@ class Search:
         whiten(self.fitter, self.best(beam), stage)
         if stage is F:
             follow(self.fitter, beam, beam)
-            self.remember(beam)
+            remember(self.seen, beam)
         else:
             for h in beam:
                 self.fitter.refine(h, stage, STEPS)
@@ -302,7 +303,7 @@ class Search:
 
     def joined(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Return a beam at F with the additions to its best that gain enough, by the score test."""
-        best = min(beam, key=penalised)
+        best = lowest(self.fitter, beam)
         if len(best.effects) >= MOST:
             return beam
         self.test = score_test(self.fitter, self.fitter.evaluate(best, F), F)
@@ -311,9 +312,10 @@ class Search:
         for h in added:
             self.fitter.refine(h, S3, STEPS)
         follow(self.fitter, added, [*beam, *added])
-        self.remember(added)
-        bar = best.objective - WORTH
-        return within([*beam, *(h for h in added if h.objective < bar)], BEAM, MARGINS["F"])
+        remember(self.seen, added)
+        bar = penalised(self.fitter, best)
+        gaining = [h for h in added if penalised(self.fitter, h) < bar]
+        return within([*beam, *gaining], BEAM, MARGINS["F"])
 
     def promising(self, best: FittedModel, test: ScoreTest, known: Sequence[FittedModel]) -> list[FittedModel]:
         """Return the additions that a score test puts first and that are not known: one step may fail where the valley
@@ -323,78 +325,9 @@ class Search:
         return [self.fitter.with_effect(best, e) for e in found]
 
     def eliminate(self, beam: list[FittedModel]) -> list[FittedModel]:
-        """Take each effect of the best model out, try the best replacements, and return all at F."""
-        best = min(beam, key=penalised)
-        self.problem.progress.begin("without", "leaving out each effect in turn", best.name)
-        found: list[FittedModel] = []
-        for e in self.added(best):
-            found.append(self.less(best, e, [*beam, *found]))
-            found += [self.fitter.polish(h, F, 2) for h in self.replacements(found[-1], [*beam, *found])]
-            found += self.rivals(best, e, [*beam, *found])
-        for h in self.as_good([*beam, *found]):
-            found += [self.less(h, e, [*beam, *found]) for e in self.parts(h, [*beam, *found])]
-        if not any(h.effects == self.problem.carried for h in [*beam, *found]):
-            found.append(self.fitter.polish(self.nothing(best), F, 3))
-        self.remember([*beam, *found])
-        self.problem.progress.begin("without", "comparing the finalists", best.name)
-        return swapped(self.fitter, converged(self.fitter, best_of_each([*beam, *found, *self.seen.values()])))
+        """Return the last hypotheses at F, best first (`rockref.discover.selection.elimination`)."""
+        return Elimination(self.fitter, self.baseline, self.seen).run(beam)
 
     def added(self, h: FittedModel) -> list[str]:
         """Return the effects of a model beyond those that the user's model carries."""
         return [e for e in h.effects if e not in self.problem.carried]
-
-    def as_good(self, field: Sequence[FittedModel]) -> list[FittedModel]:
-        """Return the best of a field at F, and what explains the runs as well."""
-        limit = min(map(penalised, field)) + WORTH
-        return [h for h in best_of_each(field) if penalised(h) <= limit]
-
-    def parts(self, h: FittedModel, known: Sequence[FittedModel]) -> list[str]:
-        """Return the effects of a model without which it is not known yet."""
-        there = self.known_sets(known)
-        return [e for e in self.added(h) if frozenset(h.effects) - {e} not in there]
-
-    def less(self, h: FittedModel, effect: str, known: Sequence[FittedModel]) -> FittedModel:
-        """Return a model without one of its effects, at F."""
-        less = self.fitter.without(h, effect)
-        follow(self.fitter, [less], known, LESS)
-        return less
-
-    def nothing(self, best: FittedModel) -> FittedModel:
-        """Return the baseline at F with its own law, or with that of the best model, whichever is lower."""
-        bare = best
-        for e in self.added(best):
-            bare = self.fitter.without(bare, e)
-        field = [self.baseline.copy(), bare]
-        self.fitter.evaluate_all(field, F)
-        return self.best(field)
-
-    def replacements(self, less: FittedModel, known: Sequence[FittedModel]) -> list[FittedModel]:
-        """Return the two best additions to a model at F that are not known yet, and whose first step leads somewhere.
-
-        An error of the sensor may be out of reach of one step of a long memory, and is sized from the release.
-        """
-        start = self.fitter.evaluate(less.copy(), F)
-        sized = sized_at_release(self.fitter, start)
-        self.fitter.evaluate_all(sized, F)
-        there = self.known_sets(known)
-        field = best_of_each([*proposals(self.fitter, start, F, REPLACING), *sized])
-        best = self.best(known)
-        bar = best.objective + LEAVES[0] * max(start.objective - best.objective, 0.0)
-        return [h for h in field if frozenset(h.effects) not in there and h.objective <= bar][:2]
-
-    def rivals(self, best: FittedModel, effect: str, known: Sequence[FittedModel]) -> list[FittedModel]:
-        """Return the rivals of an effect that are not known yet, at F."""
-        found = rivals(self.fitter, best, effect, self.known_sets(known))
-        follow(self.fitter, found, [*known, *found])
-        return found
-
-    def known_sets(self, known: Sequence[FittedModel]) -> set[frozenset[str]]:
-        """Return the sets of effects of some models and of all that were fitted at the longest memory."""
-        return {frozenset(h.effects) for h in [*known, *self.seen.values()]}
-
-    def remember(self, field: Sequence[FittedModel]) -> None:
-        """Keep the best fit of each set of effects at the longest memory."""
-        for h in field:
-            known = self.seen.get(frozenset(h.effects))
-            if known is None or h.objective < known.objective:
-                self.seen[frozenset(h.effects)] = h

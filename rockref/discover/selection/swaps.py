@@ -13,7 +13,7 @@ import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import F
-from rockref.discover.selection.finalists import converged, follow, penalised
+from rockref.discover.selection.finalists import converged, follow, lowest
 from rockref.discover.selection.halving import say
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, predicted_gain, predicted_step, score_test
 
@@ -25,14 +25,14 @@ MOST = 4
 def swapped(fitter: Fitter, field: list[FittedModel]) -> list[FittedModel]:
     """Return finalists with those in which an effect of the best stands in another's place, compared anew where one of
     them is better."""
-    best = min(field, key=penalised)
+    best = lowest(fitter, field)
     found = swaps(fitter, best, {frozenset(h.effects) for h in field})
     follow(fitter, found, [*field, *found])
     if not found:
         return field
     say(fitter, f"in the place of an effect of {best.name}", found)
     every = best_of_each([*field, *found])
-    return converged(fitter, every) if min(map(penalised, found)) < penalised(best) else every
+    return converged(fitter, every) if lowest(fitter, every) is not best else every
 
 
 def swaps(fitter: Fitter, best: FittedModel, known: Collection[frozenset[str]]) -> list[FittedModel]:

@@ -4,12 +4,14 @@ import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel
 from rockref.discover.fit.starts import GlobalFit
-from rockref.discover.selection.finalists import CONVERGED, follow
+from rockref.discover.selection.finalists import CONVERGED, follow, lowest, remember
 from rockref.discover.selection.halving import WORTH
 
 
-class Progress:
-    """What a fit says of itself."""
+class Problem:
+    """What a fit asks of its problem."""
+
+    carried, companion = ("carried",), 75.0
 
     def say(self, line): ...
 
@@ -20,8 +22,8 @@ class Descents:
     """A fitter whose fits fall along given objectives, one a step."""
 
     def __init__(self, **falls):
-        self.falls, self.steps, self.problem = falls, dict.fromkeys(falls, 0), Progress()
-        self.field = [FittedModel((name,), np.zeros(1)) for name in falls]
+        self.falls, self.steps, self.problem = falls, dict.fromkeys(falls, 0), Problem()
+        self.field = [FittedModel((name,), np.zeros(1)) for name in falls]  # one effect in place of the carried one
 
     def evaluate_all(self, field, stage):
         for h in field:
@@ -65,3 +67,24 @@ def test_valleys_of_a_fit_from_anywhere_are_those_near_its_best_over_whole_recor
     found = GlobalFit([[FittedModel((), np.zeros(1), loss=0.1)], last], [])
     assert [h.loss for h in found.valleys(4, 1.15)] == [1.1, 1.14]
     assert [h.loss for h in found.valleys(1, 1.15)] == [1.1]
+
+
+def test_an_effect_beside_another_has_to_gain_more_than_one_alone():
+    def at(objective: float, *effects: str) -> FittedModel:
+        return FittedModel(("carried", *effects), np.zeros(1), objective=objective)
+
+    fitter = Descents()
+    null, one, two = at(1000.0), at(989.0, "drag"), at(905.0, "drag", "clock")
+    assert lowest(fitter, [null, one]) is one and lowest(fitter, [at(998.0), one]) is not one
+    # 84 nats are less than what any effect has to gain (10) and what one beside another has to (75).
+    assert lowest(fitter, [one, two]) is one
+    assert lowest(fitter, [one, better := at(903.0, "drag", "clock")]) is better
+
+
+def test_the_lowest_fit_of_each_set_is_kept():
+    known: dict = {}
+    high, low = (
+        FittedModel(effects, np.zeros(1), objective=x) for effects, x in ((("a", "b"), 2.0), (("b", "a"), 1.0))
+    )
+    remember(known, [high, low, high])
+    assert known == {frozenset({"a", "b"}): low}

@@ -3,8 +3,7 @@
 import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel
-from rockref.discover.selection.finalists import penalised
-from rockref.discover.selection.halving import WORTH, within
+from rockref.discover.selection.halving import within
 
 
 def fit(effects, objective) -> FittedModel:
@@ -19,7 +18,3 @@ def test_all_within_the_margin_go_on_and_no_one_else():
 
 def test_of_each_set_of_effects_the_best_goes_on_in_whatever_order_it_is_written():
     assert [h.objective for h in within([fit("ab", 1001.0), fit("ba", 1000.0)], 5)] == [1000.0]
-
-
-def test_an_effect_has_to_gain_its_worth():
-    assert penalised(fit("", 1000.0)) == penalised(fit("a", 1000.0 - WORTH))

@@ -1,6 +1,5 @@
 """What an effect is mistaken for is fitted in its place."""
 
-import numpy as np
 import pytest
 
 from rockref import Model
@@ -50,16 +49,3 @@ def test_a_rival_finds_its_valley_from_a_law_that_has_bent_beside_another_effect
     assert rate - 1 == pytest.approx(RATE - 1, rel=0.1)
     # A set that is known is not fitted again.
     assert rivals(fitter, bent, "inertia_deviation", [frozenset({e}) for e in search.problem.candidates]) == []
-
-
-def test_parts_of_what_explains_as_well_are_tried(search):
-    def at(objective: float, *effects: str) -> FittedModel:
-        return FittedModel(effects, np.zeros(1), objective=objective)
-
-    best, pair = at(1000.0, "gyro_scale"), at(990.0, "gyro_scale", "clock_error")
-    far = at(1100.0, "quadratic_drag", "gyro_scale")
-    field = search.as_good([best, pair, far])
-    # One more effect costs its worth (21 nat) and gained 10: still as good; 100 nats above are not.
-    assert [h.effects for h in field] == [pair.effects, best.effects]
-    assert search.parts(pair, [best, pair]) == ["gyro_scale"]
-    assert search.parts(best, [at(2000.0), best]) == []
