@@ -3,13 +3,13 @@
 1. Fit the baseline at short memories. Innovations that stay above white contradict it.
 2. If contradicted: try all effects with the law as it is stated, at S1, then at S2 for what S1 smooths away. If none
    explains the runs there: fit the baseline from starts over the whole prior, or the law beside an effect that leads,
-   or look for the law and an effect together; then for one more effect, and the law anew.
+   or look for the law and an effect together; then for one more effect, and the law anew. What S1 does not contradict
+   only S2 compares.
 3. Lengthen the memory. At the longest, fits step side by side until they end; the score test proposes more effects, by
    what a step gains at S3 and by what it promises at F, and those that gain enough join.
 4. Where innovations stay above white noise, move the best model along the ridges of the law, and compare again there.
-5. At the longest memory take each effect of the best model out, and try to replace it, from the same point; by what it
-   is mistaken for, from the shortest memory. Of all that explains the runs as well, parts are tried, too; and last
-   what could stand in the place of its effects.
+5. At the longest memory take the effects of the best model out, one after the other, and try to replace those that
+   stay (`selection.elimination`).
 
 On the way steps are made as fine as the records ask for (`fit.steps`), and innovations white (`fit.whitening`).
 """
