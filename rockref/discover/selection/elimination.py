@@ -74,8 +74,12 @@ class Elimination:
         return [e for e in h.effects if e not in self.problem.carried]
 
     def as_good(self, best: FittedModel) -> list[FittedModel]:
-        """Return the best model, and those that explain the runs as well."""
-        return [h for h in self.known.values() if h.objective <= best.objective + WORTH]
+        """Return the models that explain the runs as well as the best, and do not hold all of its effects.
+
+        Of those that do, what is left without one of these is an exchange (`rockref.discover.selection.swaps`).
+        """
+        near = [h for h in self.known.values() if h.objective <= best.objective + WORTH]
+        return [h for h in near if not set(best.effects) <= set(h.effects)]
 
     def nothing(self, best: FittedModel) -> FittedModel:
         """Return the baseline at F with its own law, or with that of the best model, whichever is lower."""
