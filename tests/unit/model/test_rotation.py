@@ -63,6 +63,15 @@ def test_a_sum_in_another_order_would_be_noticed(batch):
     assert not np.array_equal(rotation.apply(A, a), backwards)
 
 
+@pytest.mark.parametrize("dtype", REALS)
+def test_one_matrix_turns_many_vectors_with_the_bits_of_as_many_matrices(dtype):
+    n = rotation.MANY
+    for A, a in zip(orders((), (3, 3), dtype, 7), orders((2, n), (3,), dtype, 8), strict=True):
+        found = rotation.apply(A, a)
+        assert found.dtype == dtype
+        assert np.array_equal(found, rotation.apply(np.broadcast_to(A, (2, n, 3, 3)), a))
+
+
 @pytest.mark.parametrize("batch", BATCHES, ids=str)
 @pytest.mark.parametrize("dtype", REALS)
 def test_vector_product(batch, dtype):
