@@ -21,7 +21,7 @@ from rockref.discover.compare.stretches import AXES
 from rockref.discover.diagnose import error_record
 from rockref.discover.evidence.collect import errors, hypothesis_evidence
 from rockref.discover.evidence.evidence import Number
-from rockref.discover.evidence.held_out import held_out_fit
+from rockref.discover.evidence.held_out import held_out_fit, held_out_listener
 from rockref.discover.evidence.result import model_of
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.problem import END
@@ -37,7 +37,6 @@ from rockref.discover.fit_baseline import (
     with_one_more,
 )
 from rockref.discover.fit_store import FitStore
-from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.provenance import versions
@@ -207,11 +206,9 @@ def joined(
 
 def state_of(fitter: Fitter, h: FittedModel, whole: Experiment) -> State:
     """Return the errors of a fit on fit and held-out runs."""
-    listener, runs = fitter.problem.listener, whole.holdout_runs()
     held = None
-    if runs:
-        inner, k = held_out_fit(fitter, h, Listener(whole, runs, listener.end, listener.workers))
-        held = errors(inner, k)
+    if (listener := held_out_listener(fitter, whole)) is not None:
+        held = errors(*held_out_fit(fitter, h, listener))
     return State(h.effects, errors(fitter, h), held)
 
 

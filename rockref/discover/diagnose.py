@@ -14,6 +14,7 @@ from rockref.api import Model
 from rockref.discover.compare.models import baseline_model
 from rockref.discover.evidence.collect import add_held_out, hypothesis_evidence, least_loss
 from rockref.discover.evidence.evidence import Evidence, HypothesisEvidence
+from rockref.discover.evidence.held_out import held_out_listener
 from rockref.discover.evidence.misfit import misfit
 from rockref.discover.evidence.result import model_of
 from rockref.discover.fit.fitter import FittedModel, Fitter
@@ -22,7 +23,6 @@ from rockref.discover.fit.problem import END, fit_problem
 from rockref.discover.fit_store import FitStore, model_from, model_text, options_key
 from rockref.discover.hypotheses.effects import candidate_effects
 from rockref.discover.kept_search import KeptSearch
-from rockref.discover.listening.listener import Listener
 from rockref.discover.listening.records import opened, own_effects
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.provenance import versions
@@ -222,14 +222,13 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     least = least_loss(fitter, fits[0])
     said = {h.effects: hypothesis_evidence(fitter, h, *calibration().widths, least) for h in kept}
     listener = problem.listener
-    runs = experiment.holdout_runs()
-    held = Listener(experiment, runs, listener.end, listener.workers) if runs else None
-    samples = {} if held is None else {run.id: int(3 * n) for run, n in zip(runs, held.valid.sum(axis=1), strict=True)}
+    held = held_out_listener(fitter, experiment)
+    counts = [] if held is None else list(zip(held.runs, held.valid.sum(axis=1), strict=True))
     evidence = Evidence(
         experiment=experiment.name,
         digest=experiment.digest,
         samples=int(3 * listener.valid.sum()),
-        held_out_samples=samples,
+        held_out_samples={run.id: int(3 * n) for run, n in counts},
         hypotheses=list(said.values()),
         carried=problem.carried,
         remarks=tuple(sorted({notice.code for notice in experiment.notices})),
