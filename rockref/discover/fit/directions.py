@@ -21,8 +21,9 @@ from rockref.discover.fit.differences import Residuals
 from rockref.discover.fit.objective import weight
 from rockref.discover.hypotheses.parameter import FARTHEST, Parameter
 
-#: Nats by which the objective is expected to rise at the ends of a difference; decided: the roughness of the objective
-#: at the longest memory is 20 to 50 nats, and a difference must see across it.
+#: Nats by which the objective is expected to rise at the ends of a difference; decided: valleys bend, and fits by
+#: differences that rise by 20, 8 or 3 nats stop up to 140 nats higher, and know less of a valley's width. Across the
+#: roughness of the objective, one or two nats at the longest memory, all of them see.
 RISE = 56.0
 #: Nats of the likelihood that count as one for the length of a direction, beside the prior, and its longest component
 #: in prior deviations (decided: where the data say little, the prior keeps it short).
