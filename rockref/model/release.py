@@ -31,9 +31,14 @@ def check_tilt(block: Block, points: ContactPoints, theta_0, side=1) -> None:
         )
 
 
+def sideways_tipping_angle(points: ContactPoints):
+    """Return roll (...) [rad] about Y at which the centre of mass stands above the outermost points."""
+    return np.arctan2(np.max(np.abs(points.P[..., 0]), axis=-1), -np.min(points.P[..., 2], axis=-1))
+
+
 def check_roll(points: ContactPoints, out_of_plane) -> None:
     """Refuse a further roll (...) [rad] about Y with which the centre of mass stands beyond all points (E-TILT)."""
-    limit = np.arctan2(np.max(np.abs(points.P[..., 0]), axis=-1), -np.min(points.P[..., 2], axis=-1))
+    limit = sideways_tipping_angle(points)
     if not np.all(good := np.abs(out_of_plane) < limit):
         raise InputError(
             "E-TILT",

@@ -281,10 +281,17 @@ def damped(
 ) -> np.ndarray:  # fmt: skip
     """Return z after a damped Gauss-Newton step, no component longer than LONGEST, inside its limits."""
     d = -np.linalg.solve(H + damping * np.diag(np.diag(H)), g)
-    d = d if moves is None else moves @ d
+    return stepped(z, d if moves is None else moves @ d, parameters, moves is not None)
+
+
+def stepped(z: np.ndarray, d: np.ndarray, parameters: Sequence[Parameter], along: bool = False) -> np.ndarray:
+    """Return z moved by d, no component longer than LONGEST, inside its limits.
+
+    along : whether d is one along directions of the posterior, to be bent as these are
+    """
     reach = np.array([p.reach for p in parameters])
-    d *= min(1.0, LONGEST / max(float((np.abs(d) / reach).max()), 1e-300))
-    if moves is not None:
+    d = d * min(1.0, LONGEST / max(float((np.abs(d) / reach).max()), 1e-300))
+    if along:
         return moved(parameters, z, d)
     least, most = np.array([p.least for p in parameters]), np.array([p.most for p in parameters])
     return np.clip(z + d, least, most)

@@ -10,9 +10,13 @@ import numpy as np
 from rockref.api import Model
 from rockref.engines.compiled import pack
 from rockref.measure.records.release import Run
+from rockref.model.errors import InputError
 from rockref.model.problem import Problem, State
-from rockref.model.release import release_postures
+from rockref.model.release import release_postures, sideways_tipping_angle, tipping_angle
 
+#: Share of the tilt and of the roll at which a block tips over, at which it is held (decided: it stands there for long,
+#: and no record shows that).
+UPRIGHT = 0.999
 #: What the body of a model is made of: all but the notes.
 MADE_OF = tuple(f.name for f in fields(Model) if f.name not in ("uncertainty", "origin"))
 
@@ -46,11 +50,29 @@ def bodies_of(models: Sequence[Model]) -> list[tuple]:
 
 
 def postures(bodies: Sequence[tuple], tilts: np.ndarray, turned: np.ndarray, rolls: np.ndarray) -> list[State]:
-    """Return the release postures (`release_postures`) of bodies that may differ in their number of points."""
+    """Return the release postures (`release_postures`) of bodies that may differ in their number of points.
+
+    A fit may try what would tip over: such a body is held just before.
+    """
     numbers = np.array([points.n for _, points in bodies])
     found: dict[int, State] = {}
     for n in np.unique(numbers):
         rows = np.flatnonzero(numbers == n).tolist()
-        of_rows = release_postures([bodies[b] for b in rows], tilts[rows], turned[rows], rolls[rows])
-        found.update(zip(rows, of_rows, strict=True))
+        of_rows = [bodies[b] for b in rows]
+        try:
+            made = release_postures(of_rows, tilts[rows], turned[rows], rolls[rows])
+        except InputError:
+            held = held_up(of_rows, tilts[rows], turned[rows], rolls[rows])
+            made = release_postures(of_rows, *held)
+        found.update(zip(rows, made, strict=True))
     return [found[b] for b in range(len(bodies))]
+
+
+def held_up(
+    bodies: Sequence[tuple], tilts: np.ndarray, turned: np.ndarray, rolls: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return tilts, sides and rolls (B,) of bodies with tilts and rolls short of those at which each tips over."""
+    sides = np.where(turned, -1, 1)
+    limits = UPRIGHT * np.array([tipping_angle(b, p, side) for (b, p), side in zip(bodies, sides, strict=True)])
+    sideways = UPRIGHT * np.array([sideways_tipping_angle(points) for _, points in bodies])
+    return np.clip(tilts, (1 - UPRIGHT) * limits, limits), turned, np.clip(rolls, -sideways, sideways)

@@ -11,7 +11,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from rockref.discover.fit.fitter import FittedModel, Fitter
+from rockref.discover.fit.fitter import FittedModel, Fitter, stepped
 from rockref.discover.fit.stages import F
 from rockref.discover.selection.finalists import converged, follow, lowest
 from rockref.discover.selection.halving import say
@@ -37,7 +37,7 @@ def swapped(fitter: Fitter, field: list[FittedModel]) -> list[FittedModel]:
 
 def swaps(fitter: Fitter, best: FittedModel, known: Collection[frozenset[str]]) -> list[FittedModel]:
     """Return models with one effect of the best exchanged for another that are not known yet, those first that come
-    nearest by the quadratic about it, as far as one step of that."""
+    nearest by the quadratic about it, as far as one step leads."""
     added = [e for e in best.effects if e not in fitter.problem.carried]
     if not added:
         return []
@@ -64,7 +64,6 @@ def exchanged(fitter: Fitter, best: FittedModel, test: ScoreTest, out: str, into
     H = test.H[np.ix_(rows, rows)]
     without = test.g[gone] @ away + 0.5 * away @ test.H[np.ix_(gone, gone)] @ away
     h = fitter.with_effect(fitter.without(best, out), into)
-    limits = fitter.parameters(h)
-    h.z = np.clip(h.z + predicted_step(H, g), [p.least for p in limits], [p.most for p in limits])
+    h.z = stepped(h.z, predicted_step(H, g), fitter.parameters(h))
     h.H = H
     return float(without) - predicted_gain(H, g), h
