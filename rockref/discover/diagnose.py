@@ -27,6 +27,7 @@ from rockref.discover.listening.records import opened, own_effects
 from rockref.discover.progress import StageCounter, StageReport
 from rockref.discover.provenance import versions
 from rockref.discover.selection.chance import gained_by_chance
+from rockref.discover.selection.finalists import lowest, penalised
 from rockref.discover.selection.search import Search
 from rockref.discover.separating import separating_run
 from rockref.discover.threads import one_blas_thread
@@ -217,9 +218,9 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     """Return the evidence of fits at the longest memory; the most probable sets and the baseline see held-out runs."""
     problem = fitter.problem
     null = next(h for h in fits if h.effects == problem.carried)
-    kept = list(dict.fromkeys([*fits[:STORED], null]))
-    problem.progress.begin("evidence", "weighing the evidence", fits[0].name)
-    least = least_loss(fitter, fits[0])
+    kept, first = stored(fitter, fits), lowest(fitter, fits)
+    problem.progress.begin("evidence", "weighing the evidence", first.name)
+    least = least_loss(fitter, first)
     said = {h.effects: hypothesis_evidence(fitter, h, *calibration().widths, least) for h in kept}
     listener = problem.listener
     held = held_out_listener(fitter, experiment)
@@ -252,6 +253,19 @@ def evidence_of(fitter: Fitter, fits: Sequence[FittedModel], experiment: Experim
     best = next(h for h in kept if h.effects == ranked[0].evidence.effects)
     evidence.signature = misfit(fitter, null, best)
     return evidence
+
+
+def stored(fitter: Fitter, fits: Sequence[FittedModel]) -> list[FittedModel]:
+    """Return the fits whose evidence is kept, least objective first: the baseline, the best less what its effects have
+    to gain, its parts, and the next best.
+
+    By the objective alone three effects, of which one is there, would leave no room for that one.
+    """
+    ranked = sorted(fits, key=lambda h: penalised(fitter, h))
+    parts = [h for h in ranked if set(h.effects) < set(ranked[0].effects)]
+    null = [h for h in fits if h.effects == fitter.problem.carried]
+    kept = list(dict.fromkeys([*null, ranked[0], *parts, *ranked]))[: STORED + 1]
+    return sorted(kept, key=lambda h: h.objective)
 
 
 def null_of(evidence: Evidence) -> HypothesisEvidence:
