@@ -75,7 +75,7 @@ def by_evidence(evidence: Evidence, c: Calibration) -> Verdict:
     if not is_explained(best.evidence, c):
         if (near := nearly_explaining(evidence, found, c)) is not None:
             effects = by_weight(evidence, irreplaceable(evidence, near, c))
-            return Verdict("indicated", effects, near.probability, found, "remnant", fit=near.evidence)
+            return Verdict("indicated", effects, held_by(found, effects), found, "remnant", fit=near.evidence)
         reason = "sensor" if evidence.sensor_faults else "misfit"
         return Verdict("something_else", (), best.probability, found, reason)
     if best.probability < c.certain:
@@ -84,7 +84,7 @@ def by_evidence(evidence: Evidence, c: Calibration) -> Verdict:
         return Verdict("none", (), best.probability, found)
     if (less := without_a_form(evidence, best, c)) is not None:
         effects = by_weight(evidence, substantial(less, evidence.carried, c))
-        return Verdict("indicated", effects, best.probability, found, "remnant", fit=less)
+        return Verdict("indicated", effects, held_by(found, effects), found, "remnant", fit=less)
     return proven_or_indicated(evidence, found, best.effects, best.probability, c)
 
 
@@ -209,6 +209,11 @@ def inclusion_probabilities(found: tuple[Alternative, ...]) -> dict[str, float]:
     """
     every = dict.fromkeys(e for a in found for e in a.effects)
     return {e: sum(a.probability for a in found if e in a.effects) for e in every}
+
+
+def held_by(found: tuple[Alternative, ...], effects: Iterable[str]) -> float:
+    """Return the probability of all sets that hold these effects."""
+    return sum(a.probability for a in found if set(effects) <= set(a.effects))
 
 
 def by_weight(evidence: Evidence, effects: Iterable[str]) -> tuple[str, ...]:

@@ -135,7 +135,7 @@ def test_another_law_behind_the_same_name_is_indicated():
     found = evidence(null, hypothesis(("quadratic_drag",), loss=1.3), more)
     v = decide(found)
     assert (v.word, v.effects, v.reason) == ("indicated", ("quadratic_drag",), "remnant")
-    assert "96 %" in sentence(v, found)
+    assert "96 %" in sentence(v, found) and v.probability > C.trust * C.certain
     too_much = WHITE + 1.2 * C.remnant * (11.0 - WHITE)
     assert decide(evidence(null, hypothesis(("quadratic_drag",), loss=too_much))).word == "something_else"
 
@@ -148,6 +148,8 @@ def test_what_others_could_replace_is_not_named_beside_another_law():
     v = decide(found)
     assert (v.word, v.effects, v.reason) == ("indicated", ("cable_restraint",), "remnant")
     assert "with plate_tilt beside it" in sentence(v, found)
+    # Nearly all probability is on sets that hold it, though hardly any on the one that is told.
+    assert v.probability > C.trust * C.certain
     # Where each could be replaced, or none, all of them are told.
     other = hypothesis(("plate_tilt", "gyro_scale"), 20000.0, loss=2.3)
     for rivals in ((), (rival, other)):
