@@ -62,17 +62,17 @@ def postures(bodies: Sequence[tuple], tilts: np.ndarray, turned: np.ndarray, rol
         try:
             made = release_postures(of_rows, tilts[rows], turned[rows], rolls[rows])
         except InputError:
-            held = held_up(of_rows, tilts[rows], turned[rows], rolls[rows])
-            made = release_postures(of_rows, *held)
+            held, level = held_up(of_rows, tilts[rows], turned[rows], rolls[rows])
+            made = release_postures(of_rows, held, turned[rows], level)
         found.update(zip(rows, made, strict=True))
     return [found[b] for b in range(len(bodies))]
 
 
 def held_up(
     bodies: Sequence[tuple], tilts: np.ndarray, turned: np.ndarray, rolls: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return tilts, sides and rolls (B,) of bodies with tilts and rolls short of those at which each tips over."""
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return tilts and rolls (B,) [rad] of bodies, held short of those at which each tips over."""
     sides = np.where(turned, -1, 1)
     limits = UPRIGHT * np.array([tipping_angle(b, p, side) for (b, p), side in zip(bodies, sides, strict=True)])
     sideways = UPRIGHT * np.array([sideways_tipping_angle(points) for _, points in bodies])
-    return np.clip(tilts, (1 - UPRIGHT) * limits, limits), turned, np.clip(rolls, -sideways, sideways)
+    return np.clip(tilts, (1 - UPRIGHT) * limits, limits), np.clip(rolls, -sideways, sideways)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from rockref.discover.fit.fitter import FittedModel, Fitter
 from rockref.discover.fit.stages import F
-from rockref.discover.selection.finalists import converged, follow, lowest, remember
+from rockref.discover.selection.finalists import added_effects, converged, follow, lowest, remember
 from rockref.discover.selection.halving import WORTH, sized_at_release
 from rockref.discover.selection.rivals import rivals
 from rockref.discover.selection.score_test import best_of_each, proposals
@@ -37,7 +37,7 @@ class Elimination:
         with others in their places."""
         remember(self.known, beam)
         best = self.simplest()
-        for e in self.added(best):
+        for e in added_effects(self.fitter, best):
             for h in self.replacements(self.known[frozenset(best.effects) - {e}]):
                 remember(self.known, [self.fitter.polish(h, F, 2)])
             remember(self.known, self.rivals(best, e))
@@ -63,15 +63,11 @@ class Elimination:
 
     def take_out(self, h: FittedModel) -> None:
         """Fit a model without each of its effects, where that is not known yet."""
-        for e in self.added(h):
+        for e in added_effects(self.fitter, h):
             if frozenset(h.effects) - {e} not in self.known:
                 less = self.fitter.without(h, e)
                 follow(self.fitter, [less], list(self.known.values()), LESS)
                 remember(self.known, [less])
-
-    def added(self, h: FittedModel) -> list[str]:
-        """Return the effects of a model beyond those that the user's model carries."""
-        return [e for e in h.effects if e not in self.problem.carried]
 
     def as_good(self, best: FittedModel) -> list[FittedModel]:
         """Return the models that explain the runs as well as the best, and do not hold all of its effects.
@@ -84,7 +80,7 @@ class Elimination:
     def nothing(self, best: FittedModel) -> FittedModel:
         """Return the baseline at F with its own law, or with that of the best model, whichever is lower."""
         bare = best
-        for e in self.added(best):
+        for e in added_effects(self.fitter, best):
             bare = self.fitter.without(bare, e)
         field = [self.baseline.copy(), bare]
         self.fitter.evaluate_all(field, F)

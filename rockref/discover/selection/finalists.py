@@ -21,9 +21,14 @@ FINALISTS, CLOSE = 4, 1.02
 EXCHANGES = 2
 
 
+def added_effects(fitter: Fitter, h: FittedModel) -> list[str]:
+    """Return the effects of a model beyond those that the user's model carries."""
+    return [e for e in h.effects if e not in fitter.problem.carried]
+
+
 def penalised(fitter: Fitter, h: FittedModel) -> float:
     """Return the objective and what its effects have to gain [nat]: those beside the first more."""
-    added = len(h.effects) - len(fitter.problem.carried)
+    added = len(added_effects(fitter, h))
     return h.objective + WORTH * added + fitter.problem.companion * max(added - 1, 0)
 
 

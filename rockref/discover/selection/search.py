@@ -27,7 +27,7 @@ from rockref.discover.fit.starts import AGAIN, GlobalFit, global_fit, released
 from rockref.discover.fit.steps import fine_enough
 from rockref.discover.fit.whitening import quieten, whiten
 from rockref.discover.selection.elimination import Elimination
-from rockref.discover.selection.finalists import follow, lowest, penalised, remember
+from rockref.discover.selection.finalists import added_effects, follow, lowest, penalised, remember
 from rockref.discover.selection.halving import MARGIN, WORTH, halving, proposed, say, within
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, proposals, score_test
 from rockref.discover.selection.together import from_anywhere, from_statement, leads
@@ -95,7 +95,7 @@ class Search:
         (end,) = self.followed([moved.copy()])
         self.problem.say(f"{end.name}, the law moved: mean loss {end.loss:.2f}")
         better = end.objective <= best.objective - WORTH
-        added = self.added(best)
+        added = added_effects(self.fitter, best)
         if not better and len(added) < 2:
             return beam
         base = moved if better else best
@@ -214,7 +214,7 @@ class Search:
 
     def may_add(self, best: FittedModel, left: float) -> bool:
         """Return whether one more effect is looked for: `left` is the mean loss that the last one was to explain."""
-        added = len(self.added(best))
+        added = len(added_effects(self.fitter, best))
         return 0 < added < MOST and best.loss - WHITE <= LEAVES[added - 1] * (left - WHITE)
 
     def moved(self, h: FittedModel) -> float:
@@ -225,7 +225,7 @@ class Search:
 
     def compared(self, best: FittedModel) -> str:
         """Return what the forward step compares, in words."""
-        beside = self.added(best)
+        beside = added_effects(self.fitter, best)
         more = f" beside {' and '.join(beside)}" if beside else ""
         return f"{len(set(self.problem.candidates) - set(best.effects))} effects{more}"
 
@@ -327,7 +327,3 @@ class Search:
     def eliminate(self, beam: list[FittedModel]) -> list[FittedModel]:
         """Return the last hypotheses at F, best first (`rockref.discover.selection.elimination`)."""
         return Elimination(self.fitter, self.baseline, self.seen).run(beam)
-
-    def added(self, h: FittedModel) -> list[str]:
-        """Return the effects of a model beyond those that the user's model carries."""
-        return [e for e in h.effects if e not in self.problem.carried]

@@ -13,7 +13,7 @@ import numpy as np
 
 from rockref.discover.fit.fitter import FittedModel, Fitter, stepped
 from rockref.discover.fit.stages import F
-from rockref.discover.selection.finalists import converged, follow, lowest
+from rockref.discover.selection.finalists import added_effects, converged, follow, lowest
 from rockref.discover.selection.halving import say
 from rockref.discover.selection.score_test import ScoreTest, best_of_each, predicted_gain, predicted_step, score_test
 
@@ -38,14 +38,14 @@ def swapped(fitter: Fitter, field: list[FittedModel]) -> list[FittedModel]:
 def swaps(fitter: Fitter, best: FittedModel, known: Collection[frozenset[str]]) -> list[FittedModel]:
     """Return models with one effect of the best exchanged for another that are not known yet, those first that come
     nearest by the quadratic about it, as far as one step leads."""
-    added = [e for e in best.effects if e not in fitter.problem.carried]
-    if not added:
+    own = added_effects(fitter, best)
+    if not own:
         return []
     best = fitter.evaluate(best.copy(), F)
     test = score_test(fitter, best, F)
     found = [
         exchanged(fitter, best, test, out, into)
-        for out in added
+        for out in own
         for into in test.places
         if (frozenset(best.effects) - {out}) | {into} not in known
     ]

@@ -208,7 +208,7 @@ def inclusion_probabilities(found: tuple[Alternative, ...]) -> dict[str, float]:
     doi:10.1214/009053604000000238.
     """
     every = dict.fromkeys(e for a in found for e in a.effects)
-    return {e: sum(a.probability for a in found if e in a.effects) for e in every}
+    return {e: held_by(found, (e,)) for e in every}
 
 
 def held_by(found: tuple[Alternative, ...], effects: Iterable[str]) -> float:

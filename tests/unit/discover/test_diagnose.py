@@ -12,7 +12,7 @@ def test_the_parts_of_the_best_are_kept_though_many_sets_of_more_effects_explain
         return FittedModel(("carried", *effects), np.zeros(1), objective=objective)
 
     null, feet, tilt, both = at(9000.0), at(2000.0, "feet"), at(8000.0, "tilt"), at(1000.0, "feet", "tilt")
-    trifles = [at(999.0 - k, "feet", "tilt", f"trifle {k}") for k in range(12)]
-    kept = stored(Descents(), [*trifles[::-1], both, feet, tilt, null])
+    negligible = [at(999.0 - k, "feet", "tilt", f"negligible {k}") for k in range(12)]
+    kept = stored(Descents(), [*negligible[::-1], both, feet, tilt, null])
     assert len(kept) == STORED + 1 and all(any(h is k for k in kept) for h in (null, feet, tilt, both))
     assert [h.objective for h in kept] == sorted(h.objective for h in kept)

@@ -23,7 +23,7 @@ class Descents:
 
     def __init__(self, **falls):
         self.falls, self.steps, self.problem = falls, dict.fromkeys(falls, 0), Problem()
-        self.field = [FittedModel((name,), np.zeros(1)) for name in falls]  # one effect in place of the carried one
+        self.field = [FittedModel((name,), np.zeros(1)) for name in falls]  # no more effects than the user's model
 
     def evaluate_all(self, field, stage):
         for h in field:
